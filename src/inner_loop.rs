@@ -1,0 +1,233 @@
+//! The inner loop: steps by perturbation alone, from one exact solution to the next.
+
+use crate::derivatives::{Derivatives, error_derivatives};
+use crate::error::Error;
+use crate::modal::{ModalProblem, ModalState};
+use crate::objective::Errors;
+use crate::perturbation::UpdateRule;
+use crate::step::{Limit, Range, StepRule, limited_factor, unlimited_factors};
+use serde::Serialize;
+
+/// How the inner loop steps and when it stops.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InnerSettings {
+    /// Relaxation $R$ of the first iteration of a pass.
+    pub first_relaxation: f64,
+    /// Relaxation $R$ of the others.
+    pub relaxation: f64,
+    /// Bounds of one iteration's factor.
+    pub factor_range: Range,
+    /// Tolerance TOLI on the error sum $e_S$.
+    pub tolerance: f64,
+    /// How often a step that does not lower $e_S$ is halved before the place counts as a local minimum; zero stops
+    /// at the first rise.
+    pub halvings: usize,
+    /// Most iterations (accepted steps).
+    pub iterations: usize,
+    /// How derivatives become factors.
+    pub step: StepRule,
+    /// How modes follow the factors.
+    pub update: UpdateRule,
+}
+
+impl Default for InnerSettings {
+    /// The paper's: $R$ = 0.8 then 1.0, factors from 0.55 to 1.50, TOLI 2.5 %; five halvings, 100 iterations.
+    fn default() -> Self {
+        Self {
+            first_relaxation: 0.8,
+            relaxation: 1.0,
+            factor_range: Range {
+                lower: 0.55,
+                upper: 1.50,
+            },
+            tolerance: 0.025,
+            halvings: 5,
+            iterations: 100,
+            step: StepRule::default(),
+            update: UpdateRule::default(),
+        }
+    }
+}
+
+/// Why an inner loop stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// The error sum fell below its tolerance.
+    Tolerance,
+    /// Neither the step nor any of its halvings lowered the error sum.
+    LocalMinimum,
+    /// The number of iterations allowed was used up.
+    Iterations,
+}
+
+/// One accepted step.
+#[derive(Debug, Clone)]
+pub struct Iteration {
+    /// Derivatives at the place the step was taken from.
+    pub derivatives: Derivatives,
+    /// Factors of (13) before any bound.
+    pub unlimited_factors: Vec<f64>,
+    /// How often the step was halved.
+    pub halvings: usize,
+    /// Total factor of each parameter since the last exact solution, after the step.
+    pub factors: Vec<f64>,
+    /// What held each parameter's factor.
+    pub limits: Vec<Limit>,
+    /// Errors after the step.
+    pub errors: Errors,
+}
+
+/// The history of one inner loop.
+#[derive(Debug, Clone)]
+pub struct InnerRun {
+    /// Errors of the last exact solution, where the loop began.
+    pub start: Errors,
+    /// Accepted steps.
+    pub iterations: Vec<Iteration>,
+    /// Where the loop ended.
+    pub last: ModalState,
+    /// Unlimited factors at the start: what the first iteration asked for, taken or not.
+    pub first_unlimited_factors: Vec<f64>,
+    /// Why it stopped.
+    pub stop: Stop,
+}
+
+/// Runs the inner loop from the last exact modes.
+///
+/// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product,
+/// both in parameter order; an empty `total_ranges` means none.
+///
+/// At least one step is tried even when the start is within tolerance: the tolerance is a reason to stop
+/// stepping, and the outer loop decides whether to begin.
+///
+/// # Errors
+/// [`Error::Setting`] for settings out of range; [`Error::WrongShape`] when the lists do not match the parameters;
+/// [`Error::CoalescingModes`] when derivatives cannot be formed at an accepted place. A trial step whose
+/// perturbation fails is not an error: it is halved like one that raises $e_S$.
+pub fn run(
+    problem: &ModalProblem,
+    base: &[f64],
+    total_ranges: &[Option<Range>],
+    settings: &InnerSettings,
+) -> Result<InnerRun, Error> {
+    check_settings(settings)?;
+    check_length("parameter factors", base.len(), problem.parameter_count())?;
+    check_length("parameter limits", total_ranges.len(), problem.parameter_count())?;
+    let mut state = problem.start_state()?;
+    let start = state.errors;
+    let mut iterations: Vec<Iteration> = Vec::new();
+    let mut first_unlimited_factors = Vec::new();
+    let stop = loop {
+        if iterations.len() == settings.iterations {
+            break Stop::Iterations;
+        }
+        let derivatives = error_derivatives(problem, &state)?;
+        let relaxation = if iterations.is_empty() {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        };
+        let unlimited =
+            unlimited_factors(&derivatives, state.errors.sum(), relaxation, settings.step);
+        if iterations.is_empty() {
+            first_unlimited_factors.clone_from(&unlimited);
+        }
+        let Some((halvings, limits, next)) =
+            lowering_step(problem, &state, &unlimited, base, total_ranges, settings)
+        else {
+            break Stop::LocalMinimum;
+        };
+        state = next;
+        iterations.push(Iteration {
+            derivatives,
+            unlimited_factors: unlimited,
+            halvings,
+            factors: state.factors.clone(),
+            limits,
+            errors: state.errors,
+        });
+        if state.errors.sum() < settings.tolerance {
+            break Stop::Tolerance;
+        }
+    };
+    Ok(InnerRun {
+        start,
+        iterations,
+        last: state,
+        first_unlimited_factors,
+        stop,
+    })
+}
+
+/// The longest of the step and its halvings that lowers the error sum.
+fn lowering_step(
+    problem: &ModalProblem,
+    state: &ModalState,
+    unlimited: &[f64],
+    base: &[f64],
+    total_ranges: &[Option<Range>],
+    settings: &InnerSettings,
+) -> Option<(usize, Vec<Limit>, ModalState)> {
+    for halvings in 0..=settings.halvings {
+        let fraction = 0.5_f64.powi(halvings as i32);
+        let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
+            .map(|e| {
+                let step = 1.0 + fraction * (unlimited[e] - 1.0);
+                limited_factor(
+                    state.factors[e],
+                    base[e],
+                    step,
+                    settings.factor_range,
+                    total_ranges[e],
+                )
+            })
+            .unzip();
+        match problem.state_at(factors, settings.update) {
+            Ok(next) if next.errors.sum() < state.errors.sum() => {
+                return Some((halvings, limits, next));
+            }
+            // Too far for the perturbation, or uphill: a shorter step may do.
+            _ => {}
+        }
+    }
+    None
+}
+
+fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
+    let InnerSettings {
+        first_relaxation,
+        relaxation,
+        tolerance,
+        factor_range,
+        ..
+    } = settings;
+    for (name, value) in [
+        ("first_relaxation", first_relaxation),
+        ("relaxation", relaxation),
+        ("tolerance", tolerance),
+    ] {
+        if !(*value > 0.0 && value.is_finite()) {
+            return Err(Error::Setting {
+                name,
+                expected: "a positive finite number",
+                found: *value,
+            });
+        }
+    }
+    Range::positive("factor limits", factor_range.lower, factor_range.upper)?;
+    Ok(())
+}
+
+fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::WrongShape {
+        what,
+        expected_rows: expected,
+        expected_columns: 1,
+        rows: found,
+        columns: 1,
+    })
+}

@@ -1,0 +1,21 @@
+//! temp
+pub mod error;
+pub mod quadrature;
+pub mod linalg;
+pub mod structure;
+pub mod elements;
+pub mod assembly;
+pub mod condensation;
+pub mod modes;
+pub mod sorting;
+pub mod objective;
+pub mod perturbation;
+pub mod modal;
+pub mod derivatives;
+pub mod step;
+pub mod inner_loop;
+pub mod outer_loop;
+pub mod model;
+pub mod torque_box;
+pub mod published;
+pub mod cases;

@@ -1,0 +1,144 @@
+//! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
+
+use crate::error::Error;
+use faer::{Mat, Side};
+use nalgebra::{DMatrix, DVector};
+
+/// Asymmetry, relative to the largest entry, above which a matrix is refused.
+///
+/// Congruence transformations leave asymmetry of about 1e-14; 1e-8 is a mistake in the data.
+const LARGEST_ASYMMETRY: f64 = 1e-8;
+
+/// Refuses matrices with NaN or infinite entries.
+///
+/// # Errors
+/// [`Error::NotFinite`] naming the first such entry, column by column.
+pub fn check_finite(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
+    match matrix.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(Error::NotFinite {
+            what,
+            row: index % matrix.nrows(),
+            column: index / matrix.nrows(),
+            value: matrix[index],
+        }),
+    }
+}
+
+/// Refuses matrices of another shape.
+///
+/// # Errors
+/// [`Error::WrongShape`] with both shapes.
+pub fn check_shape(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    expected_rows: usize,
+    expected_columns: usize,
+) -> Result<(), Error> {
+    let (rows, columns) = matrix.shape();
+    if (rows, columns) == (expected_rows, expected_columns) {
+        Ok(())
+    } else {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        })
+    }
+}
+
+/// Refuses matrices that are not square, finite and symmetric to working precision.
+///
+/// # Errors
+/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`].
+pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
+    check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
+    check_finite(what, matrix)?;
+    let largest = matrix.amax();
+    let mut worst = (0, 0, 0.0);
+    for column in 0..matrix.ncols() {
+        for row in column + 1..matrix.nrows() {
+            let difference = (matrix[(row, column)] - matrix[(column, row)]).abs();
+            if difference > worst.2 {
+                worst = (row, column, difference);
+            }
+        }
+    }
+    if worst.2 <= LARGEST_ASYMMETRY * largest {
+        return Ok(());
+    }
+    Err(Error::NotSymmetric {
+        what,
+        row: worst.0,
+        column: worst.1,
+        difference: worst.2 / largest,
+    })
+}
+
+/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation.
+pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    0.5 * (matrix + matrix.transpose())
+}
+
+/// Lower Cholesky factor $L$ of a symmetric positive definite matrix, $A = L L^t$.
+///
+/// A pivot below `smallest_pivot` times its diagonal entry counts as not positive.
+///
+/// # Errors
+/// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
+pub fn cholesky(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    smallest_pivot: f64,
+) -> Result<DMatrix<f64>, Error> {
+    check_symmetric(what, matrix)?;
+    let size = matrix.nrows();
+    let lower = match to_faer(matrix).llt(Side::Lower) {
+        Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
+        Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
+            return Err(Error::NotPositiveDefinite { what, dof: index });
+        }
+    };
+    match (0..size).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]) {
+        Some(dof) => Err(Error::NotPositiveDefinite { what, dof }),
+        None => Ok(lower),
+    }
+}
+
+/// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.
+pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+    lower.solve_lower_triangular_unchecked_mut(right);
+}
+
+/// Solves $L^t X = R$ in place for a lower triangular $L$ with nonzero diagonal.
+pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+    lower.tr_solve_lower_triangular_unchecked_mut(right);
+}
+
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
+///
+/// $$ A\, Y = Y\, \mathrm{diag}(\mu), \qquad Y^t Y = I $$
+///
+/// # Errors
+/// Those of [`check_symmetric`]; [`Error::NoConvergence`].
+pub fn symmetric_eigen(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+    check_symmetric(what, matrix)?;
+    let size = matrix.nrows();
+    let eigen = to_faer(matrix)
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::NoConvergence { what })?;
+    let values = DVector::from_fn(size, |i, _| eigen.S()[i]);
+    let vectors = DMatrix::from_fn(size, size, |row, column| eigen.U()[(row, column)]);
+    Ok((values, vectors))
+}
+
+fn to_faer(matrix: &DMatrix<f64>) -> Mat<f64> {
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+        matrix[(row, column)]
+    })
+}

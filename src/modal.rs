@@ -1,0 +1,139 @@
+//! The modal problem of one inner loop: everything a step needs, reduced to the analysis modes.
+
+use crate::error::Error;
+use crate::linalg::{check_shape, check_symmetric};
+use crate::modes::Modes;
+use crate::objective::{Errors, errors};
+use crate::perturbation::{Perturbed, UpdateRule, normalize, perturb};
+use crate::sorting::{Pairing, cross_orthogonality, pair_modes};
+use nalgebra::{DMatrix, DVector};
+
+/// What a finite element analysis hands to the correlation: matrices at the dynamic DOF.
+#[derive(Debug, Clone)]
+pub struct DynamicModel {
+    /// Dynamic stiffness $K_D$, lbf/in (d × d).
+    pub stiffness: DMatrix<f64>,
+    /// Dynamic mass $M$, lbf·s²/in (d × d).
+    pub mass: DMatrix<f64>,
+    /// Each parameter's present share of the stiffness, $B K_e B^t$ with the same $B$ for all, lbf/in (d × d).
+    pub shares: Vec<DMatrix<f64>>,
+}
+
+/// The last exact modes, and every share and test mode seen through them.
+#[derive(Debug, Clone)]
+pub struct ModalProblem {
+    /// The exact modes at the start of the inner loop.
+    pub start: Modes,
+    /// The test modes.
+    pub test: Modes,
+    /// $V^t K_e V$ of every parameter's share, rad²/s² (n × n).
+    pub generalized_shares: Vec<DMatrix<f64>>,
+    /// Generalized stiffness of every share on the test modes relative to theirs, $V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$
+    /// (test modes × parameters).
+    pub test_stiffness: DMatrix<f64>,
+    /// Cross-orthogonality of the start modes with the test modes (n × g).
+    pub start_cross: DMatrix<f64>,
+}
+
+impl ModalProblem {
+    /// Reduces a dynamic model to its lowest `analysis_modes` modes.
+    ///
+    /// # Errors
+    /// Those of [`crate::modes::solve`]; [`Error::Empty`] without parameters; [`Error::TooMany`] with more test
+    /// modes than analysis modes; [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
+    pub fn new(model: &DynamicModel, test: &Modes, analysis_modes: usize) -> Result<Self, Error> {
+        if model.shares.is_empty() {
+            return Err(Error::Empty { what: "parameters" });
+        }
+        let dof_count = model.stiffness.nrows();
+        let start = crate::modes::solve(&model.stiffness, &model.mass, analysis_modes)?;
+        let start_cross = cross_orthogonality(&start, test, &model.mass)?;
+        pair_modes(&start_cross)?;
+        let mut generalized_shares = Vec::with_capacity(model.shares.len());
+        let mut test_stiffness = DMatrix::zeros(test.len(), model.shares.len());
+        for (e, share) in model.shares.iter().enumerate() {
+            check_shape("stiffness share", share, dof_count, dof_count)?;
+            check_symmetric("stiffness share", share)?;
+            generalized_shares.push(start.shapes.tr_mul(&(share * &start.shapes)));
+            for i in 0..test.len() {
+                let shape = test.shapes.column(i);
+                test_stiffness[(i, e)] = shape.dot(&(share * shape)) / test.omega_squared[i];
+            }
+        }
+        Ok(Self {
+            start,
+            test: test.clone(),
+            generalized_shares,
+            test_stiffness,
+            start_cross,
+        })
+    }
+
+    /// Number of parameters.
+    pub fn parameter_count(&self) -> usize {
+        self.generalized_shares.len()
+    }
+
+    /// The state before any change: all factors one, the start modes.
+    pub fn start_state(&self) -> Result<ModalState, Error> {
+        let count = self.start.len();
+        self.state(
+            vec![1.0; self.parameter_count()],
+            &self.start.omega_squared,
+            DMatrix::identity(count, count),
+        )
+    }
+
+    /// The state at `factors` on the shares, the cumulative change since the last exact modes taken at once:
+    ///
+    /// $$ \beta = \sum_e (c_e - 1)\, V^t K_e V $$
+    ///
+    /// # Errors
+    /// Those of [`perturb`].
+    pub fn state_at(&self, factors: Vec<f64>, rule: UpdateRule) -> Result<ModalState, Error> {
+        let count = self.start.len();
+        let mut beta = DMatrix::zeros(count, count);
+        for (share, factor) in self.generalized_shares.iter().zip(&factors) {
+            beta += (factor - 1.0) * share;
+        }
+        let Perturbed { roots, mut shapes, .. } = perturb(&self.start.omega_squared, &beta, rule)?;
+        normalize(&mut shapes);
+        self.state(factors, &roots.map(f64::recip), shapes)
+    }
+
+    fn state(
+        &self,
+        factors: Vec<f64>,
+        omega_squared: &DVector<f64>,
+        generalized_shapes: DMatrix<f64>,
+    ) -> Result<ModalState, Error> {
+        let pairing = pair_modes(&generalized_shapes.tr_mul(&self.start_cross))?;
+        let modes = Modes {
+            omega_squared: omega_squared.clone(),
+            shapes: &self.start.shapes * &generalized_shapes,
+        };
+        let errors = errors(&modes, &pairing, &self.test);
+        Ok(ModalState {
+            factors,
+            modes,
+            generalized_shapes,
+            pairing,
+            errors,
+        })
+    }
+}
+
+/// Where an inner loop stands: the factors so far and the modes and errors they give.
+#[derive(Debug, Clone)]
+pub struct ModalState {
+    /// Total factor on each parameter's share since the last exact modes.
+    pub factors: Vec<f64>,
+    /// Modes, by perturbation from the last exact ones.
+    pub modes: Modes,
+    /// The same shapes in terms of the last exact ones, orthonormal columns (n × n).
+    pub generalized_shapes: DMatrix<f64>,
+    /// Which mode answers which test mode.
+    pub pairing: Pairing,
+    /// Distance from the test modes.
+    pub errors: Errors,
+}

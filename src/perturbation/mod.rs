@@ -1,0 +1,140 @@
+//! Appendix C: Van de Vooren's perturbation of roots and shapes, in modal coordinates.
+//!
+//! The modes before the change are $V$ with $V^t M V = I$ and $k = V^t K V = \mathrm{diag}(\omega^2)$. With
+//! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through
+//! $\beta = V^t \Delta K V$ alone, and mode $j$ of the changed structure is $V p_j$ with root $\gamma_j$:
+//!
+//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j\big]\, p_j = 0, \qquad p_{jj} = 1. $$
+//!
+//! Each function is one way of solving these equations without an eigensolution.
+
+pub mod recursive;
+
+pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
+
+use crate::error::Error;
+use nalgebra::{DMatrix, DVector};
+
+/// Denominator relative to the generalized stiffness below which two modes count as coalescing.
+pub const SMALLEST_SEPARATION: f64 = 1e-9;
+
+/// Roots and generalized shapes after a change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Perturbed {
+    /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
+    pub roots: DVector<f64>,
+    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
+    pub shapes: DMatrix<f64>,
+    /// Order of approximation reached.
+    pub order: usize,
+    /// Largest relative change of a root in the last order.
+    pub last_change: f64,
+}
+
+/// How modes are brought up to date after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum UpdateRule {
+    /// Recursive 1 until the roots change by less than `tolerance`, at most `orders` of them. The primary rule.
+    Recursive1Converged {
+        /// Largest relative change of a root at which the recursion stops.
+        tolerance: f64,
+        /// Most orders.
+        orders: usize,
+    },
+    /// Recursive 1 to a fixed order.
+    Recursive1 {
+        /// Order of approximation, from 1.
+        order: usize,
+    },
+    /// Recursive 2 to a fixed order.
+    Recursive2 {
+        /// Order of approximation, from 1.
+        order: usize,
+    },
+    /// First order alone.
+    FirstOrder,
+    /// The 1947 formulae: first-order shapes, second-order roots.
+    Original,
+    /// An eigensolution in the modal coordinates, what the perturbation replaces.
+    Eigensolution,
+}
+
+impl Default for UpdateRule {
+    /// Recursive 1 to roots converged to 1e-13, 60 orders at most.
+    fn default() -> Self {
+        Self::Recursive1Converged {
+            tolerance: 1e-13,
+            orders: 60,
+        }
+    }
+}
+
+/// Perturbed roots and shapes by the chosen rule.
+///
+/// `generalized_stiffness` is $k_{ii} = \omega_i^2$ (rad²/s²) and `beta` $= V^t \Delta K V$ (n × n).
+///
+/// # Errors
+/// Those of the rule's own function.
+pub fn perturb(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    rule: UpdateRule,
+) -> Result<Perturbed, Error> {
+    let k = generalized_stiffness;
+    match rule {
+        UpdateRule::Recursive1Converged { tolerance, orders } => {
+            recursive_1_converged(k, beta, tolerance, orders)
+        }
+        UpdateRule::Recursive1 { order } => recursive_1(k, beta, order),
+        UpdateRule::Recursive2 { order } => recursive_2(k, beta, order),
+        UpdateRule::FirstOrder => first_order(k, beta),
+        UpdateRule::Original => original(k, beta),
+        UpdateRule::Eigensolution => eigensolution(k, beta),
+    }
+}
+
+/// Exact roots and shapes of $k + \beta$ in the modal coordinates: the perturbation's limit, and its yardstick.
+///
+/// Column $j$ is scaled to $p_{jj} = 1$ like the perturbed shapes; modes are kept in the order of the modes they
+/// are most like, so that column $j$ continues mode $j$.
+///
+/// # Errors
+/// Those of [`crate::modes::solve`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+pub fn eigensolution(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
+    let size = generalized_stiffness.len();
+    let changed = DMatrix::from_diagonal(generalized_stiffness) + beta;
+    let modes = crate::modes::solve(&changed, &DMatrix::identity(size, size), size)?;
+    // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
+    let pairing = crate::sorting::pair_modes(&modes.shapes.transpose())?;
+    let mut shapes = modes.shapes.select_columns(&pairing.analysis_mode);
+    for (j, mut shape) in shapes.column_iter_mut().enumerate() {
+        let own = shape[j];
+        if own.abs() < SMALLEST_SEPARATION {
+            return Err(Error::CoalescingModes {
+                first: j,
+                second: j,
+                separation: own.abs(),
+            });
+        }
+        shape /= own;
+    }
+    Ok(Perturbed {
+        roots: modes
+            .omega_squared
+            .select_rows(&pairing.analysis_mode)
+            .map(f64::recip),
+        shapes,
+        order: 0,
+        last_change: 0.0,
+    })
+}
+
+/// Scales every generalized shape to unit generalized mass, $p_j^t p_j = 1$, keeping $p_{jj} > 0$.
+pub fn normalize(shapes: &mut DMatrix<f64>) {
+    for mut shape in shapes.column_iter_mut() {
+        shape.normalize_mut();
+    }
+}

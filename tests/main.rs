@@ -1,0 +1,18 @@
+//! The method's specification: one test program, one module per subject, in the order data flows.
+
+mod common;
+
+mod structure;
+mod elements;
+mod elements_nastran95;
+mod assembly;
+mod condensation;
+mod modes;
+mod test_modes;
+mod sorting;
+mod objective;
+mod perturbation;
+mod derivatives;
+mod step;
+mod inner_loop;
+mod outer_loop;
