@@ -36,7 +36,9 @@ pub enum Error {
         columns: usize,
     },
     /// A matrix that must be symmetric is not.
-    #[error("{what}: expected a symmetric matrix, found entries ({row}, {column}) and ({column}, {row}) apart by {difference:.3e} of the largest entry")]
+    #[error(
+        "{what}: expected a symmetric matrix, found entries ({row}, {column}) and ({column}, {row}) apart by {difference:.3e} of the largest entry"
+    )]
     NotSymmetric {
         /// The matrix.
         what: &'static str,
@@ -76,7 +78,9 @@ pub enum Error {
         element: usize,
     },
     /// An element refers to a grid point that does not exist.
-    #[error("element {element}: expected an existing grid, found grid {grid}, which is not defined")]
+    #[error(
+        "element {element}: expected an existing grid, found grid {grid}, which is not defined"
+    )]
     UnknownGrid {
         /// The element.
         element: usize,
@@ -84,7 +88,9 @@ pub enum Error {
         grid: usize,
     },
     /// A parameter refers to an element that does not exist.
-    #[error("parameter {parameter}: expected an existing element, found element {element}, which is not defined")]
+    #[error(
+        "parameter {parameter}: expected an existing element, found element {element}, which is not defined"
+    )]
     UnknownElement {
         /// The parameter.
         parameter: String,
@@ -92,7 +98,9 @@ pub enum Error {
         element: usize,
     },
     /// An element stands in two parameters.
-    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
+    #[error(
+        "element {element}: expected in one parameter at most, found in {first} and in {second}"
+    )]
     SharedElement {
         /// The element.
         element: usize,
@@ -116,13 +124,17 @@ pub enum Error {
         length: f64,
     },
     /// A triangle or panel without area.
-    #[error("expected a panel with area, found {area:.3e} of the square of its longest diagonal or side")]
+    #[error(
+        "expected a panel with area, found {area:.3e} of the square of its longest diagonal or side"
+    )]
     ZeroArea {
         /// Area over the square of the longest side or diagonal.
         area: f64,
     },
     /// A quadrilateral with a corner of 180 degrees or more.
-    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}")]
+    #[error(
+        "expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}"
+    )]
     NotConvex {
         /// The corner, 1 to 4 in the order given.
         corner: usize,
@@ -136,7 +148,9 @@ pub enum Error {
         source: Box<Error>,
     },
     /// Nothing holds some motion of the structure.
-    #[error("stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})")]
+    #[error(
+        "stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
+    )]
     SingularStiffness {
         /// The grid that moves most in the motion nothing holds.
         grid: usize,
@@ -146,13 +160,17 @@ pub enum Error {
         ratio: f64,
     },
     /// The flexibility at the dynamic DOF cannot be inverted.
-    #[error("dynamic flexibility: expected independent dynamic degrees of freedom, found number {dof} (from zero) a combination of those before it")]
+    #[error(
+        "dynamic flexibility: expected independent dynamic degrees of freedom, found number {dof} (from zero) a combination of those before it"
+    )]
     DependentDynamicDof {
         /// The first dependent dynamic DOF, from zero.
         dof: usize,
     },
     /// A mass matrix that is not positive definite.
-    #[error("{what}: expected a positive definite matrix, found a pivot that is not positive at degree of freedom {dof} (from zero)")]
+    #[error(
+        "{what}: expected a positive definite matrix, found a pivot that is not positive at degree of freedom {dof} (from zero)"
+    )]
     NotPositiveDefinite {
         /// The matrix.
         what: &'static str,
@@ -184,7 +202,9 @@ pub enum Error {
         requested: usize,
     },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes.
-    #[error("modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness")]
+    #[error(
+        "modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness"
+    )]
     CoalescingModes {
         /// The row of the vanishing denominator.
         first: usize,

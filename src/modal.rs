@@ -96,7 +96,9 @@ impl ModalProblem {
         for (share, factor) in self.generalized_shares.iter().zip(&factors) {
             beta += (factor - 1.0) * share;
         }
-        let Perturbed { roots, mut shapes, .. } = perturb(&self.start.omega_squared, &beta, rule)?;
+        let Perturbed {
+            roots, mut shapes, ..
+        } = perturb(&self.start.omega_squared, &beta, rule)?;
         normalize(&mut shapes);
         self.state(factors, &roots.map(f64::recip), shapes)
     }

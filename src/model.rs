@@ -142,7 +142,9 @@ impl FiniteElementModel {
         check_shape("parameter factors", &given, self.parameters.len(), 1)?;
         let elements = self.structure.elements();
         let mut sizes: Vec<f64> = elements.iter().map(|element| element.size).collect();
-        for ((members, &factor), parameter) in self.members.iter().zip(factors).zip(&self.parameters) {
+        for ((members, &factor), parameter) in
+            self.members.iter().zip(factors).zip(&self.parameters)
+        {
             let owner = || format!("parameter {}", parameter.name);
             crate::structure::positive("factor", owner, factor)?;
             for &row in members {

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::linalg::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
-    symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
+    symmetric_eigen, symmetric_part,
 };
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -70,7 +70,12 @@ impl Modes {
             return Err(Error::Empty { what: "test modes" });
         }
         check_symmetric("dynamic mass", mass)?;
-        check_shape("test mode shapes", shapes, mass.nrows(), frequencies_hz.len())?;
+        check_shape(
+            "test mode shapes",
+            shapes,
+            mass.nrows(),
+            frequencies_hz.len(),
+        )?;
         check_finite("test mode shapes", shapes)?;
         let mut scaled = shapes.clone();
         for (mode, mut shape) in scaled.column_iter_mut().enumerate() {

@@ -21,6 +21,9 @@ const TABLES: [(usize, &str); 12] = [
     (13, include_str!("../paper/tables/table_13.csv")),
 ];
 
+/// How comments begin that say what is wrong with the print.
+const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
+
 /// One published table: text cells by row label and column heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedTable {
@@ -30,6 +33,8 @@ pub struct PublishedTable {
     pub headings: Vec<String>,
     /// Row labels, in the order printed.
     pub labels: Vec<String>,
+    /// What is wrong with the print, one sentence each: its misprints and inconsistencies.
+    pub remarks: Vec<String>,
     cells: HashMap<(String, String), String>,
 }
 
@@ -79,7 +84,14 @@ impl PublishedTable {
             }
             labels.push(label);
         }
+        let remarks = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("# "))
+            .filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)))
+            .map(str::to_owned)
+            .collect();
         Ok(Self {
+            remarks,
             name: name.to_owned(),
             headings,
             labels,

@@ -115,7 +115,11 @@ pub fn limited_factor(
     total_range: Option<Range>,
 ) -> (f64, Limit) {
     let factor = factor_range.clamp(step);
-    let mut limit = if factor == step { Limit::None } else { Limit::Factor };
+    let mut limit = if factor == step {
+        Limit::None
+    } else {
+        Limit::Factor
+    };
     let mut next = total * factor;
     if let Some(range) = total_range {
         let held = range.clamp(base * next) / base;

@@ -2,17 +2,21 @@
 
 mod common;
 
-mod structure;
+mod assembly;
+mod cases_expected;
+mod cli;
+mod condensation;
+mod derivatives;
 mod elements;
 mod elements_nastran95;
-mod assembly;
-mod condensation;
-mod modes;
-mod test_modes;
-mod sorting;
-mod objective;
-mod perturbation;
-mod derivatives;
-mod step;
 mod inner_loop;
+mod modes;
+mod objective;
 mod outer_loop;
+mod perturbation;
+mod snapshots;
+mod sorting;
+mod step;
+mod structure;
+mod tables_published;
+mod test_modes;
