@@ -137,7 +137,7 @@ impl Structure {
                 return Err(Error::DuplicateGrid { grid: grid.label });
             }
             let mut index = [None; 3];
-            for direction in 0..3 {
+            for (direction, index) in index.iter_mut().enumerate() {
                 let value = grid.position[direction];
                 if !value.is_finite() {
                     return Err(Error::NotFinite {
@@ -148,7 +148,7 @@ impl Structure {
                     });
                 }
                 if !grid.held[direction] {
-                    index[direction] = Some(free.len());
+                    *index = Some(free.len());
                     free.push(StructuralDof {
                         grid: grid.label,
                         direction,
