@@ -1,10 +1,10 @@
 //! Arguments, progress, output and exit status; all the work is the library's.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use corfem::cases::{CASES, Case, CaseResult, run_case};
+use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::error::Error;
 use corfem::fit::{Fit, fit};
-use corfem::report::correlation_tables::all_tables;
+use corfem::report::run_tables::all_tables;
 use corfem::report::{Format, json, render};
 use corfem::torque_box::Reconstruction;
 use std::io::Write;
@@ -57,6 +57,9 @@ struct CasesArguments {
     /// Limit every pass to this many inner iterations
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     iterations: Option<u32>,
+    /// Scale covers, spars and ribs as groups instead of every panel on its own
+    #[arg(long)]
+    groups: bool,
     /// Do not report progress
     #[arg(short, long)]
     quiet: bool,
@@ -118,6 +121,9 @@ fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         let mut case = Case::on(number, reconstruction.clone())?;
         if let Some(most) = arguments.iterations {
             case.settings.inner.iterations = case.settings.inner.iterations.min(most as usize);
+        }
+        if arguments.groups {
+            case.grouping = Grouping::Substructures;
         }
         results.push(run_case(&case, |pass, done| {
             if !arguments.quiet {

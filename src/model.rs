@@ -19,6 +19,8 @@ pub struct Parameter {
     pub elements: Vec<usize>,
     /// Bounds on their gages (in) or areas (in²), if any.
     pub size_range: Option<Range>,
+    /// Bounds on the factor on their first sizes, if any.
+    pub factor_range: Option<Range>,
 }
 
 impl Parameter {
@@ -28,6 +30,7 @@ impl Parameter {
             name: label.to_string(),
             elements: vec![label],
             size_range,
+            factor_range: None,
         }
     }
 }
@@ -105,31 +108,37 @@ impl FiniteElementModel {
         &self.parameters
     }
 
-    /// Bounds on each parameter's factor that keep all its elements within the parameter's size bounds.
+    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
     ///
     /// # Errors
-    /// [`Error::Limits`] when no factor does, or when the first sizes lie outside.
+    /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
-        self.parameters
-            .iter()
-            .zip(&self.members)
-            .map(|(parameter, members)| {
-                let Some(range) = parameter.size_range else {
-                    return Ok(None);
-                };
-                let (mut lower, mut upper) = (0.0_f64, f64::INFINITY);
+        let bounds = |(parameter, members): (&Parameter, &Vec<usize>)| {
+            if parameter.size_range.is_none() && parameter.factor_range.is_none() {
+                return Ok(None);
+            }
+            let own = parameter.factor_range;
+            let (mut lower, mut upper) =
+                own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
+            if let Some(range) = parameter.size_range {
                 for &row in members {
                     let size = self.structure.elements()[row].size;
                     lower = lower.max(range.lower / size);
                     upper = upper.min(range.upper / size);
                 }
-                let what = format!("factor of parameter {}", parameter.name);
-                let factors = Range::positive(&what, lower, upper)?;
-                if !factors.contains(1.0) {
-                    return Err(Error::Limits { what, lower, upper });
-                }
+            }
+            let what = format!("factor of parameter {}", parameter.name);
+            let factors = Range::positive(&what, lower, upper)?;
+            if factors.contains(1.0) {
                 Ok(Some(factors))
-            })
+            } else {
+                Err(Error::Limits { what, lower, upper })
+            }
+        };
+        self.parameters
+            .iter()
+            .zip(&self.members)
+            .map(bounds)
             .collect()
     }
 

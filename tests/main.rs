@@ -20,3 +20,4 @@ mod step;
 mod structure;
 mod tables_published;
 mod test_modes;
+mod groups;

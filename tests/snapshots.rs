@@ -2,10 +2,10 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE};
-use corfem::cases::{CASES, Case, run_case};
+use corfem::cases::{CASES, Case, Grouping, run_case};
 use corfem::fit::fit;
-use corfem::report::correlation_tables::all_tables;
 use corfem::report::render::{csv, render};
+use corfem::report::run_tables::all_tables;
 use corfem::report::table::Table;
 use corfem::torque_box::Reconstruction;
 
@@ -62,4 +62,26 @@ fn report_as_text_and_markdown() {
     let tables = tables();
     assert_golden("report_text", &render(&tables, false), rounded);
     assert_golden("report_markdown", &render(&tables, true), rounded);
+}
+
+#[test]
+fn cases_by_substructures() {
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
+    let results: Vec<_> = CASES
+        .into_iter()
+        .map(|number| {
+            let mut case = Case::new(number).expect("a case");
+            case.grouping = Grouping::Substructures;
+            run_case(&case, |_, _| {}).expect("it runs")
+        })
+        .collect();
+    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    let mut tables = all_tables(&results, &fit).expect("published tables read");
+    tables.pop();
+    assert!(tables.iter().all(|table| !table.title.contains("Table 3")), "the paper has no grouped run");
+    assert_golden("substructures", &csv(&tables).expect("written"), numbers);
 }

@@ -1,9 +1,8 @@
-//! The paper's Tables 3 to 8 and 13 from a run, each number beside the published one.
+//! The paper's Tables 3 to 8 from a run: frequencies and gages, each number beside the published one.
 
 use super::table::{Cell, Column, Digits, Row, Table};
-use crate::cases::{CASES, CaseResult};
+use crate::cases::{CaseResult, Grouping};
 use crate::error::Error;
-use crate::fit::Fit;
 use crate::objective::Errors;
 use crate::published::PublishedTable;
 use crate::structure::ElementKind;
@@ -11,9 +10,8 @@ use crate::torque_box::TEST_GAGE;
 
 const HERTZ: Digits = Digits::Significant(4);
 const INCHES: Digits = Digits::Fixed(5);
-const FACTOR: Digits = Digits::Fixed(1);
 const PERCENT: Digits = Digits::Fixed(1);
-const RMS_PERCENT: Digits = Digits::Fixed(2);
+pub(super) const RMS_PERCENT: Digits = Digits::Fixed(2);
 
 /// The stages of a run as the tables name them: `initial`, `pass_1`, …
 fn stages(result: &CaseResult) -> Vec<(String, String)> {
@@ -23,14 +21,15 @@ fn stages(result: &CaseResult) -> Vec<(String, String)> {
         .collect()
 }
 
-fn published(numbers: [usize; 3], case: usize) -> Result<Option<PublishedTable>, Error> {
-    match numbers.get(case - 1) {
-        Some(&number) => PublishedTable::number(number).map(Some),
-        None => Ok(None),
+/// The published table to stand beside a run's, if the paper made that run: by single elements.
+fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, Error> {
+    match (numbers.get(result.case.number - 1), result.case.grouping) {
+        (Some(&number), Grouping::Elements) => PublishedTable::number(number).map(Some),
+        _ => Ok(None),
     }
 }
 
-fn number(
+pub(super) fn number(
     computed: f64,
     digits: Digits,
     table: Option<&PublishedTable>,
@@ -52,7 +51,7 @@ fn number(
 /// [`Error::Table`] if the published table were damaged.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
     let case = result.case.number;
-    let paper = published([3, 5, 7], case)?;
+    let paper = published([3, 5, 7], result)?;
     let stages = stages(result);
     let checks: Vec<_> = std::iter::once(&result.correlation.initial)
         .chain(result.correlation.passes.iter().map(|pass| &pass.check))
@@ -107,10 +106,10 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
         });
     }
     Ok(Table {
-        name: table_name([3, 5, 7], case, "frequencies"),
+        name: table_name(paper.as_ref(), case, "frequencies"),
         title: format!(
             "Case {case}: frequencies and errors{}",
-            numbered([3, 5, 7], case)
+            numbered(paper.as_ref())
         ),
         label_heading: "Mode",
         columns,
@@ -120,7 +119,7 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
 }
 
 /// What the paper's print of a table gets wrong.
-fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
+pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
     paper.map_or_else(Vec::new, |table| {
         let remark = |text: &String| format!("The print: {text}");
         table.remarks.iter().map(remark).collect()
@@ -133,7 +132,7 @@ fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
 /// [`Error::Table`] if the published table were damaged.
 pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
     let case = result.case.number;
-    let paper = published([4, 6, 8], case)?;
+    let paper = published([4, 6, 8], result)?;
     let stages = stages(result);
     let gages: Vec<Vec<f64>> = std::iter::once(result.case.first_gages())
         .chain(result.pass_gages.iter().cloned())
@@ -183,8 +182,8 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
         });
     }
     Ok(Table {
-        name: table_name([4, 6, 8], case, "gages"),
-        title: format!("Case {case}: gages and errors{}", numbered([4, 6, 8], case)),
+        name: table_name(paper.as_ref(), case, "gages"),
+        title: format!("Case {case}: gages and errors{}", numbered(paper.as_ref())),
         label_heading: "Element",
         columns,
         rows,
@@ -207,188 +206,22 @@ pub fn gage_rms(result: &CaseResult, gages: &[f64], kind: ElementKind) -> f64 {
     (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
 }
 
-/// Unlimited stiffness change factors of the first iteration, and the elements they give away.
-pub fn factor_table(result: &CaseResult) -> Table {
-    let case = result.case.number;
-    let range = result.case.settings.inner.factor_range;
-    let rows = result
-        .case
-        .panels
-        .iter()
-        .zip(result.unlimited_factors())
-        .map(|(panel, &factor)| {
-            let label = panel.label.to_string();
-            let anomalous = result
-                .anomalies
-                .iter()
-                .any(|found| found.parameter == label);
-            // The one factor the paper quotes: about 60, for the faulty cover of Case 4.
-            let published = (case == 4 && panel.label == 8).then_some(60.0);
-            let verdict = match (anomalous, range.contains(factor)) {
-                (true, _) => "anomaly",
-                (false, true) => "within bounds",
-                (false, false) => "limited",
-            };
-            Row {
-                label,
-                cells: vec![
-                    Cell::Text(kind_letter(panel.kind).to_owned()),
-                    Cell::Number {
-                        computed: factor,
-                        published,
-                        digits: FACTOR,
-                    },
-                    Cell::Text(verdict.to_owned()),
-                ],
-            }
-        })
-        .collect();
-    let mut notes = vec![format!(
-        "Bounds of one iteration: {:.2} to {:.2}.",
-        range.lower, range.upper
-    )];
-    for anomaly in &result.anomalies {
-        notes.push(format!(
-            "Anomaly: element {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error there.",
-            anomaly.parameter, anomaly.factor
-        ));
-    }
-    Table {
-        name: format!("case_{case}_factors"),
-        title: format!("Case {case}: unlimited stiffness change factors, first iteration"),
-        label_heading: "Element",
-        columns: vec![
-            column("Type", ""),
-            column("Factor", ""),
-            column("Verdict", ""),
-        ],
-        rows,
-        notes,
-    }
-}
-
-/// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
-///
-/// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn iteration_table(results: &[CaseResult]) -> Result<Table, Error> {
-    let paper = PublishedTable::number(13)?;
-    let most = results
-        .iter()
-        .map(|result| result.correlation.passes.len())
-        .max()
-        .unwrap_or(0);
-    let rows = results
-        .iter()
-        .map(|result| {
-            let label = result.case.number.to_string();
-            let cells = (1..=most)
-                .map(|pass| match result.correlation.passes.get(pass - 1) {
-                    Some(done) => number(
-                        done.inner.iterations.len() as f64,
-                        Digits::Fixed(0),
-                        Some(&paper),
-                        &label,
-                        &format!("pass_{pass}_iterations"),
-                    ),
-                    None => Cell::Blank,
-                })
-                .collect();
-            Row { label, cells }
-        })
-        .collect();
-    Ok(Table {
-        name: "table_13".to_owned(),
-        title: "Inner loop iterations per pass (Table 13)".to_owned(),
-        label_heading: "Case",
-        columns: (1..=most)
-            .map(|pass| column(&format!("Pass {pass}"), ""))
-            .collect(),
-        rows,
-        notes: remarks(Some(&paper)),
-    })
-}
-
-/// How well the reconstructed box reproduces the published frequencies, column by column.
-pub fn fit_table(fit: &Fit) -> Table {
-    let rows = fit
-        .columns
-        .iter()
-        .map(|column| {
-            let squares: f64 = column.differences().map(|d| d * d).sum();
-            let largest =
-                column.differences().fold(
-                    0.0,
-                    |worst: f64, d| if d.abs() > worst.abs() { d } else { worst },
-                );
-            let rms = (squares / column.frequencies_hz.len() as f64).sqrt();
-            let percent = |value: f64| Cell::Number {
-                computed: 100.0 * value,
-                published: None,
-                digits: RMS_PERCENT,
-            };
-            Row {
-                label: format!("Case {} {}", column.case, column.column.replace('_', " ")),
-                cells: vec![percent(rms), percent(largest)],
-            }
-        })
-        .collect();
-    let (case, column_name, mode) = &fit.largest_at;
-    Table {
-        name: "fit".to_owned(),
-        title: "The reconstructed box: computed frequencies at published gages against published"
-            .to_owned(),
-        label_heading: "Column",
-        columns: vec![column("RMS", "%"), column("Largest", "%")],
-        rows,
-        notes: vec![format!(
-            "Over all {} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement with everything else is evidence.",
-            fit.columns
-                .iter()
-                .map(|c| c.frequencies_hz.len())
-                .sum::<usize>(),
-            100.0 * fit.rms,
-            100.0 * fit.largest,
-            column_name.replace('_', " "),
-        )],
-    }
-}
-
-/// Every table of a run, in the order of the report.
-///
-/// # Errors
-/// [`Error::Table`] if published tables were damaged.
-pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Error> {
-    let mut tables = Vec::new();
-    for result in results {
-        tables.push(frequency_table(result)?);
-        tables.push(gage_table(result)?);
-        if result.case.number == CASES[3] {
-            tables.push(factor_table(result));
-        }
-    }
-    tables.push(iteration_table(results)?);
-    tables.push(fit_table(fit));
-    Ok(tables)
-}
-
-fn column(name: &str, unit: &'static str) -> Column {
+pub(super) fn column(name: &str, unit: &'static str) -> Column {
     Column {
         name: name.to_owned(),
         unit,
     }
 }
 
-fn table_name(numbers: [usize; 3], case: usize, otherwise: &str) -> String {
-    numbers
-        .get(case - 1)
-        .map_or(format!("case_{case}_{otherwise}"), |n| format!("table_{n}"))
+fn table_name(paper: Option<&PublishedTable>, case: usize, otherwise: &str) -> String {
+    paper.map_or_else(
+        || format!("case_{case}_{otherwise}"),
+        |table| format!("table_{}", table.number),
+    )
 }
 
-fn numbered(numbers: [usize; 3], case: usize) -> String {
-    numbers
-        .get(case - 1)
-        .map_or(String::new(), |n| format!(" (Table {n})"))
+fn numbered(paper: Option<&PublishedTable>) -> String {
+    paper.map_or_else(String::new, |table| format!(" (Table {})", table.number))
 }
 
 fn kind_letter(kind: ElementKind) -> &'static str {

@@ -24,6 +24,7 @@ struct CaseDocument {
     succeeded: bool,
     converged: bool,
     element_numbers: Vec<usize>,
+    parameters: Vec<String>,
     test_gage_in: f64,
     test_frequencies_hz: Vec<f64>,
     initial: Initial,
@@ -112,6 +113,7 @@ fn case_document(result: &CaseResult, paper: &PublishedTable) -> CaseDocument {
         succeeded: result.succeeded(),
         converged: correlation.converged,
         element_numbers: result.case.panels.iter().map(|panel| panel.label).collect(),
+        parameters: result.parameter_names.clone(),
         test_gage_in: crate::torque_box::TEST_GAGE,
         test_frequencies_hz: result.test.frequencies_hz(),
         initial: Initial {
