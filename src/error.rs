@@ -97,6 +97,26 @@ pub enum Error {
         /// The missing element.
         element: usize,
     },
+    /// A parameter refers to a dynamic DOF that does not exist.
+    #[error(
+        "parameter {parameter}: expected a dynamic degree of freedom below {count}, found {found}"
+    )]
+    UnknownDynamicDof {
+        /// The parameter.
+        parameter: String,
+        /// The missing DOF, from zero.
+        found: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A point mass to be scaled is coupled to another degree of freedom.
+    #[error(
+        "dynamic mass: expected a point mass at degree of freedom {dof} (from zero), found it coupled to others"
+    )]
+    CoupledMass {
+        /// The DOF, from zero.
+        dof: usize,
+    },
     /// An element stands in two parameters.
     #[error(
         "element {element}: expected in one parameter at most, found in {first} and in {second}"

@@ -12,7 +12,7 @@
 //! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy).
 //! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
 //! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
-//!    [`model`] puts 1 to 4 together.
+//!    [`model`] puts 1 to 4 together, with the [`parameters`] that may change.
 //! 5. [`modes`]: frequencies and mass-orthonormal shapes.
 //! 6. [`sorting`] (4) and [`objective`] (5, 6): which mode is which, and how far apart they are.
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
@@ -47,6 +47,7 @@ pub mod assembly;
 pub mod condensation;
 pub mod linalg;
 pub mod model;
+pub mod parameters;
 
 pub mod modes;
 

@@ -35,7 +35,7 @@ pub fn unlimited_factors(
         .iter()
         .map(|change| (change / crate::derivatives::DERIVATIVE_STEP).powi(2))
         .sum();
-    let columns = derivatives.stiffness_change.column_iter();
+    let columns = derivatives.share_change.column_iter();
     derivatives
         .error_change
         .iter()

@@ -28,10 +28,12 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Shear modulus $G$, lbf/in².
     pub shear_modulus: f64,
+    /// Mass density $\rho$, lbf·s²/in⁴; zero for elements without mass of their own.
+    pub density: f64,
 }
 
 impl Material {
-    /// An isotropic material, $G = E/\big(2(1+\nu)\big)$.
+    /// An isotropic material without mass, $G = E/\big(2(1+\nu)\big)$.
     ///
     /// `youngs_modulus` in lbf/in².
     ///
@@ -48,7 +50,17 @@ impl Material {
             youngs_modulus,
             poissons_ratio,
             shear_modulus: youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
+            density: 0.0,
         })
+    }
+
+    /// The same material with a mass density, lbf·s²/in⁴.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless the density is positive.
+    pub fn with_density(self, density: f64) -> Result<Self, Error> {
+        positive("density", || "the material".into(), density)?;
+        Ok(Self { density, ..self })
     }
 }
 
@@ -61,6 +73,8 @@ pub enum ElementKind {
     ShearPanel,
     /// Membrane panel of four overlapping triangles between four grids; its size is a gage, in.
     Membrane,
+    /// Constant-strain triangle between three grids; its size is a gage, in.
+    Triangle,
 }
 
 impl ElementKind {
@@ -68,6 +82,7 @@ impl ElementKind {
     pub fn corner_count(self) -> usize {
         match self {
             Self::Rod => 2,
+            Self::Triangle => 3,
             Self::ShearPanel | Self::Membrane => 4,
         }
     }
@@ -76,7 +91,7 @@ impl ElementKind {
     pub fn size_name(self) -> &'static str {
         match self {
             Self::Rod => "area",
-            Self::ShearPanel | Self::Membrane => "gage",
+            Self::ShearPanel | Self::Membrane | Self::Triangle => "gage",
         }
     }
 }

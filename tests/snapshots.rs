@@ -82,6 +82,9 @@ fn cases_by_substructures() {
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
     let mut tables = all_tables(&results, &fit).expect("published tables read");
     tables.pop();
-    assert!(tables.iter().all(|table| !table.title.contains("Table 3")), "the paper has no grouped run");
+    assert!(
+        tables.iter().all(|table| !table.title.contains("Table 3")),
+        "the paper has no grouped run"
+    );
     assert_golden("substructures", &csv(&tables).expect("written"), numbers);
 }

@@ -6,9 +6,10 @@ pub use run::{Anomaly, CaseResult, anomalies, run_case};
 
 use crate::error::Error;
 use crate::inner_loop::InnerSettings;
-use crate::model::{FiniteElementModel, Parameter};
+use crate::model::FiniteElementModel;
 use crate::modes::Modes;
 use crate::outer_loop::Settings;
+use crate::parameters::Parameter;
 use crate::published::PublishedTable;
 use crate::step::Range;
 use crate::structure::ElementKind;
@@ -160,14 +161,12 @@ impl Case {
             Grouping::Substructures => SUBSTRUCTURES
                 .iter()
                 .map(|&(name, elements)| Parameter {
-                    name: name.to_owned(),
-                    elements: elements.to_vec(),
-                    size_range: None,
                     // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
                     factor_range: self.gage_range.map(|range| Range {
                         lower: range.lower / range.upper,
                         upper: range.upper / range.lower,
                     }),
+                    ..Parameter::group(name, elements)
                 })
                 .collect(),
         }

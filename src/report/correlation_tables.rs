@@ -229,5 +229,6 @@ fn kind_letter(kind: ElementKind) -> &'static str {
         ElementKind::Rod => "R",
         ElementKind::ShearPanel => "S",
         ElementKind::Membrane => "M",
+        ElementKind::Triangle => "T",
     }
 }
