@@ -154,6 +154,36 @@ pub fn symmetric_eigen(
     Ok((values, vectors))
 }
 
+/// A symmetric matrix as a sum of rank-one terms, as few as its rank: $A = \sum_t s_t f_t f_t^t$ with $s_t = \pm 1$.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankOneTerms {
+    /// The vectors $f_t$, one per column (n × rank).
+    pub vectors: DMatrix<f64>,
+    /// The signs $s_t$.
+    pub signs: Vec<f64>,
+}
+
+/// Rank-one terms of a symmetric matrix from its eigenvalues and eigenvectors, $f_t = \sqrt{|\mu_t|}\, y_t$.
+///
+/// Eigenvalues within round-off of zero, measured against the largest, are left out.
+///
+/// # Errors
+/// Those of [`symmetric_eigen`].
+pub fn rank_one_terms(what: &'static str, matrix: &DMatrix<f64>) -> Result<RankOneTerms, Error> {
+    let (values, mut vectors) = symmetric_eigen(what, matrix)?;
+    let smallest = values.amax() * matrix.nrows() as f64 * f64::EPSILON;
+    let kept: Vec<usize> = (0..values.len())
+        .filter(|&t| values[t].abs() > smallest)
+        .collect();
+    for (mut vector, value) in vectors.column_iter_mut().zip(values.iter()) {
+        vector *= value.abs().sqrt();
+    }
+    Ok(RankOneTerms {
+        signs: kept.iter().map(|&t| values[t].signum()).collect(),
+        vectors: vectors.select_columns(&kept),
+    })
+}
+
 fn to_faer(matrix: &DMatrix<f64>) -> Mat<f64> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
         matrix[(row, column)]
