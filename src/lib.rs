@@ -18,7 +18,8 @@
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
 //!    to change it.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
+//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//!    [`fewer_modes`]: what they lose when modes are left out.
 //!
 //! # Units
 //!
@@ -63,6 +64,7 @@ pub mod modal;
 pub mod outer_loop;
 
 pub mod cases;
+pub mod fewer_modes;
 pub mod fit;
 pub mod published;
 pub mod report;

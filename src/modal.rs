@@ -1,7 +1,9 @@
 //! The modal problem of one inner loop: everything a step needs, reduced to the analysis modes.
 
 use crate::error::Error;
-use crate::linalg::{RankOneTerms, check_length, check_shape, check_symmetric, rank_one_terms, symmetric_part};
+use crate::linalg::{
+    RankOneTerms, check_length, check_shape, check_symmetric, rank_one_terms, symmetric_part,
+};
 use crate::modes::Modes;
 use crate::objective::{Errors, errors};
 use crate::perturbation::{
@@ -87,7 +89,10 @@ impl ModalProblem {
                     test_shares[(i, e)] /= test.omega_squared[i];
                 }
             }
-            share_terms.push(rank_one_terms("generalized share", &symmetric_part(&in_modes))?);
+            share_terms.push(rank_one_terms(
+                "generalized share",
+                &symmetric_part(&in_modes),
+            )?);
             generalized_shares.push(match share {
                 Share::Stiffness(_) => Share::Stiffness(in_modes),
                 Share::Mass(_) => Share::Mass(in_modes),

@@ -22,7 +22,12 @@ use std::time::Duration;
 /// Eigensolutions by every rival.
 fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: &[DMatrix<f64>]) {
     type Solve = fn(&mut Rivals, &[DMatrix<f64>]);
-    let solvers: [Solve; 4] = [Rivals::jacobi, Rivals::nalgebra, Rivals::nalgebra_fixed, Rivals::faer];
+    let solvers: [Solve; 4] = [
+        Rivals::jacobi,
+        Rivals::nalgebra,
+        Rivals::nalgebra_fixed,
+        Rivals::faer,
+    ];
     let mut storage = Rivals::new(NINE);
     for matrix in matrices {
         assert!(storage.disagreement(matrix) < 1e-9, "the rivals disagree");
@@ -42,12 +47,21 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut changes = vec![0.0; problem.parameter_count()];
     group.bench_function(summary::FIRST_ORDER, |bencher| {
         bencher.iter(|| {
-            error_changes_into(black_box(problem), black_box(state), &mut workspace, &mut changes)
-                .expect("separate modes");
+            error_changes_into(
+                black_box(problem),
+                black_box(state),
+                &mut workspace,
+                &mut changes,
+            )
+            .expect("separate modes");
             black_box(&changes);
         });
     });
-    eigensolutions(&mut group, summary::EIGENSOLUTION, &setting.element_matrices);
+    eigensolutions(
+        &mut group,
+        summary::EIGENSOLUTION,
+        &setting.element_matrices,
+    );
     group.finish();
 }
 
@@ -57,10 +71,15 @@ fn update(criterion: &mut Criterion, setting: &Setting) {
     let k = &setting.problem.start.omega_squared;
     for (name, rule) in summary::rules() {
         group.bench_function(name, |bencher| {
-            bencher.iter(|| perturb(black_box(k), black_box(&setting.beta), rule).expect("separate"));
+            bencher
+                .iter(|| perturb(black_box(k), black_box(&setting.beta), rule).expect("separate"));
         });
     }
-    eigensolutions(&mut group, summary::EIGENSOLUTION, &[setting.step_matrix.clone()]);
+    eigensolutions(
+        &mut group,
+        summary::EIGENSOLUTION,
+        &[setting.step_matrix.clone()],
+    );
     let from_modes = DMatrix::from_diagonal(k) + &setting.beta;
     eigensolutions(&mut group, summary::FROM_MODES, &[from_modes]);
     group.finish();
@@ -78,7 +97,11 @@ fn cases(criterion: &mut Criterion, passes: &[PassSetting]) {
             });
         });
         group.bench_function(label("analysis"), |bencher| {
-            bencher.iter(|| pass.model.analyze(black_box(&pass.factors)).expect("analyzed"));
+            bencher.iter(|| {
+                pass.model
+                    .analyze(black_box(&pass.factors))
+                    .expect("analyzed")
+            });
         });
         group.bench_function(label("check"), |bencher| {
             bencher.iter(|| check(&pass.start, &pass.test, NINE).expect("solved"));

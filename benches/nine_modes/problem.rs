@@ -30,24 +30,37 @@ impl Setting {
     pub fn new() -> Self {
         let case = Case::new(2).expect("a case");
         let model = case.model().expect("a model");
-        let dynamic = model.analyze(&vec![1.0; model.parameters().len()]).expect("analyzed");
+        let dynamic = model
+            .analyze(&vec![1.0; model.parameters().len()])
+            .expect("analyzed");
         let test = case.test_modes().expect("test modes");
         let problem = ModalProblem::new(&dynamic, &test, NINE).expect("reduced");
         // The box's mass is diagonal, so the reduction to a standard problem is a scaling; it is not timed.
         let scale = DMatrix::from_diagonal(&DVector::from_iterator(
             NINE,
-            dynamic.mass.diagonal().iter().map(|mass| mass.sqrt().recip()),
+            dynamic
+                .mass
+                .diagonal()
+                .iter()
+                .map(|mass| mass.sqrt().recip()),
         ));
         let standard = |change: &DMatrix<f64>| &scale * (&dynamic.stiffness + change) * &scale;
-        let shares: Vec<&DMatrix<f64>> = dynamic.shares.iter().map(|share| share.matrix()).collect();
+        let shares: Vec<&DMatrix<f64>> =
+            dynamic.shares.iter().map(|share| share.matrix()).collect();
         let mut change = DMatrix::zeros(NINE, NINE);
         for (e, share) in shares.iter().enumerate() {
             change += if e % 2 == 0 { 0.1 } else { -0.1 } * *share;
         }
         Self {
             state: problem.start_state().expect("a state"),
-            element_matrices: shares.iter().map(|share| standard(&(DERIVATIVE_STEP * *share))).collect(),
-            beta: problem.start.shapes.tr_mul(&(&change * &problem.start.shapes)),
+            element_matrices: shares
+                .iter()
+                .map(|share| standard(&(DERIVATIVE_STEP * *share)))
+                .collect(),
+            beta: problem
+                .start
+                .shapes
+                .tr_mul(&(&change * &problem.start.shapes)),
             step_matrix: standard(&change),
             problem,
         }

@@ -1,8 +1,8 @@
 //! The eigensolutions that the perturbation replaces: all eigenvalues and eigenvectors of a symmetric matrix.
 
+use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
-use faer::diag::Diag;
 use faer::{Mat, Par};
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 use std::hint::black_box;
@@ -154,9 +154,13 @@ impl Rivals {
     pub fn disagreement(&mut self, matrix: &DMatrix<f64>) -> f64 {
         self.jacobi(std::slice::from_ref(matrix));
         self.faer(std::slice::from_ref(matrix));
-        let mut found: Vec<f64> = (0..self.size).map(|i| self.matrix[i * self.size + i]).collect();
+        let mut found: Vec<f64> = (0..self.size)
+            .map(|i| self.matrix[i * self.size + i])
+            .collect();
         found.sort_by(f64::total_cmp);
         let pairs = found.iter().enumerate();
-        pairs.map(|(i, value)| (value / self.faer_values[i] - 1.0).abs()).fold(0.0, f64::max)
+        pairs
+            .map(|(i, value)| (value / self.faer_values[i] - 1.0).abs())
+            .fold(0.0, f64::max)
     }
 }
