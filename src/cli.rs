@@ -5,7 +5,9 @@ use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::error::Error;
 use corfem::fewer_modes::{all_runs, published_runs};
 use corfem::fit::fit;
+use corfem::matrix_comparison::compare_matrices;
 use corfem::report::fewer_modes_tables::fewer_modes_tables;
+use corfem::report::matrix_tables::matrix_tables;
 use corfem::report::run_tables::all_tables;
 use corfem::report::table::Table;
 use corfem::report::{Format, json, render};
@@ -43,6 +45,8 @@ enum Command {
     Cases(CasesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(OutputArguments),
+    /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
+    Matrices(MatricesArguments),
 }
 
 #[derive(Debug, Args)]
@@ -76,6 +80,18 @@ struct CasesArguments {
     quiet: bool,
 }
 
+#[derive(Debug, Args)]
+struct MatricesArguments {
+    /// Which case
+    #[arg(value_name = "CASE", default_value_t = 2)]
+    case: usize,
+    /// How many test modes, the lowest, the corrections are given
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    test_modes: usize,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum FormatArgument {
     /// Tables for a terminal
@@ -106,6 +122,7 @@ pub fn run() -> ExitCode {
         None => cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases(&arguments),
         Some(Command::FewerModes(output)) => fewer_modes(&output),
+        Some(Command::Matrices(arguments)) => matrices(&arguments),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,
@@ -160,6 +177,15 @@ fn fewer_modes(output: &OutputArguments) -> Result<bool, Error> {
     let runs = all_runs(&case)?;
     let tables = fewer_modes_tables(&case, &published_runs(&case)?, &runs)?;
     write_report(output, &tables, || json::fewer_modes(&runs))?;
+    Ok(true)
+}
+
+/// Compares corrections by elements and by matrices.
+fn matrices(arguments: &MatricesArguments) -> Result<bool, Error> {
+    let case = Case::new(arguments.case)?;
+    let comparison = compare_matrices(&case, arguments.test_modes)?;
+    let tables = matrix_tables(&case, &comparison);
+    write_report(&arguments.output, &tables, || json::matrices(&comparison))?;
     Ok(true)
 }
 

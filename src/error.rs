@@ -221,6 +221,26 @@ pub enum Error {
         /// How many were asked for.
         requested: usize,
     },
+    /// A test shape that is a combination of others.
+    #[error(
+        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
+    )]
+    DependentTestShape {
+        /// The first dependent mode, from zero.
+        mode: usize,
+    },
+    /// Test shapes that must be orthonormal with the mass and are not.
+    #[error(
+        "test modes {first} and {second} (from zero): expected a generalized mass of one for each and none between them, found {found:.9}"
+    )]
+    NotOrthonormal {
+        /// The one mode.
+        first: usize,
+        /// The other, or the same.
+        second: usize,
+        /// The generalized mass between them.
+        found: f64,
+    },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes.
     #[error(
         "modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness"

@@ -19,7 +19,8 @@
 //!    to change it.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
 //! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
-//!    [`fewer_modes`]: what they lose when modes are left out.
+//!    [`fewer_modes`]: what they lose when modes are left out; [`matrix_correction`], [`matrix_comparison`]: what
+//!    corrections of whole matrices do instead.
 //!
 //! # Units
 //!
@@ -66,6 +67,8 @@ pub mod outer_loop;
 pub mod cases;
 pub mod fewer_modes;
 pub mod fit;
+pub mod matrix_comparison;
+pub mod matrix_correction;
 pub mod published;
 pub mod report;
 

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::fewer_modes::FewerModesRun;
 use crate::fit::Fit;
 use crate::inner_loop::{Iteration, Stop};
+use crate::matrix_comparison::MatrixComparison;
 use crate::published::PublishedTable;
 use crate::step::Limit;
 use serde::Serialize;
@@ -104,19 +105,42 @@ pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, Error> {
 /// # Errors
 /// [`Error::Table`] if a number were not finite.
 pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, Error> {
-    #[derive(Serialize)]
-    struct Runs<'a> {
-        program: &'static str,
-        version: &'static str,
-        units: &'static str,
-        runs: &'a [FewerModesRun],
-    }
-    written(&Runs {
+    written(&Headed {
         program: PROGRAM,
         version: VERSION,
         units: UNITS,
-        runs,
+        content: Content::Runs(runs),
     })
+}
+
+/// A comparison of matrix corrections as JSON, units and errors as in [`json`].
+///
+/// # Errors
+/// [`Error::Table`] if a number were not finite.
+pub fn matrices(comparison: &MatrixComparison) -> Result<String, Error> {
+    written(&Headed {
+        program: PROGRAM,
+        version: VERSION,
+        units: UNITS,
+        content: Content::Comparison(comparison),
+    })
+}
+
+/// A document with one entry beside the heading.
+#[derive(Debug, Serialize)]
+struct Headed<'a> {
+    program: &'static str,
+    version: &'static str,
+    units: &'static str,
+    #[serde(flatten)]
+    content: Content<'a>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Content<'a> {
+    Runs(&'a [FewerModesRun]),
+    Comparison(&'a MatrixComparison),
 }
 
 /// A document as pretty-printed JSON with a final newline.

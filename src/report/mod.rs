@@ -3,6 +3,7 @@
 pub mod correlation_tables;
 pub mod fewer_modes_tables;
 pub mod json;
+pub mod matrix_tables;
 pub mod render;
 pub mod run_tables;
 pub mod table;

@@ -23,10 +23,12 @@ pub enum Format {
     Csv,
 }
 
-/// Tables as text or Markdown; each computed number has the published one behind it in parentheses.
+/// Tables as text or Markdown; a computed number has the published one, if there is any, behind it in parentheses.
 pub fn render(tables: &[Table], markdown: bool) -> String {
     let mut out = String::new();
-    out.push_str("Computed numbers, the published ones behind them in parentheses.\n\n");
+    if tables.iter().any(has_published) {
+        out.push_str("Computed numbers, the published ones behind them in parentheses.\n\n");
+    }
     for table in tables {
         let heading = if markdown { "## " } else { "" };
         out.push_str(&format!("{heading}{}\n\n", table.title));
@@ -40,6 +42,19 @@ pub fn render(tables: &[Table], markdown: bool) -> String {
         out.pop();
     }
     out
+}
+
+fn has_published(table: &Table) -> bool {
+    let mut cells = table.rows.iter().flat_map(|row| &row.cells);
+    cells.any(|cell| {
+        matches!(
+            cell,
+            Cell::Number {
+                published: Some(_),
+                ..
+            }
+        )
+    })
 }
 
 fn grid(table: &Table, markdown: bool) -> String {
