@@ -219,7 +219,7 @@ fn gage_table(
         &|run| run.membrane_gage_rms,
     ));
     for (title, row, rms) in RMS_ROWS {
-        let (inner, exact) = (format!("{title}, inner"), format!("{title}, exact"));
+        let (inner, exact) = (format!("inner {title}"), format!("exact {title}"));
         rows.push(rms_row(&inner, row, printed, RMS_PERCENT, &|run| {
             rms(&run.inner)
         }));

@@ -77,8 +77,8 @@ fn frequency_table(
         .collect();
     let fitted = comparison.test_modes;
     for (label, modes) in [
-        ("RMS, test modes", 0..fitted),
-        ("RMS, others", fitted..truth.len()),
+        ("RMS test modes", 0..fitted),
+        ("RMS others", fitted..truth.len()),
     ] {
         if !modes.is_empty() {
             let value = |p: &Prediction| rms(&errors(p)[modes.clone()]);

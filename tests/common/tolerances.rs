@@ -19,3 +19,8 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
 /// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
 pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest
+/// entry; the product of the conditions times `ROUND_OFF`.
+pub const CORRECTION_ROUND_OFF: f64 = 1e-9;
+/// A derivative against its definition: both are differences of error sums of order one, each a few hundred roundings.
+pub const DERIVATIVE_ROUND_OFF: f64 = 1e-13;

@@ -1,0 +1,215 @@
+//! Derivatives of many parameters side by side: each is what its definition gives for it alone.
+
+use crate::common::tolerances::DERIVATIVE_ROUND_OFF;
+use corfem::cases::Case;
+use corfem::derivatives::{DERIVATIVE_STEP, error_derivatives};
+use corfem::error::Error;
+use corfem::modal::{DynamicModel, ModalProblem, ModalState, Share};
+use corfem::modes::{Modes, solve};
+use corfem::objective::errors;
+use corfem::perturbation::{UpdateRule, first_order};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+const SIZE: usize = 5;
+
+/// A model with parameters of either kind and any rank, and test modes that it nearly has.
+#[derive(Debug, Clone)]
+struct Drawn {
+    model: DynamicModel,
+    test: Modes,
+    analysis_modes: usize,
+}
+
+/// One to twenty parameters, so that blocks are full, broken off, and several; ranks from none to full; stiffness well
+/// above them on a diagonal of separate entries, so that no modes come close.
+fn drawn() -> impl Strategy<Value = Drawn> {
+    let entries = prop::collection::vec(-0.4..0.4_f64, SIZE * SIZE);
+    let parameter = (0..=SIZE, any::<bool>(), entries, 0.9..1.1_f64);
+    let parameters = prop::collection::vec(parameter, 1..=20);
+    (
+        parameters,
+        prop::collection::vec(0.8..1.25_f64, SIZE),
+        1..=SIZE,
+        1..=SIZE,
+    )
+        .prop_map(|(parameters, masses, one, other)| {
+            let mut mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
+            let mut stiffness = DMatrix::from_diagonal(&DVector::from_fn(SIZE, |i, _| {
+                50.0 * (i as f64 + 1.0).powi(2)
+            }));
+            let (mut true_mass, mut true_stiffness) = (mass.clone(), stiffness.clone());
+            let mut shares = Vec::new();
+            for (rank, is_mass, entries, factor) in parameters {
+                let vectors = DMatrix::from_column_slice(SIZE, rank, &entries[..SIZE * rank]);
+                let share = &vectors * vectors.transpose();
+                if is_mass {
+                    // Twenty full ones weigh no more than the structure.
+                    let share = 0.05 * share;
+                    mass += &share;
+                    true_mass += factor * &share;
+                    shares.push(Share::Mass(share));
+                } else {
+                    stiffness += &share;
+                    true_stiffness += factor * &share;
+                    shares.push(Share::Stiffness(share));
+                }
+            }
+            let all = solve(&true_stiffness, &true_mass, SIZE).expect("positive definite");
+            Drawn {
+                test: all.lowest(one.min(other)).expect("fewer than there are"),
+                analysis_modes: one.max(other),
+                model: DynamicModel {
+                    stiffness,
+                    mass,
+                    shares,
+                },
+            }
+        })
+}
+
+/// The error sum's change by first order, one parameter alone: (C.20, C.21) with `first_order` for a stiffness, written
+/// out for a mass.
+fn by_definition(problem: &ModalProblem, state: &ModalState, parameter: usize) -> f64 {
+    let k = &state.modes.omega_squared;
+    let present = &state.generalized_shapes;
+    let share = &problem.generalized_shares[parameter];
+    let size = DERIVATIVE_STEP * state.factors[parameter];
+    let change = size * present.tr_mul(&(share.matrix() * present));
+    let (roots, shapes) = match share {
+        Share::Stiffness(_) => {
+            let perturbed = first_order(k, &change).expect("separate modes");
+            (perturbed.roots, perturbed.shapes)
+        }
+        Share::Mass(_) => {
+            let roots = DVector::from_fn(k.len(), |i, _| (1.0 + change[(i, i)]) / k[i]);
+            let shapes = DMatrix::from_fn(k.len(), k.len(), |i, j| {
+                if i == j {
+                    1.0
+                } else {
+                    change[(i, j)] / (k[i] * roots[j] - 1.0 - change[(i, i)])
+                }
+            });
+            (roots, shapes)
+        }
+    };
+    let modes = Modes {
+        omega_squared: roots.map(f64::recip),
+        shapes: &state.modes.shapes * shapes,
+    };
+    errors(&modes, &state.pairing, &problem.test).sum() - state.errors.sum()
+}
+
+fn assert_by_definition(problem: &ModalProblem, state: &ModalState) {
+    let found = error_derivatives(problem, state).expect("separate modes");
+    assert_eq!(found.error_change.len(), problem.parameter_count());
+    for (e, &change) in found.error_change.iter().enumerate() {
+        let expected = by_definition(problem, state, e);
+        let error = (change - expected).abs();
+        assert!(
+            error <= DERIVATIVE_ROUND_OFF,
+            "{e}: {change:e} {expected:e}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn each_derivative_is_that_of_its_definition(drawn in drawn()) {
+        let problem = ModalProblem::new(&drawn.model, &drawn.test, drawn.analysis_modes).unwrap();
+        assert_by_definition(&problem, &problem.start_state().unwrap());
+    }
+
+    #[test]
+    fn a_derivative_does_not_depend_on_those_beside_it(drawn in drawn(), turn in 0..20_usize) {
+        let derivatives = |model: &DynamicModel| {
+            let problem = ModalProblem::new(model, &drawn.test, drawn.analysis_modes).unwrap();
+            error_derivatives(&problem, &problem.start_state().unwrap()).unwrap().error_change
+        };
+        let mut turned = drawn.model.clone();
+        let turn = turn % turned.shares.len();
+        turned.shares.rotate_left(turn);
+        let mut expected = derivatives(&drawn.model);
+        expected.rotate_left(turn);
+        // To the last bit.
+        prop_assert_eq!(derivatives(&turned), expected);
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::costly_config())]
+
+    #[test]
+    fn derivatives_of_the_box_away_from_its_start_are_those_of_their_definition(
+        case in 1..=4_usize,
+        factors in prop::collection::vec(0.9..1.1_f64, 15),
+    ) {
+        let case = Case::new(case).unwrap();
+        let dynamic = case.model().unwrap().analyze(&[1.0; 15]).unwrap();
+        let test = case.test_modes().unwrap();
+        let problem = ModalProblem::new(&dynamic, &test, test.len()).unwrap();
+        let state = problem.state_at(factors, UpdateRule::Eigensolution).unwrap();
+        assert_by_definition(&problem, &state);
+    }
+}
+
+/// Two separate oscillators of ω² = 1 and 4, and a share of the second.
+fn oscillators(share: Share) -> ModalProblem {
+    let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 4.0]));
+    let mass = DMatrix::identity(2, 2);
+    let test = solve(&stiffness, &mass, 2).expect("solved");
+    let model = DynamicModel {
+        stiffness,
+        mass,
+        shares: vec![share],
+    };
+    ModalProblem::new(&model, &test, 2).expect("a problem")
+}
+
+#[test]
+fn a_lost_root_is_named() {
+    let mut share = DMatrix::zeros(2, 2);
+    // A thousandth of it is −5, which leaves −1 of the second mode's 4.
+    share[(1, 1)] = -5000.0;
+    let problem = oscillators(Share::Stiffness(share));
+    match error_derivatives(&problem, &problem.start_state().unwrap()) {
+        Err(Error::LostRoot { mode, value }) => {
+            assert_eq!(mode, 1);
+            assert!((value + 1.0).abs() < 1e-9, "{value}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn modes_that_a_change_brings_together_are_named() {
+    // A thousandth of it takes the second oscillator to the first's ω² = 1, and not nearly.
+    for (change, apart) in [(-3000.0, false), (-2999.0, true)] {
+        let mut share = DMatrix::zeros(2, 2);
+        share[(1, 1)] = change;
+        let problem = oscillators(Share::Stiffness(share));
+        match error_derivatives(&problem, &problem.start_state().unwrap()) {
+            Ok(_) => assert!(apart),
+            Err(Error::CoalescingModes {
+                first,
+                second,
+                separation,
+            }) => {
+                assert!(!apart);
+                assert_eq!((first, second), (1, 0));
+                assert!(separation < 1e-9, "{separation:e}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    // The same for a mass: 1/ω² of the second becomes one.
+    let mut share = DMatrix::zeros(2, 2);
+    share[(1, 1)] = 3000.0;
+    let problem = oscillators(Share::Mass(share));
+    match error_derivatives(&problem, &problem.start_state().unwrap()) {
+        Err(Error::CoalescingModes { first, second, .. }) => assert_eq!((first, second), (1, 0)),
+        other => panic!("{other:?}"),
+    }
+}
