@@ -1,6 +1,6 @@
 //! Derivatives of many parameters side by side: each is what its definition gives for it alone.
 
-use crate::common::tolerances::DERIVATIVE_ROUND_OFF;
+use crate::common::tolerances::{DERIVATIVE_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
 use corfem::derivatives::{DERIVATIVE_STEP, error_derivatives};
 use corfem::error::Error;
@@ -171,13 +171,28 @@ fn oscillators(share: Share) -> ModalProblem {
 #[test]
 fn a_lost_root_is_named() {
     let mut share = DMatrix::zeros(2, 2);
-    // A thousandth of it is −5, which leaves −1 of the second mode's 4.
-    share[(1, 1)] = -5000.0;
+    // A thousandth of it is −6, which leaves −2 of the second mode's 4: a root of −1/2.
+    share[(1, 1)] = -6000.0;
     let problem = oscillators(Share::Stiffness(share));
     match error_derivatives(&problem, &problem.start_state().unwrap()) {
         Err(Error::LostRoot { mode, value }) => {
             assert_eq!(mode, 1);
-            assert!((value + 1.0).abs() < 1e-9, "{value}");
+            assert!((value + 0.5).abs() < ROUND_OFF, "{value}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_root_lost_to_a_mass_is_named() {
+    let mut share = DMatrix::zeros(2, 2);
+    // The whole mass is one and the share takes more than that away: of the second root, 1/4, it leaves −1/4.
+    share[(1, 1)] = -2000.0;
+    let problem = oscillators(Share::Mass(share));
+    match error_derivatives(&problem, &problem.start_state().unwrap()) {
+        Err(Error::LostRoot { mode, value }) => {
+            assert_eq!(mode, 1);
+            assert!((value + 0.25).abs() < ROUND_OFF, "{value}");
         }
         other => panic!("{other:?}"),
     }

@@ -130,7 +130,34 @@ impl Block {
         if margin.iter().all(|&margin| margin > 0.0) && x.iter().flatten().all(|&x| is_root(x)) {
             Ok(())
         } else {
-            Err(unfit(x))
+            Err(self.unfit(x))
+        }
+    }
+
+    /// Why first order cannot be carried out: a root that is lost, or two that are too close.
+    #[cold]
+    fn unfit(&self, x: &[Lanes]) -> Error {
+        for (mode, values) in x.iter().enumerate() {
+            if let Some(&value) = values.iter().find(|&&value| !is_root(value)) {
+                let value = if self.is_mass { value } else { 1.0 / value };
+                return Error::LostRoot { mode, value };
+            }
+        }
+        let (mut first, mut second, mut separation) = (0, 0, f64::INFINITY);
+        for j in 0..x.len() {
+            for i in j + 1..x.len() {
+                for (&a, &b) in x[i].iter().zip(&x[j]) {
+                    let found = (a - b).abs() / larger(a, b);
+                    if found < separation {
+                        (first, second, separation) = (i, j, found);
+                    }
+                }
+            }
+        }
+        Error::CoalescingModes {
+            first,
+            second,
+            separation,
         }
     }
 }
@@ -143,30 +170,4 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
 
 fn is_root(x: f64) -> bool {
     x > 0.0 && x.is_finite()
-}
-
-/// Why first order cannot be carried out: a root that is lost, or two that are too close.
-#[cold]
-fn unfit(x: &[Lanes]) -> Error {
-    for (mode, values) in x.iter().enumerate() {
-        if let Some(&value) = values.iter().find(|&&value| !is_root(value)) {
-            return Error::LostRoot { mode, value };
-        }
-    }
-    let (mut first, mut second, mut separation) = (0, 0, f64::INFINITY);
-    for j in 0..x.len() {
-        for i in j + 1..x.len() {
-            for (&a, &b) in x[i].iter().zip(&x[j]) {
-                let found = (a - b).abs() / larger(a, b);
-                if found < separation {
-                    (first, second, separation) = (i, j, found);
-                }
-            }
-        }
-    }
-    Error::CoalescingModes {
-        first,
-        second,
-        separation,
-    }
 }
