@@ -21,3 +21,4 @@ mod step;
 mod structure;
 mod tables_published;
 mod test_modes;
+mod supports;
