@@ -23,3 +23,4 @@ mod structure;
 mod supports;
 mod tables_published;
 mod test_modes;
+mod mass_parameters;
