@@ -115,8 +115,8 @@ pub fn recursive_1_converged(
                 }
             }
             let lambda = 1.0 / k[j];
-            let root = lambda
-                - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+            let root =
+                lambda - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
             check_root(j, root)?;
             change = change.max((root / gamma - 1.0).abs());
             now.roots[j] = root;
@@ -246,7 +246,7 @@ fn denominator(
     }
 }
 
-fn check_root(mode: usize, value: f64) -> Result<(), Error> {
+pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
@@ -254,7 +254,7 @@ fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     }
 }
 
-fn check_order(order: usize) -> Result<(), Error> {
+pub(crate) fn check_order(order: usize) -> Result<(), Error> {
     if order > 0 {
         return Ok(());
     }
@@ -271,7 +271,10 @@ fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
     }
     check_shape("generalized stiffness change", beta, k.len(), k.len())?;
     check_finite("generalized stiffness change", beta)?;
-    match k.iter().position(|&value| value <= 0.0 || !value.is_finite()) {
+    match k
+        .iter()
+        .position(|&value| value <= 0.0 || !value.is_finite())
+    {
         None => Ok(()),
         Some(mode) => Err(Error::NotAVibration {
             mode,

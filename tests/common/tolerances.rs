@@ -14,3 +14,7 @@ pub const EXPECTED_HISTORY: f64 = 1e-5;
 pub const EXPECTED_FREQUENCY: f64 = 1e-6;
 /// Twelve-point quadrature of a strongly distorted panel against its closed form.
 pub const QUADRATURE_DISTORTED: f64 = 1e-6;
+/// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
+pub const ORDER_SLACK: f64 = 0.15;
+/// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
+pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
