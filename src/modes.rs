@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Components within this fraction of the largest count as equally large for the sign rule, so that round-off
 /// in a symmetric shape does not choose its sign.
-const SIGN_TIE: f64 = 1e-6;
+pub(crate) const SIGN_TIE: f64 = 1e-6;
 
 /// Modes of vibration, in ascending order of frequency.
 ///

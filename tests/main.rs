@@ -2,6 +2,10 @@
 
 mod common;
 
+mod appendix_c_close_roots;
+mod appendix_c_complex;
+mod appendix_c_general;
+mod appendix_c_table_1;
 mod assembly;
 mod cases_expected;
 mod cli;
@@ -12,6 +16,7 @@ mod elements_nastran95;
 mod errata;
 mod groups;
 mod inner_loop;
+mod mass_parameters;
 mod modes;
 mod objective;
 mod outer_loop;
@@ -23,4 +28,3 @@ mod structure;
 mod supports;
 mod tables_published;
 mod test_modes;
-mod mass_parameters;

@@ -279,7 +279,7 @@ fn denominator(
     }
 }
 
-fn check_root(mode: usize, value: f64) -> Result<(), Error> {
+pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
@@ -287,7 +287,7 @@ fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     }
 }
 
-fn check_order(order: usize) -> Result<(), Error> {
+pub(crate) fn check_order(order: usize) -> Result<(), Error> {
     if order > 0 {
         return Ok(());
     }

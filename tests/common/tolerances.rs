@@ -19,3 +19,10 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
 /// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
 pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
+pub const ORDER_SLACK: f64 = 0.15;
+/// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
+pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
+/// A derivative of the error sum by a 0.1 % change and first order, beside exact differences with the same step: what is
+/// left is of second order in the change, a thousandth of a derivative of order one.
+pub const FORWARD_DIFFERENCE: f64 = 2e-3;

@@ -1,0 +1,194 @@
+//! Strategies and small problems for Appendix C in full: changes of stiffness and mass, complex pencils, close roots.
+
+use corfem::perturbation::ModalChange;
+use nalgebra::{Complex, DMatrix, DVector};
+use proptest::prelude::*;
+
+use super::strategies::{orthogonal, symmetric};
+
+/// Largest entry of a generalized change relative to its modes' own stiffness or mass. With roots a factor 1.5 apart
+/// and six modes the sum of a row's $|p_{ij}|$ stays below one half, so the recursions converge, by a digit in
+/// three or four orders at worst.
+pub const LARGEST_CHANGE: f64 = 0.02;
+
+/// Squared circular frequencies from 1 up, each `1.5` to `4` times the one before: apart at every size.
+pub fn separate_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
+    prop::collection::vec(1.5..4.0_f64, size).prop_map(|ratios| {
+        let mut value = 1.0;
+        DVector::from_iterator(
+            ratios.len(),
+            ratios.iter().map(|ratio| {
+                let present = value;
+                value *= ratio;
+                present
+            }),
+        )
+    })
+}
+
+/// β with $\beta_{ij}$ within `largest` of $\sqrt{k_i k_j}$ and α with entries within `largest`, both symmetric.
+pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalChange<f64>> {
+    (symmetric(k.len()), symmetric(k.len())).prop_map(move |(b, a)| {
+        let root = DMatrix::from_diagonal(&k.map(f64::sqrt));
+        let beta = largest * &root * b * &root;
+        // The product of three matrices is symmetric to round-off only.
+        let beta = 0.5 * (&beta + beta.transpose());
+        ModalChange::of_vibrations(&k, beta, largest * a)
+    })
+}
+
+/// A change of two to six separate modes in which every rule converges.
+pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
+    (2..=6_usize)
+        .prop_flat_map(separate_spectrum)
+        .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
+}
+
+/// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
+#[derive(Debug, Clone)]
+pub struct Clustered {
+    pub change: ModalChange<f64>,
+    pub blocks: Vec<Vec<usize>>,
+}
+
+/// One to three clusters of one to three modes, cluster centers a factor 2 to 4 apart, modes within a cluster apart by
+/// at most 1e-3 of the center and down to nothing; changes of at most 2 % move roots by at most 4 %, so 10 % tells
+/// the clusters apart in every case.
+pub fn clustered() -> impl Strategy<Value = Clustered> {
+    let cluster = (
+        2.0..4.0_f64,
+        prop::collection::vec(
+            prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))],
+            1..=3,
+        ),
+    );
+    prop::collection::vec(cluster, 1..=3)
+        .prop_flat_map(|clusters| {
+            let mut k = Vec::new();
+            let mut blocks = Vec::new();
+            let mut center = 1.0;
+            for (ratio, splits) in clusters {
+                if splits.len() > 1 {
+                    blocks.push((k.len()..k.len() + splits.len()).collect());
+                }
+                k.extend(splits.iter().map(|split| center * (1.0 + split)));
+                center *= ratio;
+            }
+            (
+                change_of(DVector::from_vec(k), LARGEST_CHANGE),
+                Just(blocks),
+            )
+        })
+        .prop_map(|(change, blocks)| Clustered { change, blocks })
+}
+
+/// A stiffness and a complex unsymmetric $G$ with their changes.
+#[derive(Debug, Clone)]
+pub struct ComplexPencil {
+    pub stiffness: DMatrix<f64>,
+    pub g: DMatrix<Complex<f64>>,
+    pub stiffness_change: DMatrix<Complex<f64>>,
+    pub g_change: DMatrix<Complex<f64>>,
+}
+
+/// A square complex matrix with real and imaginary parts between −1 and 1.
+pub fn complex_square(size: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
+    prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), size * size).prop_map(move |parts| {
+        DMatrix::from_iterator(
+            size,
+            size,
+            parts.iter().map(|&(re, im)| Complex::new(re, im)),
+        )
+    })
+}
+
+/// Three to six DOF, an orthogonally mixed stiffness with separate spectrum, $G$ the unit mass with complex terms of
+/// 2 %, changes of 1 %: roots stay a factor 1.3 apart, so the base problem is well conditioned and the recursions
+/// converge. The changes are complex and unsymmetric too (structural damping).
+pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
+    (3..=6_usize)
+        .prop_flat_map(|size| {
+            (
+                separate_spectrum(size),
+                orthogonal(size),
+                complex_square(size),
+                complex_square(size),
+                complex_square(size),
+            )
+        })
+        .prop_map(|(k, q, aerodynamic, stiffness_noise, g_noise)| {
+            let size = k.len();
+            let root =
+                (&q * DMatrix::from_diagonal(&k.map(f64::sqrt)) * q.transpose()).map(Complex::from);
+            let stiffness = &q * DMatrix::from_diagonal(&k) * q.transpose();
+            let small = |factor: f64| Complex::from(factor);
+            ComplexPencil {
+                stiffness: 0.5 * (&stiffness + stiffness.transpose()),
+                g: DMatrix::identity(size, size) + aerodynamic * small(0.02),
+                // Relative to the stiffness of the modes it acts on, as the change of a structure is.
+                stiffness_change: &root * stiffness_noise * &root * small(0.01),
+                g_change: g_noise * small(0.01),
+            }
+        })
+}
+
+/// A wing section that bends and twists, with an aileron: three DOF in quasi-steady flow at dynamic pressure `q`.
+///
+/// Springs in bending, torsion and aileron rotation; masses coupled by static unbalance. The flow's lift, moment
+/// and hinge moment follow twist and aileron in phase (stiffness-like, here part of $G$ as in the paper) and lag
+/// behind them (the imaginary part), and no force on the twist follows bending: complex and unsymmetric.
+pub fn aeroelastic_section(q: f64) -> (DMatrix<f64>, DMatrix<Complex<f64>>) {
+    let stiffness = nalgebra::dmatrix![1.0, 0.0, 0.0; 0.0, 1.5, -0.05; 0.0, -0.05, 0.4];
+    let mass = nalgebra::dmatrix![1.0, 0.2, 0.05; 0.2, 0.5, 0.06; 0.05, 0.06, 0.04];
+    let in_phase = nalgebra::dmatrix![0.1, 1.2, 0.5; 0.0, 0.3, 0.2; 0.0, 0.02, 0.05];
+    let lagging = nalgebra::dmatrix![0.8, 0.4, 0.1; -0.2, 0.3, 0.05; 0.0, 0.01, 0.02];
+    let g = DMatrix::from_fn(3, 3, |i, j| {
+        Complex::new(mass[(i, j)] + q * in_phase[(i, j)], -q * lagging[(i, j)])
+    });
+    (stiffness, g)
+}
+
+/// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.
+pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
+    let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&ground));
+    for ((i, j), spring) in [(0, 1), (1, 2), (0, 2)].into_iter().zip(between) {
+        stiffness[(i, i)] += spring;
+        stiffness[(j, j)] += spring;
+        stiffness[(i, j)] -= spring;
+        stiffness[(j, i)] -= spring;
+    }
+    stiffness
+}
+
+/// Real numbers in ascending order.
+pub fn ascending<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.into_iter().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+}
+
+/// Largest relative distance from each root to the nearest of `exact`, every exact one being used once.
+///
+/// Panics when two roots are nearest to the same exact one.
+pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64 {
+    assert_eq!(roots.len(), exact.len());
+    let mut used = vec![false; exact.len()];
+    roots
+        .iter()
+        .map(|root| {
+            let (nearest, distance) = exact
+                .iter()
+                .enumerate()
+                .map(|(i, other)| (i, (root - other).norm() / other.norm()))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .expect("there are roots");
+            assert!(
+                !used[nearest],
+                "two roots are nearest to {}",
+                exact[nearest]
+            );
+            used[nearest] = true;
+            distance
+        })
+        .fold(0.0, f64::max)
+}
