@@ -1,7 +1,7 @@
 //! The modal problem of one inner loop: everything a step needs, reduced to the analysis modes.
 
 use crate::error::Error;
-use crate::linalg::{check_shape, check_symmetric};
+use crate::linalg::{check_length, check_shape, check_symmetric};
 use crate::modes::Modes;
 use crate::objective::{Errors, errors};
 use crate::perturbation::{Perturbed, UpdateRule, normalize, perturb};
@@ -89,8 +89,9 @@ impl ModalProblem {
     /// $$ \beta = \sum_e (c_e - 1)\, V^t K_e V $$
     ///
     /// # Errors
-    /// Those of [`perturb`].
+    /// [`Error::WrongShape`] unless there is one factor per parameter; those of [`perturb`].
     pub fn state_at(&self, factors: Vec<f64>, rule: UpdateRule) -> Result<ModalState, Error> {
+        check_length("parameter factors", factors.len(), self.parameter_count())?;
         let count = self.start.len();
         let mut beta = DMatrix::zeros(count, count);
         for (share, factor) in self.generalized_shares.iter().zip(&factors) {
