@@ -13,9 +13,9 @@
 //! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
 //! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
 //!    [`model`] puts 1 to 4 together.
-//! 5. [`modes`]: frequencies and mass-orthonormal shapes.
+//! 5. [`modes`]: frequencies and mass-orthonormal shapes; [`spring_chain`]: structures with known ones.
 //! 6. [`sorting`] (4) and [`objective`] (5, 6): which mode is which, and how far apart they are.
-//! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
+//! 7. [`perturbation`] (Appendix C; [`two_dof`] is exact for two modes), [`derivatives`] (12), [`step`] (13): what each element does, and how much
 //!    to change it.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
 //! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
@@ -49,6 +49,7 @@ pub mod linalg;
 pub mod model;
 
 pub mod modes;
+pub mod spring_chain;
 
 pub mod objective;
 pub mod sorting;
@@ -56,6 +57,7 @@ pub mod sorting;
 pub mod derivatives;
 pub mod perturbation;
 pub mod step;
+pub mod two_dof;
 
 pub mod inner_loop;
 pub mod modal;
