@@ -208,6 +208,10 @@ fn shapes_by_linear_solution(
 ) -> Result<DMatrix<f64>, Error> {
     let size = k.len();
     let mut shapes = DMatrix::identity(size, size);
+    if size == 1 {
+        // One mode has no others, and the library's solution of an empty system panics.
+        return Ok(shapes);
+    }
     for j in 0..size {
         let others: Vec<usize> = (0..size).filter(|&i| i != j).collect();
         let mut system = beta.select_rows(&others).select_columns(&others);
