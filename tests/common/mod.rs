@@ -1,8 +1,10 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
 pub mod golden;
+pub mod pairings;
 pub mod strategies;
 pub mod tolerances;
+pub mod vibrations;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

@@ -19,3 +19,17 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
 /// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
 pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// Percent errors recomputed from frequencies printed to four digits: half a unit of the last digit of a frequency
+/// is 0.02 % of the lowest mode's, and nine of them are squared and summed.
+pub const PRINTED_PERCENT: f64 = 0.02;
+/// The recursion stops when roots change by less than 1e-13; with changes of some percent each order gains a digit
+/// or more, so that what is left is a fraction of that and round-off. Shapes follow the roots times the spread of the
+/// spectrum.
+pub const CONVERGED_RECURSION: f64 = 1e-12;
+/// Slopes this near an order are that order: half way to the next one.
+pub const ORDER_SLACK: f64 = 0.45;
+/// Errors below this are round-off of roots near one, a few hundred units in the last place.
+pub const MEASURABLE_ERROR: f64 = 5e-14;
+/// Coefficient of the third-order term of a root relative to the largest stiffness, with neighbours a factor of two apart and
+/// couplings up to one: three modes, two gaps of half the stiffness each.
+pub const SECOND_ORDER_REMAINDER: f64 = 200.0;
