@@ -1,6 +1,8 @@
 //! Mode sorting (4): every test mode gets its own analysis mode, whatever the order and signs they come in.
 
-use crate::common::pairings::{cross, cross_with_ties, noisy_pairs, rearrangement};
+use crate::common::pairings::{
+    cross, cross_with_ties, noisy_pairs, pairs_by_sorting, rearrangement,
+};
 use crate::common::strategies::orthogonal;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain, pencil};
@@ -9,22 +11,6 @@ use corfem::modes::{Modes, solve};
 use corfem::sorting::{Pairing, cross_orthogonality, matched, modal_assurance, pair_modes};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
-
-/// The slow, obvious pairing: all pairs in the order of their claims, each made unless one of its modes is taken.
-fn pairs_by_sorting(cross: &DMatrix<f64>) -> Vec<usize> {
-    let mut claims: Vec<(f64, usize, usize)> = (0..cross.ncols())
-        .flat_map(|j| (0..cross.nrows()).map(move |i| (j, i)))
-        .map(|(j, i)| ((cross[(i, j)].abs() - 1.0).abs(), j, i))
-        .collect();
-    claims.sort_by(|a, b| a.partial_cmp(b).unwrap());
-    let mut pairs = vec![None; cross.ncols()];
-    for (_, j, i) in claims {
-        if pairs[j].is_none() && !pairs.contains(&Some(i)) {
-            pairs[j] = Some(i);
-        }
-    }
-    pairs.into_iter().map(Option::unwrap).collect()
-}
 
 fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
     assert_eq!(pairing.analysis_mode.len(), cross.ncols());

@@ -1,5 +1,7 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod boxes;
+pub mod counting_allocator;
 pub mod golden;
 pub mod pairings;
 pub mod strategies;

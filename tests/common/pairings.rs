@@ -89,3 +89,19 @@ pub fn noisy_pairs() -> impl Strategy<Value = (DMatrix<f64>, Rearrangement)> {
             })
     })
 }
+
+/// The slow, obvious pairing: all pairs in the order of their claims, each made unless one of its modes is taken.
+pub fn pairs_by_sorting(cross: &DMatrix<f64>) -> Vec<usize> {
+    let mut claims: Vec<(f64, usize, usize)> = (0..cross.ncols())
+        .flat_map(|j| (0..cross.nrows()).map(move |i| (j, i)))
+        .map(|(j, i)| ((cross[(i, j)].abs() - 1.0).abs(), j, i))
+        .collect();
+    claims.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    let mut pairs = vec![None; cross.ncols()];
+    for (_, j, i) in claims {
+        if pairs[j].is_none() && !pairs.contains(&Some(i)) {
+            pairs[j] = Some(i);
+        }
+    }
+    pairs.into_iter().map(Option::unwrap).collect()
+}

@@ -1,6 +1,7 @@
 //! Strategies of vibrating systems: pencils, modal problems under a change, chains of springs; and the slow, obvious
 //! ways of computing what the crate computes, through nalgebra where the crate goes through faer.
 
+use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
 use corfem::modal::DynamicModel;
 use corfem::modes::Modes;
@@ -179,19 +180,20 @@ pub fn modes_by_nalgebra(
     )
 }
 
-/// The error sum written from its definition on exact modes through nalgebra: modes paired in ascending order, which
-/// is right for chains whose springs change by less than half, signs by the mass-weighted product.
+/// The error sum written from its definition on all exact modes through nalgebra, paired and signed by their
+/// mass-weighted products.
 pub fn error_sum_by_definition(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     test: &Modes,
 ) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
+    let cross = shapes.transpose() * mass * &test.shapes;
     let (mut frequency, mut shape) = (0.0, 0.0);
-    for i in 0..test.omega_squared.len() {
-        let (analysis, measured) = (shapes.column(i), test.shapes.column(i));
-        frequency += (omega_squared[i].sqrt() / test.omega_squared[i].sqrt() - 1.0).powi(2);
-        let sign = analysis.dot(&(mass * measured)).signum();
+    for (j, i) in pairs_by_sorting(&cross).into_iter().enumerate() {
+        let (analysis, measured) = (shapes.column(i), test.shapes.column(j));
+        frequency += (omega_squared[i].sqrt() / test.omega_squared[j].sqrt() - 1.0).powi(2);
+        let sign = cross[(i, j)].signum();
         let difference = sign * analysis / analysis.amax() - measured / measured.amax();
         shape += difference.norm_squared() / difference.len() as f64;
     }
