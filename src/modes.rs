@@ -60,7 +60,7 @@ impl Modes {
     /// # Errors
     /// [`Error::WrongShape`] for a mass that does not fit; [`Error::NotPositive`] for a generalized mass that is not.
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
-        check_shape("mode shapes", &self.shapes, mass.nrows(), self.len())?;
+        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
         let mut shapes = self.shapes.clone();
         scale_to_unit_mass(&mut shapes, mass)?;
         Ok(Self {

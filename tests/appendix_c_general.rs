@@ -156,17 +156,13 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let base = LeftRightModes::from(&modes);
     assert_eq!(base.left, base.right);
     assert_eq!(base.right, modes.shapes);
-    let stiffness_change = three_mass_chain([0.05, 0.0, 0.0], [0.0, 0.1, -0.2]);
+    let share_change = three_mass_chain([0.05, 0.0, 0.0], [0.0, 0.1, -0.2]);
     let mass_change = DMatrix::from_diagonal(&dvector![0.0, 0.15, -0.03]);
-    let change = ModalChange::new(&stiffness, &base, &stiffness_change, &mass_change).unwrap();
+    let change = ModalChange::new(&stiffness, &base, &share_change, &mass_change).unwrap();
     assert!((&change.generalized_stiffness - &modes.omega_squared).amax() < MATRIX_ROUND_OFF);
     let converged = perturb_with_mass(&change, UpdateRule::default()).unwrap();
-    let exact = corfem::modes::solve(
-        &(&stiffness + &stiffness_change),
-        &(&mass + &mass_change),
-        3,
-    )
-    .unwrap();
+    let exact =
+        corfem::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3).unwrap();
     let found = ascending(converged.roots.map(f64::recip).iter());
     for (found, exact) in found.iter().zip(exact.omega_squared.iter()) {
         assert!(

@@ -158,8 +158,10 @@ where
     T: ComplexField<RealField = f64> + Copy,
 {
     let now = first_order(change)?;
+    let roots = explicit_roots(change, &now.shapes)?;
     finite(Perturbed {
-        roots: explicit_roots(change, &now.shapes)?,
+        last_change: largest_change(&now.roots, &roots),
+        roots,
         order: 2,
         ..now
     })

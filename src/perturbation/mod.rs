@@ -16,6 +16,7 @@ pub mod recursive;
 
 pub use close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots, first_order_held};
 pub use modal_change::ModalChange;
+pub(crate) use recursive::{check_input, check_root};
 pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
 
 use crate::error::Error;
@@ -140,11 +141,13 @@ pub fn perturb_with_mass(change: &ModalChange<f64>, rule: UpdateRule) -> Result<
 /// are most like, so that column $j$ continues mode $j$.
 ///
 /// # Errors
-/// Those of [`crate::modes::solve`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+/// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; those of [`crate::modes::solve`];
+/// [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
 pub fn eigensolution(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
 ) -> Result<Perturbed, Error> {
+    check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
     let changed = DMatrix::from_diagonal(generalized_stiffness) + beta;
     let modes = crate::modes::solve(&changed, &DMatrix::identity(size, size), size)?;

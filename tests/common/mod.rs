@@ -1,9 +1,13 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
 pub mod appendix_c;
+pub mod boxes;
+pub mod counting_allocator;
 pub mod golden;
+pub mod pairings;
 pub mod strategies;
 pub mod tolerances;
+pub mod vibrations;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
