@@ -7,6 +7,7 @@ pub mod elements;
 pub mod assembly;
 pub mod condensation;
 pub mod modes;
+pub mod test_modes;
 pub mod sorting;
 pub mod objective;
 pub mod perturbation;

@@ -1,5 +1,6 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod measured;
 pub mod strategies;
 pub mod tolerances;
 
