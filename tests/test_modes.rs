@@ -8,6 +8,7 @@ mod examine_by_hand;
 mod orthogonalize;
 mod orthogonalize_by_hand;
 mod rigid_body;
+mod strategies;
 
 use corfem::modes::Modes;
 use corfem::test_modes::Movement;

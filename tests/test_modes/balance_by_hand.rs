@@ -135,6 +135,25 @@ fn the_stiffest_suspension_mode_decides() {
 }
 
 #[test]
+fn a_suspension_at_the_limit_is_allowed() {
+    // One mass of the three on a spring, and its motion the only rigid-body vector: μ is the spring's rate exactly.
+    let raw = modes(&[100.0], dmatrix![1.0; 1.0; 0.0]);
+    let rate = LARGEST_SUSPENSION_RATIO * 100.0;
+    let stiffness = DMatrix::from_diagonal(&dvector![rate, 0.0, 0.0]);
+    let outcome = balance(
+        &raw,
+        &stiffness,
+        &DMatrix::identity(3, 3),
+        &dmatrix![1.0; 0.0; 0.0],
+    );
+    assert_relative_eq!(
+        outcome.unwrap().shapes,
+        dmatrix![0.0; 1.0; 0.0],
+        epsilon = ROUND_OFF
+    );
+}
+
+#[test]
 fn the_wing_box_on_its_root_is_refused() {
     let case = corfem::cases::Case::new(1).unwrap();
     let model = case.model().unwrap();

@@ -1,11 +1,12 @@
 //! Orthogonal test modes (B.6, B.7) on two and three shapes, and what is refused.
 
 use super::modes;
-use crate::common::tolerances::ROUND_OFF;
+use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::error::Error;
 use corfem::test_modes::{generalized_mass, orthogonalize};
 use nalgebra::{DMatrix, dmatrix};
+use std::f64::consts::PI;
 
 #[test]
 fn generalized_mass_by_hand() {
@@ -69,6 +70,34 @@ fn equal_shapes_are_dependent_in_faer_s_own_pivot_too() {
     assert!(
         matches!(outcome, Err(Error::DependentTestShape { mode: 2 })),
         "{outcome:?}"
+    );
+}
+
+#[test]
+fn round_off_of_a_product_is_no_overlap() {
+    // Two modes of one frequency turn by 45 degrees for any overlap at all, so round-off must not count as one.
+    let movement = |overlap: f64| {
+        let shapes = dmatrix![1.0, overlap; 0.0, 1.0];
+        let found = orthogonalize(&modes(&[4.0, 4.0], shapes), &DMatrix::identity(2, 2)).unwrap();
+        found.movement[0].shape
+    };
+    assert_eq!(movement(0.999e-12), 0.0);
+    for overlap in [1e-12, -1e-12, 1.001e-12] {
+        let turned = 2.0 * (PI / 8.0).sin();
+        assert_relative_eq!(movement(overlap), turned, max_relative = ORTHOGONAL_INPUT);
+    }
+}
+
+#[test]
+fn overlaps_are_reported_between_unit_shapes() {
+    let mass = dmatrix![4.0, 0.0; 0.0, 1.0];
+    let found = orthogonalize(&modes(&[1.0, 9.0], dmatrix![3.0, 1.0; 0.0, 2.0]), &mass).unwrap();
+    // Mass products: 36, 12 and 8.
+    let overlap = 12.0 / (36.0_f64 * 8.0).sqrt();
+    assert_relative_eq!(
+        found.overlap,
+        dmatrix![1.0, overlap; overlap, 1.0],
+        max_relative = ROUND_OFF
     );
 }
 
