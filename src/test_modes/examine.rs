@@ -114,7 +114,8 @@ pub struct Examination {
 /// all the others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$, and the rest are orthogonalized anew from their balanced
 /// shapes, as if it had never been measured. A single wrong mode with something of several others in it is thus
 /// found wherever it lies in the spectrum. Two modes that overlap each other alone do not tell which is wrong; then
-/// the one that moved farther goes, which is the higher.
+/// the one that moved farther goes, which is the higher. Several
+/// wrong modes that are mixed among each other are not always told apart from good ones.
 ///
 /// Every combination of balanced modes of a free structure is balanced; on a soft suspension it is nearly so.
 ///
@@ -206,13 +207,11 @@ fn most_overlapping(result: &Orthogonalized, limits: &Limits) -> usize {
             .map(|other| result.overlap[(other, place)].powi(2))
             .sum()
     };
-    let mut worst = 0;
-    for place in 1..count {
-        let farther =
-            limits.excess(&result.movement[place]) > limits.excess(&result.movement[worst]);
-        if total(place) > total(worst) || (total(place) == total(worst) && farther) {
-            worst = place;
-        }
-    }
-    worst
+    let own = |place: usize| limits.excess(&result.movement[place]);
+    (0..count)
+        .max_by(|&a, &b| {
+            let by_movement = || own(a).total_cmp(&own(b));
+            total(a).total_cmp(&total(b)).then_with(by_movement)
+        })
+        .unwrap_or(0)
 }
