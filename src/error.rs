@@ -335,6 +335,34 @@ pub enum Error {
         /// The operating system's message.
         source: std::io::Error,
     },
+    /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
+    #[error(
+        "rigid-body vector {vector} (from zero): expected a motion independent of those before it, found a combination of them at the dynamic degrees of freedom"
+    )]
+    DependentRigidBody {
+        /// The first dependent vector, from zero.
+        vector: usize,
+    },
+    /// A structure on supports, where the reactions balance the forces of a mode.
+    #[error(
+        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there, so its modes must not be balanced"
+    )]
+    Supported {
+        /// The first mode with too large a ratio, from zero.
+        mode: usize,
+        /// Largest squared suspension frequency over the mode's.
+        ratio: f64,
+        /// The largest ratio allowed.
+        limit: f64,
+    },
+    /// A test shape that is a combination of others.
+    #[error(
+        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
+    )]
+    DependentTestShape {
+        /// The first dependent mode, from zero.
+        mode: usize,
+    },
 }
 
 impl Error {

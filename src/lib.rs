@@ -14,7 +14,7 @@
 //! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
 //!    [`model`] puts 1 to 4 together, with the [`parameters`] that may change.
 //! 5. [`modes`]: frequencies and mass-orthonormal shapes ([`complex_modes`] with aerodynamic terms;
-//!    [`spring_chain`]: structures whose modes are known).
+//!    [`spring_chain`]: structures whose modes are known); [`test_modes`] (Appendix B): measured ones made fit to compare.
 //! 6. [`sorting`] (4) and [`objective`] (5, 6): which mode is which, and how far apart they are.
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
 //!    to change it; [`table_1`] compares the perturbation formulae on two
@@ -54,6 +54,7 @@ pub mod parameters;
 pub mod complex_modes;
 pub mod modes;
 pub mod spring_chain;
+pub mod test_modes;
 
 pub mod objective;
 pub mod sorting;

@@ -78,10 +78,12 @@ proptest! {
         let problem = problem(&chain, &truth);
         let model = chain.model(factors);
         let expected = error_sum_by_definition(&model.stiffness, &model.mass, &problem.test);
-        for rule in [UpdateRule::Eigensolution, UpdateRule::default()] {
+        // Where roots are close the recursion gains little an order: the usual 60 are a cap, not a promise.
+        let patient = UpdateRule::Recursive1Converged { tolerance: 1e-13, orders: 3000 };
+        for rule in [UpdateRule::Eigensolution, patient] {
             let state = problem.state_at(factors.to_vec(), rule).unwrap();
             prop_assert_eq!(&state.factors[..], factors);
-            prop_assert!((state.errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule:?}");
+            prop_assert!((state.errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule:?} {:e}", state.errors.sum() - expected);
             let v = &state.modes.shapes;
             prop_assert_eq!(v.shape(), (count, count));
             let mass = v.tr_mul(&(&model.mass * v));

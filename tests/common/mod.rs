@@ -4,6 +4,7 @@ pub mod appendix_c;
 pub mod boxes;
 pub mod counting_allocator;
 pub mod golden;
+pub mod measured;
 pub mod pairings;
 pub mod strategies;
 pub mod tolerances;
