@@ -1,6 +1,7 @@
 //! temp
 pub mod error;
 pub mod quadrature;
+pub mod analytical;
 pub mod linalg;
 pub mod structure;
 pub mod elements;
