@@ -2,9 +2,14 @@
 
 mod common;
 
+mod quadrature;
+mod linalg;
 mod structure;
 mod elements;
+mod elements_shear;
+mod elements_membrane;
 mod elements_nastran95;
+mod torque_box_nastran95;
 mod assembly;
 mod condensation;
 mod modes;

@@ -1,5 +1,8 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod matrices;
+pub mod nastran95;
+pub mod panels;
 pub mod strategies;
 pub mod tolerances;
 
