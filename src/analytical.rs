@@ -72,7 +72,9 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
     let (xb, yb) = meeting_of_sides_14_23(plane);
     let l = (xa - xb).hypot(yb);
     let d = (xa - xb) / yb;
-    let p = plane.corners.map(|corner| yb / l * (xa - corner.x - d * corner.y));
+    let p = plane
+        .corners
+        .map(|corner| yb / l * (xa - corner.x - d * corner.y));
     let c = l / p[0] - d;
     let b = l / p[3] - c;
     let a = l / p[1] - d;

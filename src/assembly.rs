@@ -3,7 +3,7 @@
 use crate::elements::unit_stiffness;
 use crate::error::Error;
 use crate::linalg::{check_shape, cholesky};
-use crate::structure::{DIRECTIONS, Structure, StructuralDof, positive};
+use crate::structure::{DIRECTIONS, StructuralDof, Structure, positive};
 use faer::Side;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
@@ -173,9 +173,11 @@ impl FactorizedStiffness {
             self.scale[row] * loads[(row, column)]
         });
         self.factor.solve_in_place(&mut right);
-        Ok(DMatrix::from_fn(loads.nrows(), loads.ncols(), |row, column| {
-            self.scale[row] * right[(row, column)]
-        }))
+        Ok(DMatrix::from_fn(
+            loads.nrows(),
+            loads.ncols(),
+            |row, column| self.scale[row] * right[(row, column)],
+        ))
     }
 }
 
@@ -191,7 +193,11 @@ fn factorize_scaled(
     let mut triplets: Vec<_> = (0..size).map(|i| Triplet::new(i, i, shift)).collect();
     for_each_entry(elements, sizes, |row, column, value| {
         if row >= column {
-            triplets.push(Triplet::new(row, column, value * scale[row] * scale[column]));
+            triplets.push(Triplet::new(
+                row,
+                column,
+                value * scale[row] * scale[column],
+            ));
         }
     })?;
     let matrix = SparseColMat::try_new_from_triplets(size, size, &triplets).map_err(|_| {

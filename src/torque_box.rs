@@ -163,13 +163,16 @@ pub fn structure(
         size: panel.gage,
         material,
     });
-    let rods = rod_ends().into_iter().enumerate().map(|(row, ends)| Element {
-        label: PANEL_COUNT + 1 + row,
-        kind: ElementKind::Rod,
-        grids: ends.to_vec(),
-        size: rod_area,
-        material,
-    });
+    let rods = rod_ends()
+        .into_iter()
+        .enumerate()
+        .map(|(row, ends)| Element {
+            label: PANEL_COUNT + 1 + row,
+            kind: ElementKind::Rod,
+            grids: ends.to_vec(),
+            size: rod_area,
+            material,
+        });
     Structure::new(grids, panels.chain(rods).collect())
 }
 

@@ -20,7 +20,9 @@ fn linear_motion(corners: &[Vector3<f64>], gradient: &Matrix3<f64>) -> DVector<f
     let from = corners[0];
     DVector::from_iterator(
         3 * corners.len(),
-        corners.iter().flat_map(|corner| (gradient * (corner - from)).data.0[0]),
+        corners
+            .iter()
+            .flat_map(|corner| (gradient * (corner - from)).data.0[0]),
     )
 }
 
@@ -34,7 +36,9 @@ fn energy_density(plane: [Vector3<f64>; 3], gradient: &Matrix3<f64>, material: &
     let along = (plane[1] - plane[0]).normalize();
     let normal = along.cross(&(plane[2] - plane[0])).normalize();
     let across = normal.cross(&along);
-    let strain = |u: &Vector3<f64>, v: &Vector3<f64>| 0.5 * (u.dot(&(gradient * v)) + v.dot(&(gradient * u)));
+    let strain = |u: &Vector3<f64>, v: &Vector3<f64>| {
+        0.5 * (u.dot(&(gradient * v)) + v.dot(&(gradient * u)))
+    };
     let trace = strain(&along, &along) + strain(&across, &across);
     let determinant =
         strain(&along, &along) * strain(&across, &across) - strain(&along, &across).powi(2);
@@ -101,19 +105,37 @@ proptest! {
 /// Right triangle with unit legs along x and y; the constant strains are differences of corner motions.
 #[test]
 fn a_right_triangles_stiffness_is_the_hand_result() {
-    let material = Material { youngs_modulus: 1.0, poissons_ratio: 0.25, shear_modulus: 0.4 };
+    let material = Material {
+        youngs_modulus: 1.0,
+        poissons_ratio: 0.25,
+        shear_modulus: 0.4,
+    };
     let found = triangle([Vector3::zeros(), Vector3::x(), Vector3::y()], &material).unwrap();
-    let strain = DMatrix::from_row_slice(3, 9, &[
-        -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, // u2 − u1
-        0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, // v3 − v1
-        -1.0, -1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, // u3 − u1 + v2 − v1
-    ]);
+    let strain = DMatrix::from_row_slice(
+        3,
+        9,
+        &[
+            -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, // u2 − u1
+            0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, // v3 − v1
+            -1.0, -1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, // u3 − u1 + v2 − v1
+        ],
+    );
     // E/(1 − ν²) = 16/15, ν times it 4/15, and G as given.
-    let elasticity = DMatrix::from_row_slice(3, 3, &[
-        16.0 / 15.0, 4.0 / 15.0, 0.0,
-        4.0 / 15.0, 16.0 / 15.0, 0.0,
-        0.0, 0.0, 0.4,
-    ]);
+    let elasticity = DMatrix::from_row_slice(
+        3,
+        3,
+        &[
+            16.0 / 15.0,
+            4.0 / 15.0,
+            0.0,
+            4.0 / 15.0,
+            16.0 / 15.0,
+            0.0,
+            0.0,
+            0.0,
+            0.4,
+        ],
+    );
     let by_hand = 0.5 * strain.transpose() * elasticity * strain;
     assert!(relative_distance(&found, &by_hand) <= ROUND_OFF);
 }

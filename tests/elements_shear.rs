@@ -2,12 +2,16 @@
 
 use crate::common::log_log_slope;
 use crate::common::matrices::relative_distance;
-use crate::common::panels::{distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid, warped_panel};
+use crate::common::panels::{
+    distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid,
+    warped_panel,
+};
 use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
 use corfem::analytical::{
-    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
+    sides_14_23_parallel_energy,
 };
 use corfem::elements::panel::{MeanPlane, mean_plane};
 use corfem::elements::shear::{corner_forces, energy_coefficient, shear_panel};
@@ -120,7 +124,8 @@ proptest! {
 #[test]
 fn a_rectangles_stiffness_is_the_hand_result() {
     let (length, width) = (4.0, 3.0);
-    let corners = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 1.0));
+    let corners = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)]
+        .map(|(x, y)| Vector3::new(x, y, 1.0));
     let material = aluminum();
     // A flow of one along each side, half of it to each of the side's corners.
     let (fx, fy) = (length / 2.0, width / 2.0);
@@ -143,7 +148,8 @@ fn a_rectangles_stiffness_is_the_hand_result() {
 fn sides_become_parallel_without_a_jump() {
     let material = aluminum();
     let energy = |tilt: f64| {
-        let corners = [(0.0, 0.0), (6.0, 0.0), (5.0, 4.0 - tilt), (0.5, 4.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
+        let corners = [(0.0, 0.0), (6.0, 0.0), (5.0, 4.0 - tilt), (0.5, 4.0)]
+            .map(|(x, y)| Vector3::new(x, y, 0.0));
         energy_coefficient(&mean_plane(&corners).unwrap(), &material)
     };
     let parallel = energy(0.0);
@@ -151,6 +157,9 @@ fn sides_become_parallel_without_a_jump() {
         .map(|tilt| (tilt, (energy(tilt) / parallel - 1.0).abs()))
         .to_vec();
     let slope = log_log_slope(&points);
-    assert!((slope - 1.0).abs() < crate::common::tolerances::SLOPE, "slope {slope}");
+    assert!(
+        (slope - 1.0).abs() < crate::common::tolerances::SLOPE,
+        "slope {slope}"
+    );
     assert!((energy(1e-12) / parallel - 1.0).abs() < ELEMENT_ROUND_OFF);
 }

@@ -4,6 +4,7 @@ pub mod matrices;
 pub mod nastran95;
 pub mod panels;
 pub mod strategies;
+pub mod structures;
 pub mod tolerances;
 
 use proptest::test_runner::{Config, FileFailurePersistence};

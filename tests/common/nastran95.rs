@@ -41,7 +41,9 @@ impl StoredElement {
             "shear" => ElementKind::ShearPanel,
             "membrane" => ElementKind::Membrane,
             "triangle" => {
-                let [a, b, c] = corners[..] else { panic!("{}: three grids", self.name) };
+                let [a, b, c] = corners[..] else {
+                    panic!("{}: three grids", self.name)
+                };
                 return self.thickness.unwrap() * triangle([a, b, c], &material).unwrap();
             }
             other => panic!("{}: unknown kind {other}", self.name),
@@ -119,7 +121,9 @@ impl StoredBoxes {
             size: stored.rod_area,
             material,
         });
-        let elements = panels.filter(|panel| !stored.omitted.contains(&panel.label)).chain(rods);
+        let elements = panels
+            .filter(|panel| !stored.omitted.contains(&panel.label))
+            .chain(rods);
         Structure::new(grids.collect(), elements.collect()).unwrap()
     }
 }
@@ -149,9 +153,12 @@ pub fn boxes() -> StoredBoxes {
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
     use corfem::analytical::{
-        no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+        no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
+        sides_14_23_parallel_energy,
     };
-    let [a, b, c, d] = corners[..] else { panic!("four corners") };
+    let [a, b, c, d] = corners[..] else {
+        panic!("four corners")
+    };
     let plane = corfem::elements::panel::mean_plane(&[a, b, c, d]).unwrap();
     let [_, c2, c3, c4] = plane.corners;
     let tangent = 0.01;

@@ -26,7 +26,8 @@ pub fn flat_panel() -> impl Strategy<Value = [Vector3<f64>; 4]> {
         .prop_map(|(cuts, skew, doublings)| {
             let size = doublings.exp2();
             std::array::from_fn(|corner| {
-                let angle = (90.0 * corner as f64 + if corner % 2 == 1 { skew } else { 0.0 }).to_radians();
+                let angle =
+                    (90.0 * corner as f64 + if corner % 2 == 1 { skew } else { 0.0 }).to_radians();
                 (1.0 - cuts[corner]) * size * Vector3::new(angle.cos(), angle.sin(), 0.0)
             })
         })
@@ -49,7 +50,12 @@ pub fn trapezoid() -> impl Strategy<Value = [Vector3<f64>; 4]> {
         |(base, taper, lean, height)| {
             let at = |x: f64, y: f64| Vector3::new(base * x, base * y, 0.0);
             let left = 0.5 * taper + lean;
-            [at(0.0, 0.0), at(1.0, 0.0), at(left + 1.0 - taper, height), at(left, height)]
+            [
+                at(0.0, 0.0),
+                at(1.0, 0.0),
+                at(left + 1.0 - taper, height),
+                at(left, height),
+            ]
         },
     )
 }
@@ -122,9 +128,10 @@ impl Sample {
     pub fn stiffness(&self) -> DMatrix<f64> {
         match self.kind {
             Kind::Element(kind) => unit_stiffness(kind, &self.corners, &self.material),
-            Kind::Triangle => {
-                triangle([self.corners[0], self.corners[1], self.corners[2]], &self.material)
-            }
+            Kind::Triangle => triangle(
+                [self.corners[0], self.corners[1], self.corners[2]],
+                &self.material,
+            ),
         }
         .expect("a sound element")
     }
@@ -132,13 +139,19 @@ impl Sample {
     /// The same element turned about the origin.
     pub fn turned(&self, turn: &Rotation3<f64>) -> Self {
         let corners = self.corners.iter().map(|corner| turn * corner).collect();
-        Self { corners, ..self.clone() }
+        Self {
+            corners,
+            ..self.clone()
+        }
     }
 
     /// The same element with its corners named in another order.
     pub fn renumbered(&self, order: &[usize]) -> Self {
         let corners = order.iter().map(|&corner| self.corners[corner]).collect();
-        Self { corners, ..self.clone() }
+        Self {
+            corners,
+            ..self.clone()
+        }
     }
 
     /// Rank the theory gives its stiffness.

@@ -6,6 +6,12 @@ pub const ROUND_OFF: f64 = 1e-13;
 pub const MATRIX_ROUND_OFF: f64 = 1e-11;
 /// Round-off of a solution per unit of its matrix's condition number: some ten roundings of a dozen DOF.
 pub const CONDITIONED_ROUND_OFF: f64 = 1e-13;
+/// Two routes to the free motion of a mechanism, of its largest component: inverse iteration sheds the other motions to
+/// 1e-10 a step.
+pub const SAME_MOTION: f64 = 1e-6;
+/// Part of the mean motion above which a DOF takes part in it; the one that moves most has at least all of it in one of
+/// several free motions, and the mean over all of them is not much more.
+pub const TAKES_PART: f64 = 1e-2;
 /// Eigenvalue over the largest of its matrix below which it is zero: element matrices leave 1e-15 where the theory has
 /// zero, and the strategies' panels have nothing below 1e-3 where it has not.
 pub const RANK_THRESHOLD: f64 = 1e-9;
