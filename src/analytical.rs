@@ -61,7 +61,7 @@ pub fn sides_14_23_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
 ///
 /// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{1}{2G} \Big(A + \frac{4}{1+\nu}\big(F - \tfrac23 A\big)\Big), $$
 /// $$ F = \frac{p_1 p_2 p_3 p_4}{2 l^2} \Big( w(a,b) + w(c,D) - w(b,c) - w(D,a)
-///    + \tfrac{1}{10}\big((a^2-c^2)(b^3-D^3) + (b^2-D^2)(a^3-c^3)\big) $$
+///    {} + \tfrac{1}{10}\big((a^2-c^2)(b^3-D^3) + (b^2-D^2)(a^3-c^3)\big) $$
 /// $$ \qquad - \tfrac15 \big((a-c)(b^4-D^4) + (b-D)(a^4-c^4)\big) \Big), $$
 /// $$ w(u,v) = \big(u + v + \tfrac23 (u^3+v^3) + \tfrac15 (u^5+v^5)\big) \ln|u+v| . $$
 ///

@@ -102,6 +102,23 @@ proptest! {
         prop_assert!(named, "{refused:?}, not {dof}");
     }
 
+    /// A pivot that is too small hides behind the factorization's own failure at a later one; the first is named.
+    #[test]
+    fn of_two_bad_pivots_the_first_is_named((size, first, later) in (3..12_usize).prop_flat_map(|n| {
+        (Just(n), 1..n - 1).prop_flat_map(|(n, first)| (Just(n), Just(first), first + 1..n))
+    })) {
+        let mut matrix = DMatrix::identity(size, size);
+        matrix[(first, 0)] = 1.0 - 1e-9;
+        matrix[(0, first)] = 1.0 - 1e-9;
+        matrix[(later, later)] = -1.0;
+        let refused = cholesky("test matrix", &matrix, 1e-8);
+        let named = matches!(refused, Err(Error::NotPositiveDefinite { dof, .. }) if dof == first);
+        prop_assert!(named, "{refused:?}, not {first}");
+        let refused = cholesky("test matrix", &matrix, 1e-10);
+        let named = matches!(refused, Err(Error::NotPositiveDefinite { dof, .. }) if dof == later);
+        prop_assert!(named, "{refused:?}, not {later}");
+    }
+
     /// Two rows of a diagonal matrix coupled so that the second's pivot is `ratio` of its diagonal entry.
     #[test]
     fn a_pivot_below_the_stated_part_of_its_diagonal_is_refused(

@@ -1,5 +1,6 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod boxes;
 pub mod matrices;
 pub mod nastran95;
 pub mod panels;

@@ -89,7 +89,7 @@ pub struct StoredBoxes {
     /// On z of each free grid, lbf·s²/in.
     pub mass: f64,
     panels: Vec<[usize; 4]>,
-    rods: Vec<[usize; 2]>,
+    pub rods: Vec<[usize; 2]>,
     #[serde(rename = "box")]
     pub boxes: Vec<StoredBox>,
 }

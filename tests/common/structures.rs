@@ -2,6 +2,8 @@
 
 use corfem::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
 use corfem::error::Error;
+use corfem::model::{FiniteElementModel, Parameter};
+use corfem::step::Range;
 use corfem::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -44,6 +46,26 @@ pub fn spring_chain(springs: &[f64], held: [bool; 2]) -> Structure {
         .map(|(&spring, label)| rod(label, [label, label + 1], spring))
         .collect();
     Structure::new(grids, rods).expect("a chain")
+}
+
+/// Elements that change together.
+pub fn group(name: &str, elements: &[usize], size_range: Option<Range>) -> Parameter {
+    Parameter {
+        name: name.to_owned(),
+        elements: elements.to_vec(),
+        size_range,
+    }
+}
+
+/// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
+pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
+    let identity = DMatrix::identity(3, 3);
+    FiniteElementModel::new(
+        spring_chain(&[2.0, 4.0, 8.0], [true, false]),
+        identity.clone(),
+        identity,
+        parameters,
+    )
 }
 
 /// A four-bar linkage in the xz-plane: grids 1 and 2 fixed, 3 and 4 free in the plane, rods 1-4, 4-3, 3-2 and, if it is
