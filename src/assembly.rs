@@ -1,5 +1,6 @@
 //! Assembly of the structural stiffness from unit element matrices, and its factorization.
 
+use crate::elements::mass::corner_volumes;
 use crate::elements::unit_stiffness;
 use crate::error::Error;
 use crate::linalg::{check_shape, cholesky};
@@ -25,6 +26,8 @@ pub struct ElementMatrix {
     pub dof: Vec<usize>,
     /// Stiffness for a gage of 1 in or an area of 1 in², lbf/in.
     pub unit: DMatrix<f64>,
+    /// Lumped mass for the same size at the same DOF, lbf·s²/in; zero for a material without density.
+    pub unit_mass: DVector<f64>,
 }
 
 /// Unit stiffness of every element, restricted to the free DOF, in the structure's order.
@@ -48,8 +51,13 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
                     Some((local, structure.free_dof_index(grid, direction)?))
                 })
                 .unzip();
+            let volumes = corner_volumes(element.kind, &corners)?;
+            let unit_mass = local
+                .iter()
+                .map(|&row| element.material.density * volumes[row / 3]);
             Ok(ElementMatrix {
                 label: element.label,
+                unit_mass: DVector::from_iterator(dof.len(), unit_mass),
                 unit: full.select_rows(&local).select_columns(&local),
                 dof,
             })

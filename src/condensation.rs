@@ -66,3 +66,13 @@ pub fn unit_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMa
     let rows = transformation.select_rows(&element.dof);
     crate::linalg::symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
 }
+
+/// Unit-size share of an element in the dynamic mass, $B M_e B^t$ (A.9) with the lumped $M_e$, lbf·s²/in (d × d).
+pub fn unit_mass_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+    let rows = transformation.select_rows(&element.dof);
+    let mut weighted = rows.clone();
+    for (mut row, &mass) in weighted.row_iter_mut().zip(element.unit_mass.iter()) {
+        row *= mass;
+    }
+    crate::linalg::symmetric_part(&rows.tr_mul(&weighted))
+}

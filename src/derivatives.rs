@@ -1,9 +1,9 @@
 //! Derivatives of the error sum (12): a 0.1 % change of each parameter by first-order perturbation.
 
 use crate::error::Error;
-use crate::modal::{ModalProblem, ModalState};
+use crate::modal::{ModalProblem, ModalState, Share};
 use crate::objective::squared_shape_difference;
-use crate::perturbation::recursive::first_order_into;
+use crate::perturbation::recursive::{first_order_into, first_order_mass_into};
 use nalgebra::{DMatrix, DVector};
 
 /// Relative change of a parameter's stiffness for a derivative.
@@ -12,16 +12,16 @@ pub const DERIVATIVE_STEP: f64 = 0.001;
 /// What a small change of each parameter does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
-    /// Change of the error sum, $\Delta e_e = e_f + e_v - e_S$, for $\Delta K = 0.001\, c_e K_e$.
+    /// Change of the error sum, $\Delta e_e = e_f + e_v - e_S$, for $\Delta K = 0.001\, c_e K_e$ or $\Delta M = 0.001\, c_e M_e$.
     pub error_change: Vec<f64>,
-    /// The same change's relative generalized stiffness on the test modes, one column per parameter
+    /// The same change's relative generalized stiffness or mass on the test modes, one column per parameter
     /// (test modes × parameters).
-    pub stiffness_change: DMatrix<f64>,
+    pub share_change: DMatrix<f64>,
 }
 
 /// $\Delta e$ and $\Delta k$ of (12) for every parameter at the present state.
 ///
-/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ with the present modes $V$; roots and shapes follow by first order
+/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by first order
 /// (C.20, C.21) and the error sum is taken anew with the present pairing. The loop allocates nothing.
 ///
 /// # Errors
@@ -30,13 +30,13 @@ pub fn error_derivatives(problem: &ModalProblem, state: &ModalState) -> Result<D
     let mut workspace = Workspace::new(problem);
     let mut error_change = vec![0.0; problem.parameter_count()];
     error_changes_into(problem, state, &mut workspace, &mut error_change)?;
-    let mut stiffness_change = DERIVATIVE_STEP * &problem.test_stiffness;
-    for (mut column, &factor) in stiffness_change.column_iter_mut().zip(&state.factors) {
+    let mut share_change = DERIVATIVE_STEP * &problem.test_shares;
+    for (mut column, &factor) in share_change.column_iter_mut().zip(&state.factors) {
         column *= factor;
     }
     Ok(Derivatives {
         error_change,
-        stiffness_change,
+        share_change,
     })
 }
 
@@ -44,7 +44,7 @@ pub fn error_derivatives(problem: &ModalProblem, state: &ModalState) -> Result<D
 #[derive(Debug, Clone)]
 pub struct Workspace {
     product: DMatrix<f64>,
-    beta: DMatrix<f64>,
+    change: DMatrix<f64>,
     roots: DVector<f64>,
     generalized_shapes: DMatrix<f64>,
     shape: DVector<f64>,
@@ -56,7 +56,7 @@ impl Workspace {
         let count = problem.start.len();
         Self {
             product: DMatrix::zeros(count, count),
-            beta: DMatrix::zeros(count, count),
+            change: DMatrix::zeros(count, count),
             roots: DVector::zeros(count),
             generalized_shapes: DMatrix::zeros(count, count),
             shape: DVector::zeros(problem.start.shapes.nrows()),
@@ -88,12 +88,16 @@ fn error_sum_after(
     work: &mut Workspace,
 ) -> Result<f64, Error> {
     let share = &problem.generalized_shares[parameter];
-    multiply_into(share, &state.generalized_shapes, &mut work.product);
-    transposed_multiply_into(&state.generalized_shapes, &work.product, &mut work.beta);
-    work.beta *= DERIVATIVE_STEP * state.factors[parameter];
-    first_order_into(
+    multiply_into(share.matrix(), &state.generalized_shapes, &mut work.product);
+    transposed_multiply_into(&state.generalized_shapes, &work.product, &mut work.change);
+    work.change *= DERIVATIVE_STEP * state.factors[parameter];
+    let first_order = match share {
+        Share::Stiffness(_) => first_order_into,
+        Share::Mass(_) => first_order_mass_into,
+    };
+    first_order(
         &state.modes.omega_squared,
-        &work.beta,
+        &work.change,
         &mut work.roots,
         &mut work.generalized_shapes,
     )?;

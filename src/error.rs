@@ -36,7 +36,9 @@ pub enum Error {
         columns: usize,
     },
     /// A matrix that must be symmetric is not.
-    #[error("{what}: expected a symmetric matrix, found entries ({row}, {column}) and ({column}, {row}) apart by {difference:.3e} of the largest entry")]
+    #[error(
+        "{what}: expected a symmetric matrix, found entries ({row}, {column}) and ({column}, {row}) apart by {difference:.3e} of the largest entry"
+    )]
     NotSymmetric {
         /// The matrix.
         what: &'static str,
@@ -84,7 +86,9 @@ pub enum Error {
         count: usize,
     },
     /// An element refers to a grid point that does not exist.
-    #[error("element {element}: expected an existing grid, found grid {grid}, which is not defined")]
+    #[error(
+        "element {element}: expected an existing grid, found grid {grid}, which is not defined"
+    )]
     UnknownGrid {
         /// The element.
         element: usize,
@@ -92,15 +96,39 @@ pub enum Error {
         grid: usize,
     },
     /// A parameter refers to an element that does not exist.
-    #[error("parameter {parameter}: expected an existing element, found element {element}, which is not defined")]
+    #[error(
+        "parameter {parameter}: expected an existing element, found element {element}, which is not defined"
+    )]
     UnknownElement {
         /// The parameter.
         parameter: String,
         /// The missing element.
         element: usize,
     },
+    /// A parameter refers to a dynamic DOF that does not exist.
+    #[error(
+        "parameter {parameter}: expected a dynamic degree of freedom below {count}, found {found}"
+    )]
+    UnknownDynamicDof {
+        /// The parameter.
+        parameter: String,
+        /// The missing DOF, from zero.
+        found: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A point mass to be scaled is coupled to another degree of freedom.
+    #[error(
+        "dynamic mass: expected a point mass at degree of freedom {dof} (from zero), found it coupled to others"
+    )]
+    CoupledMass {
+        /// The DOF, from zero.
+        dof: usize,
+    },
     /// An element stands in two parameters.
-    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
+    #[error(
+        "element {element}: expected in one parameter at most, found in {first} and in {second}"
+    )]
     SharedElement {
         /// The element.
         element: usize,
@@ -124,13 +152,17 @@ pub enum Error {
         length: f64,
     },
     /// A triangle or panel without area.
-    #[error("expected a panel with area, found {area:.3e} of the square of its longest diagonal or side")]
+    #[error(
+        "expected a panel with area, found {area:.3e} of the square of its longest diagonal or side"
+    )]
     ZeroArea {
         /// Area over the square of the longest side or diagonal.
         area: f64,
     },
     /// A quadrilateral with a corner of 180 degrees or more.
-    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}")]
+    #[error(
+        "expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}"
+    )]
     NotConvex {
         /// The corner, 1 to 4 in the order given.
         corner: usize,
@@ -144,7 +176,9 @@ pub enum Error {
         source: Box<Error>,
     },
     /// Nothing holds some motion of the structure.
-    #[error("stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})")]
+    #[error(
+        "stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
+    )]
     SingularStiffness {
         /// The grid that moves most in the motion nothing holds.
         grid: usize,
@@ -154,13 +188,17 @@ pub enum Error {
         ratio: f64,
     },
     /// The flexibility at the dynamic DOF cannot be inverted.
-    #[error("dynamic flexibility: expected independent dynamic degrees of freedom, found number {dof} (from zero) a combination of those before it")]
+    #[error(
+        "dynamic flexibility: expected independent dynamic degrees of freedom, found number {dof} (from zero) a combination of those before it"
+    )]
     DependentDynamicDof {
         /// The first dependent dynamic DOF, from zero.
         dof: usize,
     },
     /// A mass matrix that is not positive definite.
-    #[error("{what}: expected a positive definite matrix, found a pivot that is not positive at degree of freedom {dof} (from zero)")]
+    #[error(
+        "{what}: expected a positive definite matrix, found a pivot that is not positive at degree of freedom {dof} (from zero)"
+    )]
     NotPositiveDefinite {
         /// The matrix.
         what: &'static str,
@@ -192,7 +230,9 @@ pub enum Error {
         requested: usize,
     },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes.
-    #[error("modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness")]
+    #[error(
+        "modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness"
+    )]
     CoalescingModes {
         /// The row of the vanishing denominator.
         first: usize,

@@ -113,7 +113,11 @@ pub fn run(
 ) -> Result<InnerRun, Error> {
     check_settings(settings)?;
     check_length("parameter factors", base.len(), problem.parameter_count())?;
-    check_length("parameter limits", total_ranges.len(), problem.parameter_count())?;
+    check_length(
+        "parameter limits",
+        total_ranges.len(),
+        problem.parameter_count(),
+    )?;
     let mut state = problem.start_state()?;
     let start = state.errors;
     let mut iterations: Vec<Iteration> = Vec::new();

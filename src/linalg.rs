@@ -49,6 +49,23 @@ pub fn check_shape(
     }
 }
 
+/// Refuses lists of another length.
+///
+/// # Errors
+/// [`Error::WrongShape`] with both lengths as rows of one column.
+pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::WrongShape {
+        what,
+        expected_rows: expected,
+        expected_columns: 1,
+        rows: found,
+        columns: 1,
+    })
+}
+
 /// Refuses matrices that are not square, finite and symmetric to working precision.
 ///
 /// # Errors

@@ -1,12 +1,32 @@
 //! The modal problem of one inner loop: everything a step needs, reduced to the analysis modes.
 
 use crate::error::Error;
-use crate::linalg::{check_shape, check_symmetric};
+use crate::linalg::{check_length, check_shape, check_symmetric};
 use crate::modes::Modes;
 use crate::objective::{Errors, errors};
-use crate::perturbation::{Perturbed, UpdateRule, normalize, perturb};
+use crate::perturbation::{
+    ModalChange, Perturbed, UpdateRule, normalize, perturb, perturb_with_mass,
+};
 use crate::sorting::{Pairing, cross_orthogonality, pair_modes};
 use nalgebra::{DMatrix, DVector};
+
+/// One parameter's share of a matrix (d × d at the dynamic DOF, n × n in modes).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Share {
+    /// Of the stiffness, lbf/in or rad²/s².
+    Stiffness(DMatrix<f64>),
+    /// Of the mass, lbf·s²/in or a fraction.
+    Mass(DMatrix<f64>),
+}
+
+impl Share {
+    /// The matrix, whatever it is a share of.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        match self {
+            Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
+        }
+    }
+}
 
 /// What a finite element analysis hands to the correlation: matrices at the dynamic DOF.
 #[derive(Debug, Clone)]
@@ -15,8 +35,8 @@ pub struct DynamicModel {
     pub stiffness: DMatrix<f64>,
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
-    /// Each parameter's present share of the stiffness, $B K_e B^t$ with the same $B$ for all, lbf/in (d × d).
-    pub shares: Vec<DMatrix<f64>>,
+    /// Each parameter's present share of either, $B K_e B^t$ or $B M_e B^t$ with the same $B$ for all (d × d).
+    pub shares: Vec<Share>,
 }
 
 /// The last exact modes, and every share and test mode seen through them.
@@ -24,13 +44,13 @@ pub struct DynamicModel {
 pub struct ModalProblem {
     /// The exact modes at the start of the inner loop.
     pub start: Modes,
-    /// The test modes.
+    /// The test modes, scaled to unit generalized mass with the model's mass.
     pub test: Modes,
-    /// $V^t K_e V$ of every parameter's share, rad²/s² (n × n).
-    pub generalized_shares: Vec<DMatrix<f64>>,
-    /// Generalized stiffness of every share on the test modes relative to theirs, $V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$
-    /// (test modes × parameters).
-    pub test_stiffness: DMatrix<f64>,
+    /// $V^t K_e V$ (rad²/s²) or $V^t M_e V$ of every parameter's share (n × n).
+    pub generalized_shares: Vec<Share>,
+    /// Generalized stiffness or mass of every share on the test modes relative to theirs,
+    /// $V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$ or $V_{Gi}^t M_e V_{Gi}$ (test modes × parameters).
+    pub test_shares: DMatrix<f64>,
     /// Cross-orthogonality of the start modes with the test modes (n × g).
     pub start_cross: DMatrix<f64>,
 }
@@ -47,24 +67,33 @@ impl ModalProblem {
         }
         let dof_count = model.stiffness.nrows();
         let start = crate::modes::solve(&model.stiffness, &model.mass, analysis_modes)?;
-        let start_cross = cross_orthogonality(&start, test, &model.mass)?;
+        let test = test.scaled_with(&model.mass)?;
+        let start_cross = cross_orthogonality(&start, &test, &model.mass)?;
         pair_modes(&start_cross)?;
         let mut generalized_shares = Vec::with_capacity(model.shares.len());
-        let mut test_stiffness = DMatrix::zeros(test.len(), model.shares.len());
+        let mut test_shares = DMatrix::zeros(test.len(), model.shares.len());
         for (e, share) in model.shares.iter().enumerate() {
-            check_shape("stiffness share", share, dof_count, dof_count)?;
-            check_symmetric("stiffness share", share)?;
-            generalized_shares.push(start.shapes.tr_mul(&(share * &start.shapes)));
+            let matrix = share.matrix();
+            check_shape("parameter share", matrix, dof_count, dof_count)?;
+            check_symmetric("parameter share", matrix)?;
+            let in_modes = start.shapes.tr_mul(&(matrix * &start.shapes));
             for i in 0..test.len() {
                 let shape = test.shapes.column(i);
-                test_stiffness[(i, e)] = shape.dot(&(share * shape)) / test.omega_squared[i];
+                test_shares[(i, e)] = shape.dot(&(matrix * shape));
+                if let Share::Stiffness(_) = share {
+                    test_shares[(i, e)] /= test.omega_squared[i];
+                }
             }
+            generalized_shares.push(match share {
+                Share::Stiffness(_) => Share::Stiffness(in_modes),
+                Share::Mass(_) => Share::Mass(in_modes),
+            });
         }
         Ok(Self {
             start,
-            test: test.clone(),
+            test,
             generalized_shares,
-            test_stiffness,
+            test_shares,
             start_cross,
         })
     }
@@ -86,18 +115,35 @@ impl ModalProblem {
 
     /// The state at `factors` on the shares, the cumulative change since the last exact modes taken at once:
     ///
-    /// $$ \beta = \sum_e (c_e - 1)\, V^t K_e V $$
+    /// $$ \beta = \sum_{stiffness} (c_e - 1)\, V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1)\, V^t M_e V $$
     ///
     /// # Errors
-    /// Those of [`perturb`].
+    /// [`Error::WrongShape`] unless there is one factor per parameter; those of [`perturb`] and
+    /// [`perturb_with_mass`].
     pub fn state_at(&self, factors: Vec<f64>, rule: UpdateRule) -> Result<ModalState, Error> {
+        check_length("parameter factors", factors.len(), self.parameter_count())?;
         let count = self.start.len();
-        let mut beta = DMatrix::zeros(count, count);
+        let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
         for (share, factor) in self.generalized_shares.iter().zip(&factors) {
-            beta += (factor - 1.0) * share;
+            match share {
+                Share::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
+                Share::Mass(matrix) => alpha += (factor - 1.0) * matrix,
+            }
         }
-        let Perturbed { roots, mut shapes, .. } = perturb(&self.start.omega_squared, &beta, rule)?;
-        normalize(&mut shapes);
+        let k = &self.start.omega_squared;
+        let has_mass = self
+            .generalized_shares
+            .iter()
+            .any(|share| matches!(share, Share::Mass(_)));
+        // The real stiffness-only path is the plain one; the general one serves changes of mass.
+        let Perturbed {
+            roots, mut shapes, ..
+        } = if has_mass {
+            perturb_with_mass(&ModalChange::of_vibrations(k, beta, alpha.clone()), rule)?
+        } else {
+            perturb(k, &beta, rule)?
+        };
+        normalize(&mut shapes, &alpha);
         self.state(factors, &roots.map(f64::recip), shapes)
     }
 
@@ -130,7 +176,7 @@ pub struct ModalState {
     pub factors: Vec<f64>,
     /// Modes, by perturbation from the last exact ones.
     pub modes: Modes,
-    /// The same shapes in terms of the last exact ones, orthonormal columns (n × n).
+    /// The same shapes in terms of the last exact ones, of unit generalized mass (n × n).
     pub generalized_shapes: DMatrix<f64>,
     /// Which mode answers which test mode.
     pub pairing: Pairing,

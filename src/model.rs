@@ -1,36 +1,14 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
 
 use crate::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
-use crate::condensation::{condense, unit_share};
+use crate::condensation::{Condensed, condense, unit_mass_share, unit_share};
 use crate::error::Error;
-use crate::linalg::{check_finite, check_shape, cholesky};
-use crate::modal::DynamicModel;
+use crate::linalg::{check_finite, check_shape, check_symmetric, cholesky};
+use crate::modal::{DynamicModel, Share};
+use crate::parameters::{MemberKind, Members, Parameter, resolve};
 use crate::step::Range;
 use crate::structure::Structure;
 use nalgebra::DMatrix;
-use std::collections::HashMap;
-
-/// A set of elements whose stiffness is scaled together: one element, or a substructure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
-    /// What it is called in reports.
-    pub name: String,
-    /// Labels of its elements.
-    pub elements: Vec<usize>,
-    /// Bounds on their gages (in) or areas (in²), if any.
-    pub size_range: Option<Range>,
-}
-
-impl Parameter {
-    /// One element on its own.
-    pub fn element(label: usize, size_range: Option<Range>) -> Self {
-        Self {
-            name: label.to_string(),
-            elements: vec![label],
-            size_range,
-        }
-    }
-}
 
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
 #[derive(Debug, Clone)]
@@ -40,19 +18,20 @@ pub struct FiniteElementModel {
     load_distribution: DMatrix<f64>,
     mass: DMatrix<f64>,
     parameters: Vec<Parameter>,
-    /// Row in the structure's elements of each parameter's elements.
-    members: Vec<Vec<usize>>,
+    members: Vec<Members>,
 }
 
 impl FiniteElementModel {
     /// Puts a model together and forms every unit element matrix, once.
     ///
-    /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in).
+    /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in) beside what elements
+    /// with a density add to it.
     ///
     /// # Errors
     /// [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::NotPositiveDefinite`] naming the DOF of a
     /// zero or negative mass; [`Error::Empty`] without parameters or for a parameter without elements;
-    /// [`Error::UnknownElement`], [`Error::Limits`] for a bad parameter; the geometry errors of the elements.
+    /// [`Error::UnknownElement`], [`Error::UnknownDynamicDof`], [`Error::SharedElement`], [`Error::CoupledMass`] for a bad
+    /// parameter; the geometry errors of the elements.
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -68,8 +47,26 @@ impl FiniteElementModel {
         )?;
         check_finite("load distribution", &load_distribution)?;
         check_shape("dynamic mass", &mass, dof_count, dof_count)?;
-        cholesky("dynamic mass", &mass, 0.0)?;
-        let members = resolve(&structure, &parameters)?;
+        check_symmetric("dynamic mass", &mass)?;
+        if structure
+            .elements()
+            .iter()
+            .all(|element| element.material.density == 0.0)
+        {
+            cholesky("dynamic mass", &mass, 0.0)?;
+        }
+        let members = resolve(&structure, dof_count, &parameters)?;
+        for point in members
+            .iter()
+            .filter(|members| members.kind == MemberKind::PointMass)
+        {
+            for &dof in &point.rows {
+                // The diagonal entry alone is scaled, so it must be the whole of the mass.
+                if (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0) {
+                    return Err(Error::CoupledMass { dof });
+                }
+            }
+        }
         Ok(Self {
             element_matrices: element_matrices(&structure)?,
             structure,
@@ -105,31 +102,37 @@ impl FiniteElementModel {
         &self.parameters
     }
 
-    /// Bounds on each parameter's factor that keep all its elements within the parameter's size bounds.
+    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
     ///
     /// # Errors
-    /// [`Error::Limits`] when no factor does, or when the first sizes lie outside.
+    /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
-        self.parameters
-            .iter()
-            .zip(&self.members)
-            .map(|(parameter, members)| {
-                let Some(range) = parameter.size_range else {
-                    return Ok(None);
-                };
-                let (mut lower, mut upper) = (0.0_f64, f64::INFINITY);
-                for &row in members {
+        let bounds = |(parameter, members): (&Parameter, &Members)| {
+            if parameter.size_range.is_none() && parameter.factor_range.is_none() {
+                return Ok(None);
+            }
+            let own = parameter.factor_range;
+            let (mut lower, mut upper) =
+                own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
+            if let Some(range) = parameter.size_range {
+                for &row in &members.rows {
                     let size = self.structure.elements()[row].size;
                     lower = lower.max(range.lower / size);
                     upper = upper.min(range.upper / size);
                 }
-                let what = format!("factor of parameter {}", parameter.name);
-                let factors = Range::positive(&what, lower, upper)?;
-                if !factors.contains(1.0) {
-                    return Err(Error::Limits { what, lower, upper });
-                }
+            }
+            let what = format!("factor of parameter {}", parameter.name);
+            let factors = Range::positive(&what, lower, upper)?;
+            if factors.contains(1.0) {
                 Ok(Some(factors))
-            })
+            } else {
+                Err(Error::Limits { what, lower, upper })
+            }
+        };
+        self.parameters
+            .iter()
+            .zip(&self.members)
+            .map(bounds)
             .collect()
     }
 
@@ -138,22 +141,42 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        let given = DMatrix::from_column_slice(factors.len(), 1, factors);
-        check_shape("parameter factors", &given, self.parameters.len(), 1)?;
-        let elements = self.structure.elements();
-        let mut sizes: Vec<f64> = elements.iter().map(|element| element.size).collect();
-        for ((members, &factor), parameter) in self.members.iter().zip(factors).zip(&self.parameters) {
-            let owner = || format!("parameter {}", parameter.name);
-            crate::structure::positive("factor", owner, factor)?;
-            for &row in members {
-                sizes[row] *= factor;
-            }
-        }
-        Ok(sizes)
+        let first = self
+            .structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect();
+        self.scaled(first, MemberKind::Stiffness, factors)
     }
 
-    /// The finite element analysis at the given parameter factors: $K_S$ anew, a new $B$, and with it $K_D$ and each
-    /// parameter's present share, the sum of $s_e B K_e B^t$ over its elements.
+    /// `values` of one kind times the factors of the parameters that scale them.
+    fn scaled(
+        &self,
+        mut values: Vec<f64>,
+        kind: MemberKind,
+        factors: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        let given = DMatrix::from_column_slice(factors.len(), 1, factors);
+        check_shape("parameter factors", &given, self.parameters.len(), 1)?;
+        for ((members, &factor), parameter) in
+            self.members.iter().zip(factors).zip(&self.parameters)
+        {
+            let owner = || format!("parameter {}", parameter.name);
+            crate::structure::positive("factor", owner, factor)?;
+            if members.kind == kind {
+                for &row in &members.rows {
+                    values[row] *= factor;
+                }
+            }
+        }
+        Ok(values)
+    }
+
+    /// The finite element analysis at the given parameter factors: $K_S$ anew, a new $B$, and with it $K_D$, $M$ and each
+    /// parameter's present share of them.
+    ///
+    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e s_e B M_e B^t $$
     ///
     /// # Errors
     /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
@@ -162,64 +185,67 @@ impl FiniteElementModel {
         let structural =
             FactorizedStiffness::new(&self.element_matrices, &sizes, self.structure.free_dof())?;
         let condensed = condense(&structural, &self.load_distribution)?;
-        let dof_count = self.mass.nrows();
+        // An element's mass is that of its first size: stiffness and mass are scaled by parameters of their own.
+        let first = self
+            .structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect();
+        let mass_sizes = self.scaled(first, MemberKind::ElementMass, factors)?;
+        let point_factors =
+            self.scaled(vec![1.0; self.mass.nrows()], MemberKind::PointMass, factors)?;
+        let mut mass = self.mass.clone();
+        for (dof, factor) in point_factors.iter().enumerate() {
+            mass[(dof, dof)] *= factor;
+        }
+        for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
+            if element.unit_mass.amax() > 0.0 {
+                mass += size * unit_mass_share(&condensed.transformation, element);
+            }
+        }
         let shares = self
             .members
             .iter()
-            .map(|members| {
-                let mut share = DMatrix::zeros(dof_count, dof_count);
-                for &row in members {
-                    share += sizes[row]
-                        * unit_share(&condensed.transformation, &self.element_matrices[row]);
-                }
-                share
-            })
+            .map(|members| self.share(members, &condensed, &sizes, &mass_sizes, &point_factors))
             .collect();
         Ok(DynamicModel {
             stiffness: condensed.stiffness,
-            mass: self.mass.clone(),
+            mass,
             shares,
         })
     }
-}
 
-/// Rows of every parameter's elements, each element in one parameter at most.
-fn resolve(structure: &Structure, parameters: &[Parameter]) -> Result<Vec<Vec<usize>>, Error> {
-    if parameters.is_empty() {
-        return Err(Error::Empty { what: "parameters" });
-    }
-    let row_of: HashMap<usize, usize> = structure
-        .elements()
-        .iter()
-        .enumerate()
-        .map(|(row, element)| (element.label, row))
-        .collect();
-    let mut owner: HashMap<usize, &str> = HashMap::new();
-    let mut members = Vec::with_capacity(parameters.len());
-    for parameter in parameters {
-        if parameter.elements.is_empty() {
-            return Err(Error::Empty {
-                what: "elements of a parameter",
-            });
-        }
-        let mut rows = Vec::with_capacity(parameter.elements.len());
-        for &element in &parameter.elements {
-            let Some(&row) = row_of.get(&element) else {
-                return Err(Error::UnknownElement {
-                    parameter: parameter.name.clone(),
-                    element,
-                });
-            };
-            if let Some(first) = owner.insert(element, &parameter.name) {
-                return Err(Error::SharedElement {
-                    element,
-                    first: first.to_owned(),
-                    second: parameter.name.clone(),
-                });
+    /// What a parameter holds of $K_D$ or $M$ at present.
+    fn share(
+        &self,
+        members: &Members,
+        condensed: &Condensed,
+        sizes: &[f64],
+        mass_sizes: &[f64],
+        point_factors: &[f64],
+    ) -> Share {
+        let dof_count = self.mass.nrows();
+        let mut share = DMatrix::zeros(dof_count, dof_count);
+        for &row in &members.rows {
+            match members.kind {
+                MemberKind::Stiffness => {
+                    let unit = unit_share(&condensed.transformation, &self.element_matrices[row]);
+                    share += sizes[row] * unit;
+                }
+                MemberKind::ElementMass => {
+                    let unit =
+                        unit_mass_share(&condensed.transformation, &self.element_matrices[row]);
+                    share += mass_sizes[row] * unit;
+                }
+                MemberKind::PointMass => {
+                    share[(row, row)] += self.mass[(row, row)] * point_factors[row]
+                }
             }
-            rows.push(row);
         }
-        members.push(rows);
+        match members.kind {
+            MemberKind::Stiffness => Share::Stiffness(share),
+            MemberKind::ElementMass | MemberKind::PointMass => Share::Mass(share),
+        }
     }
-    Ok(members)
 }

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::linalg::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
-    symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
+    symmetric_eigen, symmetric_part,
 };
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -55,6 +55,20 @@ impl Modes {
         })
     }
 
+    /// The same modes with every shape scaled to unit generalized mass with another mass matrix, $v^t M v = 1$.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for a mass that does not fit; [`Error::NotPositive`] for a generalized mass that is not.
+    pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
+        check_shape("mode shapes", &self.shapes, mass.nrows(), self.len())?;
+        let mut shapes = self.shapes.clone();
+        scale_to_unit_mass(&mut shapes, mass)?;
+        Ok(Self {
+            omega_squared: self.omega_squared.clone(),
+            shapes,
+        })
+    }
+
     /// Modes from frequencies (Hz) and shapes of any scale, such as measured ones: each shape is scaled to unit
     /// generalized mass and signed by the rule; order is kept. Orthogonality is not enforced (Appendix B does).
     ///
@@ -70,16 +84,18 @@ impl Modes {
             return Err(Error::Empty { what: "test modes" });
         }
         check_symmetric("dynamic mass", mass)?;
-        check_shape("test mode shapes", shapes, mass.nrows(), frequencies_hz.len())?;
+        check_shape(
+            "test mode shapes",
+            shapes,
+            mass.nrows(),
+            frequencies_hz.len(),
+        )?;
         check_finite("test mode shapes", shapes)?;
         let mut scaled = shapes.clone();
-        for (mode, mut shape) in scaled.column_iter_mut().enumerate() {
-            let owner = || format!("test mode {mode} (from zero)");
-            crate::structure::positive("frequency", owner, frequencies_hz[mode])?;
-            let generalized_mass = shape.dot(&(mass * &shape));
-            crate::structure::positive("generalized mass", owner, generalized_mass)?;
-            shape /= generalized_mass.sqrt();
+        for (mode, &frequency) in frequencies_hz.iter().enumerate() {
+            crate::structure::positive("frequency", || owner(mode), frequency)?;
         }
+        scale_to_unit_mass(&mut scaled, mass)?;
         apply_sign_rule(&mut scaled);
         Ok(Self {
             omega_squared: DVector::from_iterator(
@@ -89,6 +105,19 @@ impl Modes {
             shapes: scaled,
         })
     }
+}
+
+fn owner(mode: usize) -> String {
+    format!("test mode {mode} (from zero)")
+}
+
+fn scale_to_unit_mass(shapes: &mut DMatrix<f64>, mass: &DMatrix<f64>) -> Result<(), Error> {
+    for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
+        let generalized_mass = shape.dot(&(mass * &shape));
+        crate::structure::positive("generalized mass", || owner(mode), generalized_mass)?;
+        shape /= generalized_mass.sqrt();
+    }
+    Ok(())
 }
 
 fn check_count(count: usize, available: usize) -> Result<(), Error> {

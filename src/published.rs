@@ -21,15 +21,22 @@ const TABLES: [(usize, &str); 12] = [
     (13, include_str!("../paper/tables/table_13.csv")),
 ];
 
+/// How comments begin that say what is wrong with the print.
+const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
+
 /// One published table: text cells by row label and column heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedTable {
+    /// Its number in the paper.
+    pub number: usize,
     /// Name for messages, such as `paper/tables/table_3.csv`.
     pub name: String,
     /// Column headings after the first.
     pub headings: Vec<String>,
     /// Row labels, in the order printed.
     pub labels: Vec<String>,
+    /// What is wrong with the print, one sentence each: its misprints and inconsistencies.
+    pub remarks: Vec<String>,
     cells: HashMap<(String, String), String>,
 }
 
@@ -41,7 +48,7 @@ impl PublishedTable {
     pub fn number(number: usize) -> Result<Self, Error> {
         let name = format!("paper/tables/table_{number}.csv");
         match TABLES.iter().find(|(known, _)| *known == number) {
-            Some((_, text)) => Self::parse(&name, text),
+            Some((_, text)) => Self::parse(number, &name, text),
             None => Err(Error::Table {
                 name,
                 expected: "a table from 2 to 13".into(),
@@ -54,7 +61,7 @@ impl PublishedTable {
     ///
     /// # Errors
     /// [`Error::Table`] for rows of unequal length.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
+    pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, Error> {
         let malformed = |error: csv::Error| Error::Table {
             name: name.to_owned(),
             expected: "rows of equal length under a heading".into(),
@@ -79,7 +86,15 @@ impl PublishedTable {
             }
             labels.push(label);
         }
+        let remarks = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("# "))
+            .filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)))
+            .map(str::to_owned)
+            .collect();
         Ok(Self {
+            number,
+            remarks,
             name: name.to_owned(),
             headings,
             labels,

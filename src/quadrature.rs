@@ -12,8 +12,7 @@ pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     (1..=count)
         .rev()
         .map(|k| {
-            let mut s =
-                (std::f64::consts::PI * (k as f64 - 0.25) / (count as f64 + 0.5)).cos();
+            let mut s = (std::f64::consts::PI * (k as f64 - 0.25) / (count as f64 + 0.5)).cos();
             for _ in 0..NEWTON_STEPS {
                 let (value, slope) = legendre(count, s);
                 s -= value / slope;
@@ -29,7 +28,10 @@ fn legendre(n: usize, s: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, s);
     for m in 2..=n {
         let m = m as f64;
-        (before, value) = (value, ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m);
+        (before, value) = (
+            value,
+            ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m,
+        );
     }
     (value, n as f64 * (s * value - before) / (s * s - 1.0))
 }

@@ -26,7 +26,12 @@ pub fn cross_orthogonality(
     mass: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
-    check_shape("analysis mode shapes", &analysis.shapes, dof_count, analysis.len())?;
+    check_shape(
+        "analysis mode shapes",
+        &analysis.shapes,
+        dof_count,
+        analysis.len(),
+    )?;
     check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
     Ok(analysis.shapes.tr_mul(&(mass * &test.shapes)))
 }
@@ -89,7 +94,13 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
         taken[i] = true;
     }
     let sign = (0..test_count)
-        .map(|j| if cross[(analysis_mode[j], j)] < 0.0 { -1.0 } else { 1.0 })
+        .map(|j| {
+            if cross[(analysis_mode[j], j)] < 0.0 {
+                -1.0
+            } else {
+                1.0
+            }
+        })
         .collect();
     Ok(Pairing {
         analysis_mode,

@@ -35,7 +35,7 @@ pub fn unlimited_factors(
         .iter()
         .map(|change| (change / crate::derivatives::DERIVATIVE_STEP).powi(2))
         .sum();
-    let columns = derivatives.stiffness_change.column_iter();
+    let columns = derivatives.share_change.column_iter();
     derivatives
         .error_change
         .iter()
@@ -115,7 +115,11 @@ pub fn limited_factor(
     total_range: Option<Range>,
 ) -> (f64, Limit) {
     let factor = factor_range.clamp(step);
-    let mut limit = if factor == step { Limit::None } else { Limit::Factor };
+    let mut limit = if factor == step {
+        Limit::None
+    } else {
+        Limit::Factor
+    };
     let mut next = total * factor;
     if let Some(range) = total_range {
         let held = range.clamp(base * next) / base;

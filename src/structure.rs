@@ -28,10 +28,12 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Shear modulus $G$, lbf/in².
     pub shear_modulus: f64,
+    /// Mass density $\rho$, lbf·s²/in⁴; zero for elements without mass of their own.
+    pub density: f64,
 }
 
 impl Material {
-    /// An isotropic material, $G = E/\big(2(1+\nu)\big)$.
+    /// An isotropic material without mass, $G = E/\big(2(1+\nu)\big)$.
     ///
     /// `youngs_modulus` in lbf/in².
     ///
@@ -44,7 +46,17 @@ impl Material {
             youngs_modulus,
             poissons_ratio,
             shear_modulus: youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
+            density: 0.0,
         })
+    }
+
+    /// The same material with a mass density, lbf·s²/in⁴.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless the density is positive.
+    pub fn with_density(self, density: f64) -> Result<Self, Error> {
+        positive("density", || "the material".into(), density)?;
+        Ok(Self { density, ..self })
     }
 }
 
@@ -57,6 +69,8 @@ pub enum ElementKind {
     ShearPanel,
     /// Membrane panel of four overlapping triangles between four grids; its size is a gage, in.
     Membrane,
+    /// Constant-strain triangle between three grids; its size is a gage, in.
+    Triangle,
 }
 
 impl ElementKind {
@@ -64,6 +78,7 @@ impl ElementKind {
     pub fn corner_count(self) -> usize {
         match self {
             Self::Rod => 2,
+            Self::Triangle => 3,
             Self::ShearPanel | Self::Membrane => 4,
         }
     }
@@ -72,7 +87,7 @@ impl ElementKind {
     pub fn size_name(self) -> &'static str {
         match self {
             Self::Rod => "area",
-            Self::ShearPanel | Self::Membrane => "gage",
+            Self::ShearPanel | Self::Membrane | Self::Triangle => "gage",
         }
     }
 }
@@ -133,7 +148,7 @@ impl Structure {
                 return Err(Error::DuplicateGrid { grid: grid.label });
             }
             let mut index = [None; 3];
-            for direction in 0..3 {
+            for (direction, index) in index.iter_mut().enumerate() {
                 let value = grid.position[direction];
                 if !value.is_finite() {
                     return Err(Error::NotFinite {
@@ -144,7 +159,7 @@ impl Structure {
                     });
                 }
                 if !grid.held[direction] {
-                    index[direction] = Some(free.len());
+                    *index = Some(free.len());
                     free.push(StructuralDof {
                         grid: grid.label,
                         direction,
@@ -224,6 +239,9 @@ fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Re
     let material = &element.material;
     positive("Young's modulus", owner, material.youngs_modulus)?;
     positive("shear modulus", owner, material.shear_modulus)?;
+    if material.density != 0.0 {
+        positive("density", owner, material.density)?;
+    }
     check_poissons_ratio(material.poissons_ratio)
         .map_err(|error| error.in_element(element.label))?;
     positive(element.kind.size_name(), owner, element.size)

@@ -1,13 +1,13 @@
 //! Appendix A on the paper's box: shares of elements, and what freezing B does.
 
-use crate::common::boxes::{case, factors, stiffness, with_every_element};
 use crate::common::matrices::relative_distance;
 use crate::common::structures::{condition, sizes_of};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
 use corfem::cases::Case;
 use corfem::condensation::{condense, unit_share};
 use corfem::error::Error;
-use corfem::modal::DynamicModel;
+use corfem::modal::{DynamicModel, Share};
 use corfem::modes;
 use corfem::published::PublishedTable;
 use nalgebra::DMatrix;
@@ -17,7 +17,7 @@ use proptest::prelude::*;
 fn frozen(start: &DynamicModel, factors: &[f64]) -> DMatrix<f64> {
     let mut stiffness = start.stiffness.clone();
     for (share, factor) in start.shares.iter().zip(factors) {
-        stiffness += (factor - 1.0) * share;
+        stiffness += (factor - 1.0) * share.matrix();
     }
     stiffness
 }
@@ -62,10 +62,11 @@ proptest! {
         let model = with_every_element(&case);
         let dynamic = model.analyze(&factors).unwrap();
         prop_assert_eq!(dynamic.shares.len(), 39);
-        let sum: DMatrix<f64> = dynamic.shares.iter().sum();
+        let sum: DMatrix<f64> = dynamic.shares.iter().map(Share::matrix).sum();
         prop_assert!(relative_distance(&sum, &dynamic.stiffness) <= MATRIX_ROUND_OFF);
         for share in &dynamic.shares {
-            prop_assert_eq!(share, &share.transpose());
+            let transposed = share.matrix().transpose();
+            prop_assert_eq!(share, &Share::Stiffness(transposed));
         }
     }
 

@@ -109,6 +109,7 @@ fn a_right_triangles_stiffness_is_the_hand_result() {
         youngs_modulus: 1.0,
         poissons_ratio: 0.25,
         shear_modulus: 0.4,
+        density: 0.0,
     };
     let found = triangle([Vector3::zeros(), Vector3::x(), Vector3::y()], &material).unwrap();
     let strain = DMatrix::from_row_slice(

@@ -1,24 +1,28 @@
 //! The model the correlation sees: parameters, their sizes and bounds.
 
-use crate::common::boxes::{case, factors, with_every_element, with_parameters};
 use crate::common::matrices::relative_distance;
 use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
 use corfem::cases::Case;
-use corfem::model::Parameter;
+use corfem::parameters::{Parameter, Scaled};
 use corfem::step::Range;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
-/// The paper's substructures: covers, spars, ribs, rods.
-fn substructures() -> Vec<Parameter> {
-    vec![
-        group("covers", &[2, 4, 8, 9, 11, 15], None),
-        group("spars", &[1, 3, 5, 6, 10, 14], None),
-        group("ribs", &[7, 12, 13], None),
-        group("rods", &(16..=39).collect::<Vec<_>>(), None),
-    ]
-}
+/// The paper's substructures: covers, spars, ribs, and the rods as one more.
+const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
+    ("covers", &[2, 4, 8, 9, 11, 15]),
+    ("spars", &[1, 3, 5, 6, 10, 14]),
+    ("ribs", &[7, 12, 13]),
+    (
+        "rods",
+        &[
+            16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37,
+            38, 39,
+        ],
+    ),
+];
 
 proptest! {
     #![proptest_config(crate::common::config())]
@@ -26,11 +30,11 @@ proptest! {
     /// A group's factor is that factor on each of its elements, and its share the sum of theirs.
     #[test]
     fn a_group_is_its_elements_together(case in case(), factors in factors(4)) {
-        let groups = with_parameters(&case, substructures());
+        let groups = with_parameters(&case, SUBSTRUCTURES.map(|(name, elements)| Parameter::group(name, elements)).to_vec());
         let single = with_every_element(&case);
         let mut each = vec![1.0; 39];
-        for (group, factor) in groups.parameters().iter().zip(&factors) {
-            for &element in &group.elements {
+        for ((_, elements), factor) in SUBSTRUCTURES.iter().zip(&factors) {
+            for &element in *elements {
                 each[element - 1] = *factor;
             }
         }
@@ -38,9 +42,9 @@ proptest! {
         let (together, apart) = (groups.analyze(&factors).unwrap(), single.analyze(&each).unwrap());
         prop_assert_eq!(together.shares.len(), 4);
         prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
-        for (group, share) in groups.parameters().iter().zip(&together.shares) {
-            let sum: DMatrix<f64> = group.elements.iter().map(|&element| &apart.shares[element - 1]).sum();
-            prop_assert!(relative_distance(share, &sum) <= MATRIX_ROUND_OFF);
+        for ((_, elements), share) in SUBSTRUCTURES.iter().zip(&together.shares) {
+            let sum: DMatrix<f64> = elements.iter().map(|&element| apart.shares[element - 1].matrix()).sum();
+            prop_assert!(relative_distance(share.matrix(), &sum) <= MATRIX_ROUND_OFF);
         }
         prop_assert_eq!(&together.mass, groups.mass());
     }
@@ -78,9 +82,9 @@ fn a_model_keeps_what_it_was_made_of() {
     assert_eq!(
         (
             model.parameters()[0].name.as_str(),
-            &model.parameters()[0].elements[..]
+            &model.parameters()[0].scaled
         ),
-        ("2", &[2][..])
+        ("2", &Scaled::Stiffness(vec![2]))
     );
     let range = Range {
         lower: 1.0,
@@ -104,8 +108,10 @@ fn a_model_keeps_what_it_was_made_of() {
     assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);
     let middle =
         DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
-    assert!(relative_distance(&dynamic.shares[0], &middle) <= MATRIX_ROUND_OFF);
-    assert!(relative_distance(&dynamic.shares[1], &(expected - middle)) <= MATRIX_ROUND_OFF);
+    assert!(relative_distance(dynamic.shares[0].matrix(), &middle) <= MATRIX_ROUND_OFF);
+    assert!(
+        relative_distance(dynamic.shares[1].matrix(), &(expected - middle)) <= MATRIX_ROUND_OFF
+    );
 }
 
 #[test]
@@ -118,6 +124,16 @@ fn factor_ranges_are_size_bounds_over_first_sizes() {
     ]);
     let found = model.unwrap().factor_ranges().unwrap();
     assert_eq!(found, [bounds(0.5, 1.5), None, bounds(0.5, 1.0)]);
+    let both = Parameter {
+        factor_range: bounds(0.25, 1.25),
+        ..group("both", &[1, 2], bounds(1.0, 8.0))
+    };
+    let factor_alone = Parameter {
+        factor_range: bounds(0.1, 7.0),
+        ..Parameter::element(3, None)
+    };
+    let found = chain(vec![both, factor_alone]).unwrap().factor_ranges();
+    assert_eq!(found.unwrap(), [bounds(0.5, 1.25), bounds(0.1, 7.0)]);
     let together = chain(vec![group("all", &[1, 2, 3], bounds(1.0, 16.0))]);
     assert_eq!(
         together.unwrap().factor_ranges().unwrap(),

@@ -3,7 +3,8 @@
 use crate::common::structures::{chain_model as chain, group, spring_chain, unit_material};
 use corfem::cases::Case;
 use corfem::error::Error;
-use corfem::model::{FiniteElementModel, Parameter};
+use corfem::model::FiniteElementModel;
+use corfem::parameters::Parameter;
 use corfem::step::Range;
 use corfem::structure::{Element, ElementKind, Structure};
 use nalgebra::DMatrix;
@@ -46,7 +47,7 @@ fn parameters_that_cannot_be_are_refused_by_name() {
         matches!(
             nothing,
             Err(Error::Empty {
-                what: "elements of a parameter"
+                what: "members of a parameter"
             })
         ),
         "{nothing:?}"

@@ -1,6 +1,6 @@
 //! The paper's box: the connectivity of Table 2 and the loads of the nine dynamic points.
 
-use crate::common::boxes::reconstruction;
+use crate::common::torque_boxes::reconstruction;
 use crate::common::nastran95::boxes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;

@@ -23,7 +23,10 @@ const QUADRATURE_POINTS: usize = 12;
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
 ///
 /// Source: Garvey, "The Quadrilateral Shear Panel", *Aircraft Engineering* 23 (1951), 134; NASA SP-222.
-pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
+pub fn shear_panel(
+    corners: &[Vector3<f64>; 4],
+    material: &Material,
+) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
     let z = energy_coefficient(&plane, material);
@@ -74,8 +77,7 @@ pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
             let flow = first_two / line.dot(&at).powi(2);
             let (to_p, to_q) = (ray(&p, &point), ray(&q, &point));
             let cotangent = to_p.dot(&to_q) / to_p.perp(&to_q);
-            energy += ws * wt * jacobian * flow * flow
-                / (2.0 * material.shear_modulus)
+            energy += ws * wt * jacobian * flow * flow / (2.0 * material.shear_modulus)
                 * (1.0 + 2.0 * cotangent * cotangent / (1.0 + material.poissons_ratio));
         }
     }

@@ -35,6 +35,7 @@ pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatr
         youngs_modulus,
         poissons_ratio: nu,
         shear_modulus,
+        ..
     } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);

@@ -1,12 +1,13 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
-pub mod boxes;
+pub mod golden;
 pub mod matrices;
 pub mod nastran95;
 pub mod panels;
 pub mod strategies;
 pub mod structures;
 pub mod tolerances;
+pub mod torque_boxes;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

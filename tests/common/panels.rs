@@ -1,7 +1,7 @@
 //! Strategies of elements: materials, convex panels flat and warped, anywhere in space.
 
 use super::strategies::{point, rotation};
-use corfem::elements::{triangle::triangle, unit_stiffness};
+use corfem::elements::unit_stiffness;
 use corfem::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use proptest::prelude::*;
@@ -107,17 +107,10 @@ pub fn placed<const N: usize>(
         .prop_map(|(corners, turn, origin)| corners.map(|corner| origin + turn * corner))
 }
 
-/// What an element resists: the three kinds, and the triangle a membrane is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Element(ElementKind),
-    Triangle,
-}
-
 /// An element of any kind somewhere in space.
 #[derive(Debug, Clone)]
 pub struct Sample {
-    pub kind: Kind,
+    pub kind: ElementKind,
     pub corners: Vec<Vector3<f64>>,
     pub warped: bool,
     pub material: Material,
@@ -126,14 +119,7 @@ pub struct Sample {
 impl Sample {
     /// Its unit stiffness.
     pub fn stiffness(&self) -> DMatrix<f64> {
-        match self.kind {
-            Kind::Element(kind) => unit_stiffness(kind, &self.corners, &self.material),
-            Kind::Triangle => triangle(
-                [self.corners[0], self.corners[1], self.corners[2]],
-                &self.material,
-            ),
-        }
-        .expect("a sound element")
+        unit_stiffness(self.kind, &self.corners, &self.material).expect("a sound element")
     }
 
     /// The same element turned about the origin.
@@ -157,10 +143,10 @@ impl Sample {
     /// Rank the theory gives its stiffness.
     pub fn rank(&self) -> usize {
         match (self.kind, self.warped) {
-            (Kind::Element(ElementKind::Rod | ElementKind::ShearPanel), _) => 1,
-            (Kind::Triangle, _) => 3,
-            (Kind::Element(ElementKind::Membrane), false) => 5,
-            (Kind::Element(ElementKind::Membrane), true) => 6,
+            (ElementKind::Rod | ElementKind::ShearPanel, _) => 1,
+            (ElementKind::Triangle, _) => 3,
+            (ElementKind::Membrane, false) => 5,
+            (ElementKind::Membrane, true) => 6,
         }
     }
 }
@@ -168,10 +154,10 @@ impl Sample {
 /// Any element: its corners are those of a panel (the first two for a rod, the first three for a triangle).
 pub fn sample() -> impl Strategy<Value = Sample> {
     let kinds = [
-        Kind::Element(ElementKind::Rod),
-        Kind::Triangle,
-        Kind::Element(ElementKind::ShearPanel),
-        Kind::Element(ElementKind::Membrane),
+        ElementKind::Rod,
+        ElementKind::Triangle,
+        ElementKind::ShearPanel,
+        ElementKind::Membrane,
     ];
     let corners = prop_oneof![
         placed(flat_panel()).prop_map(|corners| (corners, false)),
@@ -180,11 +166,7 @@ pub fn sample() -> impl Strategy<Value = Sample> {
     (prop::sample::select(kinds.to_vec()), corners, material()).prop_map(
         |(kind, (corners, warped), material)| Sample {
             kind,
-            corners: corners[..match kind {
-                Kind::Element(kind) => kind.corner_count(),
-                Kind::Triangle => 3,
-            }]
-                .to_vec(),
+            corners: corners[..kind.corner_count()].to_vec(),
             warped,
             material,
         },

@@ -2,7 +2,8 @@
 
 use corfem::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
 use corfem::error::Error;
-use corfem::model::{FiniteElementModel, Parameter};
+use corfem::model::FiniteElementModel;
+use corfem::parameters::Parameter;
 use corfem::step::Range;
 use corfem::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
@@ -48,12 +49,11 @@ pub fn spring_chain(springs: &[f64], held: [bool; 2]) -> Structure {
     Structure::new(grids, rods).expect("a chain")
 }
 
-/// Elements that change together.
+/// Elements that change together, with bounds on their sizes.
 pub fn group(name: &str, elements: &[usize], size_range: Option<Range>) -> Parameter {
     Parameter {
-        name: name.to_owned(),
-        elements: elements.to_vec(),
         size_range,
+        ..Parameter::group(name, elements)
     }
 }
 
@@ -132,6 +132,7 @@ pub fn as_element(stiffness: &DMatrix<f64>) -> (Vec<ElementMatrix>, Vec<Structur
         label: 1,
         dof: (0..count).collect(),
         unit: stiffness.clone(),
+        unit_mass: DVector::zeros(count),
     };
     let free = (0..count)
         .map(|row| StructuralDof {

@@ -39,3 +39,8 @@ pub const EXPECTED_HISTORY: f64 = 1e-5;
 pub const EXPECTED_FREQUENCY: f64 = 1e-6;
 /// Twelve-point quadrature of a strongly distorted panel against its closed form.
 pub const QUADRATURE_DISTORTED: f64 = 1e-6;
+/// Goldens on another machine: the inner loop steps through some thirty finite-difference iterations, each of which
+/// multiplies a difference in the last digit; two builds of the independent program differ by 1e-6.
+pub const GOLDEN_RELATIVE: f64 = 1e-5;
+/// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
+pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;

@@ -2,7 +2,8 @@
 
 use corfem::assembly::{FactorizedStiffness, dense_stiffness};
 use corfem::cases::Case;
-use corfem::model::{FiniteElementModel, Parameter};
+use corfem::model::FiniteElementModel;
+use corfem::parameters::Parameter;
 use corfem::torque_box::{Reconstruction, load_distribution, structure};
 use nalgebra::DMatrix;
 use proptest::prelude::*;

@@ -1,10 +1,15 @@
 //! The paper's four cases on its wing torque box.
 
+mod run;
+
+pub use run::{Anomaly, CaseResult, anomalies, run_case};
+
 use crate::error::Error;
 use crate::inner_loop::InnerSettings;
-use crate::model::{FiniteElementModel, Parameter};
+use crate::model::FiniteElementModel;
 use crate::modes::Modes;
-use crate::outer_loop::{Correlation, Pass, Settings, correlate};
+use crate::outer_loop::Settings;
+use crate::parameters::Parameter;
 use crate::published::PublishedTable;
 use crate::step::Range;
 use crate::structure::ElementKind;
@@ -15,11 +20,25 @@ use crate::torque_box::{
 /// Numbers of the paper's cases.
 pub const CASES: [usize; 4] = [1, 2, 3, 4];
 
-/// How many widths of the factor bounds beyond them an unlimited factor must lie to be reported as an anomaly.
-///
-/// Within a few widths the bounds do their work over several iterations; the parasitic answers of Case 4's sound
-/// elements reach 9 widths, its faulty one 60.
-const ANOMALY_WIDTHS: f64 = 20.0;
+/// What the correlation scales as one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Grouping {
+    /// Every panel on its own, as in the paper's tables.
+    #[default]
+    Elements,
+    /// The paper's substructures: all covers, all spars, all ribs.
+    ///
+    /// In Case 3 a group has panels at both gage bounds and could not move: there its factor is kept within the ratio of the
+    /// bounds instead.
+    Substructures,
+}
+
+/// The box's substructures and their panels.
+const SUBSTRUCTURES: [(&str, &[usize]); 3] = [
+    ("covers", &[2, 4, 8, 9, 11, 15]),
+    ("spars", &[1, 3, 5, 6, 10, 14]),
+    ("ribs", &[7, 12, 13]),
+];
 
 /// A case: what the structure really is, what the model says it is, and how it is correlated.
 #[derive(Debug, Clone)]
@@ -34,6 +53,8 @@ pub struct Case {
     pub rod_area: f64,
     /// Bounds on the gages, in, if the paper set any.
     pub gage_range: Option<Range>,
+    /// What is scaled together.
+    pub grouping: Grouping,
     /// Tolerances and passes.
     pub settings: Settings,
 }
@@ -93,6 +114,7 @@ impl Case {
             panels,
             rod_area: table.required("16-39", &gage_heading)?,
             gage_range,
+            grouping: Grouping::Elements,
             settings: published_settings(number),
         })
     }
@@ -124,11 +146,30 @@ impl Case {
             structure(&self.reconstruction, &panels, self.rod_area)?,
             load_distribution(&self.reconstruction)?,
             self.reconstruction.mass(),
-            panels
+            self.parameters(),
+        )
+    }
+
+    /// What is scaled: single panels or substructures.
+    fn parameters(&self) -> Vec<Parameter> {
+        match self.grouping {
+            Grouping::Elements => self
+                .panels
                 .iter()
                 .map(|panel| Parameter::element(panel.label, self.gage_range))
                 .collect(),
-        )
+            Grouping::Substructures => SUBSTRUCTURES
+                .iter()
+                .map(|&(name, elements)| Parameter {
+                    // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
+                    factor_range: self.gage_range.map(|range| Range {
+                        lower: range.lower / range.upper,
+                        upper: range.upper / range.lower,
+                    }),
+                    ..Parameter::group(name, elements)
+                })
+                .collect(),
+        }
     }
 
     /// The model with the case's first gages.
@@ -150,7 +191,7 @@ impl Case {
     /// Those of [`Self::model_with`] and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, Error> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-        let dynamic = model.analyze(&[1.0; PANEL_COUNT])?;
+        let dynamic = model.analyze(&vec![1.0; model.parameters().len()])?;
         crate::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
     }
 }
@@ -175,104 +216,4 @@ fn published_settings(number: usize) -> Settings {
         most_passes: passes,
         ..Settings::default()
     }
-}
-
-/// An element whose unlimited factor cannot be meant: a modeling error, in all likelihood.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Anomaly {
-    /// Name of the parameter.
-    pub parameter: String,
-    /// Its unlimited factor.
-    pub factor: f64,
-}
-
-/// What became of a case.
-#[derive(Debug, Clone)]
-pub struct CaseResult {
-    /// The case.
-    pub case: Case,
-    /// Its test modes.
-    pub test: Modes,
-    /// Its whole history.
-    pub correlation: Correlation,
-    /// Gages after every pass, in, elements 1 to 15.
-    pub pass_gages: Vec<Vec<f64>>,
-    /// Elements reported as modeling errors after the first iteration.
-    pub anomalies: Vec<Anomaly>,
-}
-
-impl CaseResult {
-    /// Unlimited factors of the first iteration, elements 1 to 15.
-    pub fn unlimited_factors(&self) -> &[f64] {
-        self.correlation
-            .passes
-            .first()
-            .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
-    }
-
-    /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
-    /// faulty element.
-    pub fn succeeded(&self) -> bool {
-        if self.case.number == 4 && self.case.settings.inner.iterations == 1 {
-            !self.anomalies.is_empty()
-        } else {
-            self.correlation.converged
-        }
-    }
-}
-
-/// Correlates a case; `progress` is told of every pass.
-///
-/// # Errors
-/// Those of the model, the analysis and the loops.
-pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
-    let model = case.model()?;
-    let test = case.test_modes()?;
-    let correlation = correlate(
-        |factors| model.analyze(factors),
-        &test,
-        &model.factor_ranges()?,
-        &case.settings,
-        progress,
-    )?;
-    let pass_gages = correlation
-        .passes
-        .iter()
-        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()))
-        .collect::<Result<_, Error>>()?;
-    let anomalies = correlation.passes.first().map_or_else(Vec::new, |pass| {
-        let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
-        anomalies(
-            &names,
-            &pass.inner.first_unlimited_factors,
-            case.settings.inner.factor_range,
-        )
-    });
-    Ok(CaseResult {
-        case: case.clone(),
-        test,
-        correlation,
-        pass_gages,
-        anomalies,
-    })
-}
-
-/// Parameters whose unlimited factors lie far outside the bounds of one iteration, largest first.
-///
-/// Far is twenty widths of the bounds beyond them: no sequence of bounded steps is meant to go there.
-pub fn anomalies(names: &[&str], unlimited_factors: &[f64], factor_range: Range) -> Vec<Anomaly> {
-    let width = factor_range.upper - factor_range.lower;
-    let mut found: Vec<(f64, Anomaly)> = names
-        .iter()
-        .zip(unlimited_factors)
-        .filter_map(|(&name, &factor)| {
-            let beyond = (factor - factor_range.upper).max(factor_range.lower - factor);
-            (beyond > ANOMALY_WIDTHS * width).then(|| {
-                let parameter = name.to_owned();
-                (beyond, Anomaly { parameter, factor })
-            })
-        })
-        .collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    found.into_iter().map(|(_, anomaly)| anomaly).collect()
 }

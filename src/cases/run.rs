@@ -1,0 +1,117 @@
+//! A case from its first gages to its last exact check.
+
+use super::Case;
+use crate::error::Error;
+use crate::modes::Modes;
+use crate::outer_loop::{Correlation, Pass, correlate};
+use crate::step::Range;
+use crate::torque_box::PANEL_COUNT;
+
+/// How many widths of the factor bounds beyond them an unlimited factor must lie to be reported as an anomaly.
+///
+/// Within a few widths the bounds do their work over several iterations; the parasitic answers of Case 4's sound
+/// elements reach 9 widths, its faulty one 60.
+const ANOMALY_WIDTHS: f64 = 20.0;
+
+/// An element whose unlimited factor cannot be meant: a modeling error, in all likelihood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Anomaly {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Its unlimited factor.
+    pub factor: f64,
+}
+
+/// What became of a case.
+#[derive(Debug, Clone)]
+pub struct CaseResult {
+    /// The case.
+    pub case: Case,
+    /// Its test modes.
+    pub test: Modes,
+    /// Its whole history.
+    pub correlation: Correlation,
+    /// Names of what was scaled: element numbers or substructures.
+    pub parameter_names: Vec<String>,
+    /// Gages after every pass, in, elements 1 to 15.
+    pub pass_gages: Vec<Vec<f64>>,
+    /// Parameters reported as modeling errors after the first iteration.
+    pub anomalies: Vec<Anomaly>,
+}
+
+impl CaseResult {
+    /// Unlimited factors of the first iteration, one per parameter.
+    pub fn unlimited_factors(&self) -> &[f64] {
+        self.correlation
+            .passes
+            .first()
+            .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
+    }
+
+    /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
+    /// faulty element.
+    pub fn succeeded(&self) -> bool {
+        if self.case.number == 4 && self.case.settings.inner.iterations == 1 {
+            !self.anomalies.is_empty()
+        } else {
+            self.correlation.converged
+        }
+    }
+}
+
+/// Correlates a case; `progress` is told of every pass.
+///
+/// # Errors
+/// Those of the model, the analysis and the loops.
+pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
+    let model = case.model()?;
+    let test = case.test_modes()?;
+    let correlation = correlate(
+        |factors| model.analyze(factors),
+        &test,
+        &model.factor_ranges()?,
+        &case.settings,
+        progress,
+    )?;
+    let pass_gages = correlation
+        .passes
+        .iter()
+        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()))
+        .collect::<Result<_, Error>>()?;
+    let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
+    let anomalies = correlation.passes.first().map_or_else(Vec::new, |pass| {
+        anomalies(
+            &parameter_names,
+            &pass.inner.first_unlimited_factors,
+            case.settings.inner.factor_range,
+        )
+    });
+    Ok(CaseResult {
+        case: case.clone(),
+        test,
+        correlation,
+        parameter_names,
+        pass_gages,
+        anomalies,
+    })
+}
+
+/// Parameters whose unlimited factors lie far outside the bounds of one iteration, largest first.
+///
+/// Far is twenty widths of the bounds beyond them: no sequence of bounded steps is meant to go there.
+pub fn anomalies(names: &[String], unlimited_factors: &[f64], factor_range: Range) -> Vec<Anomaly> {
+    let width = factor_range.upper - factor_range.lower;
+    let mut found: Vec<(f64, Anomaly)> = names
+        .iter()
+        .zip(unlimited_factors)
+        .filter_map(|(name, &factor)| {
+            let beyond = (factor - factor_range.upper).max(factor_range.lower - factor);
+            (beyond > ANOMALY_WIDTHS * width).then(|| {
+                let parameter = name.clone();
+                (beyond, Anomaly { parameter, factor })
+            })
+        })
+        .collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.into_iter().map(|(_, anomaly)| anomaly).collect()
+}

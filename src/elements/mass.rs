@@ -1,0 +1,44 @@
+//! Lumped element masses.
+
+use crate::error::Error;
+use crate::structure::ElementKind;
+use nalgebra::Vector3;
+
+/// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
+///
+/// Times density (lbf·s²/in⁴) and size it is the mass that moves with the corner, alike in x, y and z:
+///
+/// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
+///
+/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors, so that the four of a panel sum to its area.
+///
+/// # Errors
+/// [`Error::WrongCornerCount`] when the corners do not fit the kind.
+///
+/// Source: the lumped masses of NASTRAN's rods, triangles and quadrilaterals, NASA SP-222.
+pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
+    let triangle =
+        |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
+    match (kind, corners) {
+        (ElementKind::Rod, [a, b]) => Ok(vec![0.5 * (b - a).norm(); 2]),
+        (ElementKind::Triangle, [a, b, c]) => Ok(vec![triangle(a, b, c) / 3.0; 3]),
+        (ElementKind::ShearPanel | ElementKind::Membrane, [a, b, c, d]) => {
+            let at_corner: [f64; 4] = [
+                triangle(d, a, b),
+                triangle(a, b, c),
+                triangle(b, c, d),
+                triangle(c, d, a),
+            ];
+            // Each diagonal splits the panel once, so the four corner triangles cover it twice.
+            let area = 0.5 * at_corner.iter().sum::<f64>();
+            Ok(at_corner
+                .iter()
+                .map(|corner| (area + corner) / 6.0)
+                .collect())
+        }
+        _ => Err(Error::WrongCornerCount {
+            expected: kind.corner_count(),
+            found: corners.len(),
+        }),
+    }
+}

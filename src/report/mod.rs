@@ -1,0 +1,9 @@
+//! The report: tables as data first, then their rendering.
+
+pub mod correlation_tables;
+pub mod json;
+pub mod render;
+pub mod run_tables;
+pub mod table;
+
+pub use render::{Format, render};
