@@ -77,6 +77,14 @@ pub enum Error {
         /// The repeated label.
         element: usize,
     },
+    /// A torque box lacks one of its grid points.
+    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
+    MissingGrid {
+        /// The missing label.
+        grid: usize,
+        /// How many grids a box has.
+        count: usize,
+    },
     /// An element refers to a grid point that does not exist.
     #[error(
         "element {element}: expected an existing grid, found grid {grid}, which is not defined"

@@ -9,7 +9,8 @@
 //! # The method, in the order data flows
 //!
 //! 1. [`structure`]: grids, materials, elements; [`torque_box`]: the paper's wing torque box.
-//! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy).
+//! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy, [`analytical`] for what
+//!    it is compared with).
 //! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
 //! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
 //!    [`model`] puts 1 to 4 together, with the [`parameters`] that may change.
@@ -42,6 +43,7 @@ pub mod error;
 pub mod structure;
 pub mod torque_box;
 
+pub mod analytical;
 pub mod elements;
 pub mod quadrature;
 

@@ -121,6 +121,12 @@ pub fn cholesky(
     let lower = match to_faer(matrix).llt(Side::Lower) {
         Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
+            // A pivot before it may have been too small already.
+            cholesky(
+                what,
+                &matrix.view((0, 0), (index, index)).into_owned(),
+                smallest_pivot,
+            )?;
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };

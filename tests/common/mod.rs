@@ -6,9 +6,14 @@ pub mod counting_allocator;
 pub mod golden;
 pub mod measured;
 pub mod pairings;
+pub mod matrices;
+pub mod nastran95;
+pub mod panels;
 pub mod strategies;
+pub mod structures;
 pub mod tolerances;
 pub mod vibrations;
+pub mod torque_boxes;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
