@@ -2,11 +2,11 @@
 
 mod common;
 
+mod analytical;
 mod appendix_c_close_roots;
 mod appendix_c_complex;
 mod appendix_c_general;
 mod appendix_c_table_1;
-mod analytical;
 mod assembly;
 mod cases_expected;
 mod cli;
@@ -20,10 +20,9 @@ mod elements_shear;
 mod errata;
 mod groups;
 mod inner_loop;
-mod mass_parameters;
-mod modal;
 mod linalg;
 mod mass_parameters;
+mod modal;
 mod model;
 mod model_refusals;
 mod modes;

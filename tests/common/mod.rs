@@ -4,16 +4,16 @@ pub mod appendix_c;
 pub mod boxes;
 pub mod counting_allocator;
 pub mod golden;
-pub mod measured;
-pub mod pairings;
 pub mod matrices;
+pub mod measured;
 pub mod nastran95;
+pub mod pairings;
 pub mod panels;
 pub mod strategies;
 pub mod structures;
 pub mod tolerances;
-pub mod vibrations;
 pub mod torque_boxes;
+pub mod vibrations;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
