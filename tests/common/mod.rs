@@ -1,6 +1,8 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
 pub mod appendix_c;
+pub mod close_roots;
+pub mod complex_pencils;
 pub mod strategies;
 pub mod tolerances;
 

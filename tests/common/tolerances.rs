@@ -18,3 +18,5 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const ORDER_SLACK: f64 = 0.15;
 /// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
 pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
+/// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
+pub const CANCELLED_DIFFERENCE: f64 = 1e-3;
