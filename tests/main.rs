@@ -20,6 +20,7 @@ mod appendix_c_wing_section;
 mod appendix_c_close_roots;
 mod appendix_c_close_roots_errors;
 mod appendix_c_clusters;
+mod appendix_c_inner_loop;
 mod appendix_c_table_1;
 mod derivatives;
 mod step;
