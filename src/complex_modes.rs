@@ -100,7 +100,8 @@ pub fn solve(
         .transpose();
     for (mode, shape) in left.column_iter().enumerate() {
         let cosine = 1.0 / shape.norm();
-        if !(cosine > SMALLEST_COSINE) {
+        let complete = cosine > SMALLEST_COSINE;
+        if !complete {
             return Err(Error::Defective { mode, cosine });
         }
     }

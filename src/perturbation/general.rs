@@ -5,7 +5,8 @@
 //!
 //! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j - \alpha\big]\, p_j = 0, \qquad p_{jj} = 1 \quad \text{(C.14 to C.19)}. $$
 //!
-//! The print has $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to $U$.
+//! The print has $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to $U$. It
+//! has $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$. There is no (C.23).
 //!
 //! One set of functions serves real numbers and complex ones: a change of mass of a structure in vacuum is real
 //! throughout and must give real roots, aerodynamic terms make the same rows complex, and two copies of these

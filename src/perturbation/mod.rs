@@ -11,10 +11,12 @@
 mod blocks;
 pub mod close_roots;
 pub mod general;
+pub mod held;
 pub mod modal_change;
 pub mod recursive;
 
-pub use close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots, first_order_held};
+pub use close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots};
+pub use held::first_order_held;
 pub use modal_change::ModalChange;
 pub(crate) use recursive::{check_input, check_root};
 pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};

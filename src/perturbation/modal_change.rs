@@ -69,7 +69,8 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
             for left in (0..count).filter(|&left| left != right) {
                 let own = (k[(left, left)] * k[(right, right)]).modulus().sqrt();
                 let ratio = k[(left, right)].modulus() / own;
-                if !(ratio <= LARGEST_COUPLING) {
+                let apart = ratio <= LARGEST_COUPLING;
+                if !apart {
                     return Err(Error::NotBiorthogonal { left, right, ratio });
                 }
             }
@@ -126,7 +127,8 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         }
         for mode in 0..size {
             let ratio = self.own_stiffness(mode).modulus() / k[mode].modulus();
-            if !(ratio > SMALLEST_SEPARATION) {
+            let held = ratio > SMALLEST_SEPARATION;
+            if !held {
                 return Err(Error::LostStiffness { mode, ratio });
             }
         }

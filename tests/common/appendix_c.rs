@@ -1,10 +1,10 @@
-//! Strategies and small problems for Appendix C in full: changes of stiffness and mass, complex pencils, close roots.
+//! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::perturbation::ModalChange;
-use nalgebra::{Complex, DMatrix, DVector};
+use corfem::perturbation::{ModalChange, Perturbed};
+use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
-use super::strategies::{orthogonal, symmetric};
+use super::strategies::symmetric;
 
 /// Largest entry of a generalized change relative to its modes' own stiffness or mass. With roots a factor 1.5 apart
 /// and six modes the sum of a row's $|p_{ij}|$ stays below one half, so the recursions converge, by a digit in
@@ -82,72 +82,6 @@ pub fn clustered() -> impl Strategy<Value = Clustered> {
         .prop_map(|(change, blocks)| Clustered { change, blocks })
 }
 
-/// A stiffness and a complex unsymmetric $G$ with their changes.
-#[derive(Debug, Clone)]
-pub struct ComplexPencil {
-    pub stiffness: DMatrix<f64>,
-    pub g: DMatrix<Complex<f64>>,
-    pub stiffness_change: DMatrix<Complex<f64>>,
-    pub g_change: DMatrix<Complex<f64>>,
-}
-
-/// A square complex matrix with real and imaginary parts between −1 and 1.
-pub fn complex_square(size: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
-    prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), size * size).prop_map(move |parts| {
-        DMatrix::from_iterator(
-            size,
-            size,
-            parts.iter().map(|&(re, im)| Complex::new(re, im)),
-        )
-    })
-}
-
-/// Three to six DOF, an orthogonally mixed stiffness with separate spectrum, $G$ the unit mass with complex terms of
-/// 2 %, changes of 1 %: roots stay a factor 1.3 apart, so the base problem is well conditioned and the recursions
-/// converge. The changes are complex and unsymmetric too (structural damping).
-pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
-    (3..=6_usize)
-        .prop_flat_map(|size| {
-            (
-                separate_spectrum(size),
-                orthogonal(size),
-                complex_square(size),
-                complex_square(size),
-                complex_square(size),
-            )
-        })
-        .prop_map(|(k, q, aerodynamic, stiffness_noise, g_noise)| {
-            let size = k.len();
-            let root =
-                (&q * DMatrix::from_diagonal(&k.map(f64::sqrt)) * q.transpose()).map(Complex::from);
-            let stiffness = &q * DMatrix::from_diagonal(&k) * q.transpose();
-            let small = |factor: f64| Complex::from(factor);
-            ComplexPencil {
-                stiffness: 0.5 * (&stiffness + stiffness.transpose()),
-                g: DMatrix::identity(size, size) + aerodynamic * small(0.02),
-                // Relative to the stiffness of the modes it acts on, as the change of a structure is.
-                stiffness_change: &root * stiffness_noise * &root * small(0.01),
-                g_change: g_noise * small(0.01),
-            }
-        })
-}
-
-/// A wing section that bends and twists, with an aileron: three DOF in quasi-steady flow at dynamic pressure `q`.
-///
-/// Springs in bending, torsion and aileron rotation; masses coupled by static unbalance. The flow's lift, moment
-/// and hinge moment follow twist and aileron in phase (stiffness-like, here part of $G$ as in the paper) and lag
-/// behind them (the imaginary part), and no force on the twist follows bending: complex and unsymmetric.
-pub fn aeroelastic_section(q: f64) -> (DMatrix<f64>, DMatrix<Complex<f64>>) {
-    let stiffness = nalgebra::dmatrix![1.0, 0.0, 0.0; 0.0, 1.5, -0.05; 0.0, -0.05, 0.4];
-    let mass = nalgebra::dmatrix![1.0, 0.2, 0.05; 0.2, 0.5, 0.06; 0.05, 0.06, 0.04];
-    let in_phase = nalgebra::dmatrix![0.1, 1.2, 0.5; 0.0, 0.3, 0.2; 0.0, 0.02, 0.05];
-    let lagging = nalgebra::dmatrix![0.8, 0.4, 0.1; -0.2, 0.3, 0.05; 0.0, 0.01, 0.02];
-    let g = DMatrix::from_fn(3, 3, |i, j| {
-        Complex::new(mass[(i, j)] + q * in_phase[(i, j)], -q * lagging[(i, j)])
-    });
-    (stiffness, g)
-}
-
 /// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.
 pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
     let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&ground));
@@ -191,4 +125,29 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
             distance
         })
         .fold(0.0, f64::max)
+}
+
+/// Four modes, stiffness and mass changed together, every entry of both changes at work.
+pub fn four_modes(size: f64) -> ModalChange<f64> {
+    let beta = dmatrix![
+        0.3, 0.5, -0.4, 0.6;
+        0.5, -0.8, 0.9, 0.7;
+        -0.4, 0.9, 1.1, -1.3;
+        0.6, 0.7, -1.3, 1.7];
+    let alpha = dmatrix![
+        -0.2, 0.15, 0.1, -0.25;
+        0.15, 0.3, -0.2, 0.1;
+        0.1, -0.2, 0.25, 0.05;
+        -0.25, 0.1, 0.05, -0.1];
+    ModalChange::of_vibrations(&dvector![1.0, 2.5, 6.0, 14.0], size * beta, size * alpha)
+}
+
+/// Largest relative error of a root and largest error of a shape against the exact solution.
+pub fn errors(perturbed: &Perturbed, exact: &Perturbed) -> (f64, f64) {
+    let roots = perturbed
+        .roots
+        .component_div(&exact.roots)
+        .add_scalar(-1.0)
+        .amax();
+    (roots, (&perturbed.shapes - &exact.shapes).amax())
 }

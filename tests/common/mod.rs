@@ -9,6 +9,8 @@ pub mod measured;
 pub mod nastran95;
 pub mod pairings;
 pub mod panels;
+pub mod close_roots;
+pub mod complex_pencils;
 pub mod strategies;
 pub mod structures;
 pub mod tolerances;

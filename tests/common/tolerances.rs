@@ -86,3 +86,5 @@ pub const ORTHOGONAL_INPUT: f64 = 1e-11;
 pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
 /// The balance equations with the reference axis a thousand lengths away, where their condition is 6e6.
 pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
+/// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
+pub const CANCELLED_DIFFERENCE: f64 = 1e-3;
