@@ -10,6 +10,7 @@ mod derivatives;
 mod elements;
 mod elements_nastran95;
 mod inner_loop;
+mod inner_loop_bad_input;
 mod modal;
 mod modes;
 mod modes_bad_input;

@@ -3,6 +3,7 @@
 pub mod boxes;
 pub mod counting_allocator;
 pub mod golden;
+pub mod loops;
 pub mod pairings;
 pub mod strategies;
 pub mod tolerances;
