@@ -41,6 +41,7 @@ mod groups;
 mod inner_loop;
 mod linalg;
 mod mass_parameters;
+mod inner_loop_bad_input;
 mod modal;
 mod model;
 mod model_refusals;

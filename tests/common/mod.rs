@@ -7,6 +7,7 @@ pub mod golden;
 pub mod matrices;
 pub mod measured;
 pub mod nastran95;
+pub mod loops;
 pub mod pairings;
 pub mod panels;
 pub mod close_roots;
