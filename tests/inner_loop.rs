@@ -7,7 +7,7 @@ use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::{Chain, chain_and_truth};
 use corfem::cases::Case;
 use corfem::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::modal::{DynamicModel, ModalProblem};
+use corfem::modal::{DynamicModel, ModalProblem, Share};
 use corfem::modes::solve;
 use corfem::perturbation::UpdateRule;
 use corfem::step::{Limit, Range};
@@ -33,7 +33,11 @@ fn small_step() -> InnerSettings {
 fn assert_error_sum_only_falls(run: &InnerRun) {
     let mut before = run.start.sum();
     for iteration in &run.iterations {
-        assert!(iteration.errors.sum() < before, "{} {before}", iteration.errors.sum());
+        assert!(
+            iteration.errors.sum() < before,
+            "{} {before}",
+            iteration.errors.sum()
+        );
         before = iteration.errors.sum();
     }
 }
@@ -160,7 +164,7 @@ fn relaxation_is_another_in_the_first_iteration() {
     let step = |iteration: usize, error_sum: f64| {
         let record = &run.iterations[iteration];
         let change = record.derivatives.error_change[0];
-        let stiffness = record.derivatives.stiffness_change[(0, 0)];
+        let stiffness = record.derivatives.share_change[(0, 0)];
         (1.0 - record.unlimited_factors[0]) * stiffness / (change * error_sum)
     };
     assert!((step(0, run.start.sum()) - 0.5).abs() <= 1e3 * ROUND_OFF);
@@ -235,7 +239,10 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
     let model = DynamicModel {
         stiffness: dmatrix![100.0],
         mass: dmatrix![1.0],
-        shares: vec![dmatrix![300.0], dmatrix![-200.0]],
+        shares: vec![
+            Share::Stiffness(dmatrix![300.0]),
+            Share::Stiffness(dmatrix![-200.0]),
+        ],
     };
     let test = solve(&dmatrix![81.0], &model.mass, 1).unwrap();
     let problem = ModalProblem::new(&model, &test, 1).unwrap();
@@ -268,7 +275,7 @@ fn equal_modes_are_a_local_minimum() {
     // A step is tried although the start is within tolerance; nothing lowers an error sum of nothing.
     assert_eq!(run.stop, Stop::LocalMinimum);
     assert!(run.iterations.is_empty());
-    assert_eq!(run.start.sum(), 0.0);
+    assert!(run.start.sum() <= ROUND_OFF);
     assert_eq!(run.first_unlimited_factors, [1.0; 3]);
 }
 
@@ -307,7 +314,10 @@ fn the_box_stops_for_each_of_the_three_reasons() {
     assert_eq!(within.stop, Stop::Tolerance);
     assert!(within.last.errors.sum() < 0.025);
     let cut_short = run_with(&|settings| settings.iterations = 3);
-    assert_eq!((cut_short.stop, cut_short.iterations.len()), (Stop::Iterations, 3));
+    assert_eq!(
+        (cut_short.stop, cut_short.iterations.len()),
+        (Stop::Iterations, 3)
+    );
     assert_eq!(cut_short.last.errors, within.iterations[2].errors);
     let stuck = run_with(&|settings| {
         settings.tolerance = 1e-6;
@@ -359,7 +369,7 @@ fn the_default_settings_are_the_papers() {
 fn modes_too_close_for_derivatives_are_an_error() {
     let stiffness = DMatrix::identity(2, 2) * 100.0;
     let model = DynamicModel {
-        shares: vec![stiffness.clone()],
+        shares: vec![Share::Stiffness(stiffness.clone())],
         mass: DMatrix::identity(2, 2),
         stiffness,
     };
@@ -367,6 +377,10 @@ fn modes_too_close_for_derivatives_are_an_error() {
     let problem = ModalProblem::new(&model, &test, 2).unwrap();
     assert!(matches!(
         run(&problem, &[1.0], &[None], &InnerSettings::default()),
-        Err(corfem::error::Error::CoalescingModes { first: 1, second: 0, .. })
+        Err(corfem::error::Error::CoalescingModes {
+            first: 1,
+            second: 0,
+            ..
+        })
     ));
 }

@@ -136,7 +136,13 @@ fn trial(
         .map(|e| {
             let step = 1.0 + fraction * (unlimited[e] - 1.0);
             let range = given.total_ranges[e];
-            held(state.factors[e], given.base[e], step, settings.factor_range, range)
+            held(
+                state.factors[e],
+                given.base[e],
+                step,
+                settings.factor_range,
+                range,
+            )
         })
         .unzip();
     let next = problem.state_at(factors.clone(), settings.update).ok();

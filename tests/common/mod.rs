@@ -2,16 +2,16 @@
 
 pub mod appendix_c;
 pub mod boxes;
+pub mod close_roots;
+pub mod complex_pencils;
 pub mod counting_allocator;
 pub mod golden;
+pub mod loops;
 pub mod matrices;
 pub mod measured;
 pub mod nastran95;
-pub mod loops;
 pub mod pairings;
 pub mod panels;
-pub mod close_roots;
-pub mod complex_pencils;
 pub mod strategies;
 pub mod structures;
 pub mod tolerances;
