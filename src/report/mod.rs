@@ -3,6 +3,7 @@
 pub mod correlation_tables;
 pub mod json;
 pub mod render;
+pub mod root_errors;
 pub mod run_tables;
 pub mod table;
 

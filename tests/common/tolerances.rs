@@ -88,3 +88,5 @@ pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
 pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
 /// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
 pub const CANCELLED_DIFFERENCE: f64 = 1e-3;
+/// Goldens of root errors in percent: below this they are round-off of roots of order one, a few units in the last place.
+pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
