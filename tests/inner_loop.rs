@@ -68,7 +68,6 @@ proptest! {
         let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step()).unwrap();
         prop_assert_eq!(run.iterations.len(), 1);
         prop_assert!(run.last.errors.sum() < start.sum());
-        prop_assert!(run.last.errors.sum() > 0.9 * start.sum());
     }
 
     #[test]
@@ -109,18 +108,19 @@ proptest! {
     }
 
     #[test]
-    fn boxes_come_nearer_to_their_test_within_limits(case in uneven_box()) {
+    fn boxes_reach_the_tolerance_within_limits(case in uneven_box()) {
         let problem = problem_of(&case);
         let ranges: Vec<Option<Range>> = case
             .panels
             .iter()
             .map(|panel| Some(Range { lower: 0.007 / panel.gage, upper: 0.013 / panel.gage }))
             .collect();
-        let settings = InnerSettings { iterations: 10, ..InnerSettings::default() };
+        let settings = InnerSettings::default();
         let run = run(&problem, &[1.0; 15], &ranges, &settings).unwrap();
         assert_error_sum_only_falls(&run);
         assert_limits_hold(&run, &[1.0; 15], &ranges, settings.factor_range);
-        prop_assert!(run.last.errors.sum() < 0.7 * run.start.sum());
+        prop_assert_eq!(run.stop, Stop::Tolerance);
+        prop_assert!(run.last.errors.sum() < settings.tolerance);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod common;
 
+mod alternatives;
 mod assembly;
 mod cases_expected;
 mod cli;
@@ -16,6 +17,7 @@ mod modes;
 mod modes_bad_input;
 mod objective;
 mod outer_loop;
+mod outer_loop_bad_input;
 mod perturbation;
 mod perturbation_bad_input;
 mod perturbation_orders;
