@@ -77,10 +77,18 @@ fn plain_steepest_descent_stalls() {
             settings.halvings = 0;
         });
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!((3..=6).contains(&run.iterations.len()), "{}", run.iterations.len());
+        assert!(
+            (3..=6).contains(&run.iterations.len()),
+            "{}",
+            run.iterations.len()
+        );
         assert!(run.last.errors.sum() > 0.06, "{}", run.last.errors.sum());
         // Where the primary rules leave 6, 5 and 13 %.
-        assert!(gage_error(number, &run) > 0.17, "{}", gage_error(number, &run));
+        assert!(
+            gage_error(number, &run) > 0.17,
+            "{}",
+            gage_error(number, &run)
+        );
     }
 }
 
@@ -101,11 +109,20 @@ fn stopping_at_the_first_rise_stops_early() {
     let at_first_rise = |number| first_pass(number, |settings| settings.halvings = 0);
     // Case 1 never rises; Cases 2 and 3 are left at 6 and 4 %.
     assert_eq!(at_first_rise(1).stop, Stop::Tolerance);
-    assert!(first_pass(1, |_| {}).iterations.iter().all(|i| i.halvings == 0));
+    assert!(
+        first_pass(1, |_| {})
+            .iterations
+            .iter()
+            .all(|i| i.halvings == 0)
+    );
     for (number, error_sum) in [(2, 0.062), (3, 0.040)] {
         let run = at_first_rise(number);
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!((run.last.errors.sum() - error_sum).abs() < 5e-4, "{}", run.last.errors.sum());
+        assert!(
+            (run.last.errors.sum() - error_sum).abs() < 5e-4,
+            "{}",
+            run.last.errors.sum()
+        );
         let halved = first_pass(number, |_| {});
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));
     }
@@ -115,7 +132,9 @@ fn stopping_at_the_first_rise_stops_early() {
 fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
-        let exact = first_pass(number, |settings| settings.update = UpdateRule::Eigensolution);
+        let exact = first_pass(number, |settings| {
+            settings.update = UpdateRule::Eigensolution
+        });
         assert_eq!(primary.iterations.len(), exact.iterations.len());
         for (a, b) in primary.iterations.iter().zip(&exact.iterations) {
             assert_eq!(a.halvings, b.halvings);
@@ -129,7 +148,9 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
     // Factors after the first iteration, which every rule computes from the same derivatives, are the same; the error
     // sum there is where the rules differ.
     for number in 1..=3 {
-        let exact = first_pass(number, |settings| settings.update = UpdateRule::Eigensolution);
+        let exact = first_pass(number, |settings| {
+            settings.update = UpdateRule::Eigensolution
+        });
         let distance = |update| {
             let run = first_pass(number, |settings| {
                 settings.update = update;
@@ -141,7 +162,10 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
         let first = distance(UpdateRule::FirstOrder);
         let second = distance(UpdateRule::Recursive1 { order: 2 });
         let fourth = distance(UpdateRule::Recursive1 { order: 4 });
-        assert!(fourth < second && second < first, "{first:e} {second:e} {fourth:e}");
+        assert!(
+            fourth < second && second < first,
+            "{first:e} {second:e} {fourth:e}"
+        );
         let third = distance(UpdateRule::Recursive2 { order: 3 });
         assert!(third < second);
     }
@@ -153,24 +177,44 @@ fn first_order_modes_mislead_the_inner_loop() {
     let check = |update| {
         let mut case = Case::new(1).unwrap();
         case.settings.inner.update = update;
-        let settings = Settings { most_passes: 1, ..case.settings.clone() };
+        let settings = Settings {
+            most_passes: 1,
+            ..case.settings.clone()
+        };
         let model = case.model().unwrap();
         let test = case.test_modes().unwrap();
-        let found = correlate(|f| model.analyze(f), &test, &[None; 15], &settings, |_, _| {}).unwrap();
+        let found = correlate(
+            |f| model.analyze(f),
+            &test,
+            &[None; 15],
+            &settings,
+            |_, _| {},
+        )
+        .unwrap();
         let pass = &found.passes[0];
         assert!(pass.inner.last.errors.sum() < 0.025);
         (pass.inner.iterations.len(), pass.check.errors.sum())
     };
     let (primary, first) = (check(UpdateRule::default()), check(UpdateRule::FirstOrder));
     let original = check(UpdateRule::Original);
-    assert!(first.0 > 2 * primary.0 && first.1 > 2.0 * primary.1, "{primary:?} {first:?}");
+    assert!(
+        first.0 > 2 * primary.0 && first.1 > 2.0 * primary.1,
+        "{primary:?} {first:?}"
+    );
     // The original formulae lie between the two.
-    assert!(primary.1 < original.1 && original.1 < first.1, "{original:?}");
+    assert!(
+        primary.1 < original.1 && original.1 < first.1,
+        "{original:?}"
+    );
 }
 
 /// Largest error of nine frequencies, in percent, of Recursive 1 at the published total change of a case.
 fn largest_frequency_error(case: &Case, problem: &ModalProblem, table: usize, order: usize) -> f64 {
-    let column = if case.number == 3 { "pass_3_in" } else { "pass_1_in" };
+    let column = if case.number == 3 {
+        "pass_3_in"
+    } else {
+        "pass_1_in"
+    };
     let table = PublishedTable::number(table).unwrap();
     let factors: Vec<f64> = case
         .panels
@@ -191,9 +235,39 @@ fn largest_frequency_error(case: &Case, problem: &ModalProblem, table: usize, or
 fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
     // Percent, to the last digit that an independent program gave for the same changes.
     for (number, table, expected) in [
-        (1, 4, [(1, "0.96"), (2, "0.043"), (3, "0.013"), (4, "0.0004"), (6, "0.00001")]),
-        (2, 6, [(1, "0.085"), (2, "0.0013"), (3, "0.00009"), (4, "0.000003"), (6, "0.000000")]),
-        (3, 8, [(1, "2.3"), (2, "0.094"), (3, "0.14"), (4, "0.007"), (6, "0.0008")]),
+        (
+            1,
+            4,
+            [
+                (1, "0.96"),
+                (2, "0.043"),
+                (3, "0.013"),
+                (4, "0.0004"),
+                (6, "0.00001"),
+            ],
+        ),
+        (
+            2,
+            6,
+            [
+                (1, "0.085"),
+                (2, "0.0013"),
+                (3, "0.00009"),
+                (4, "0.000003"),
+                (6, "0.000000"),
+            ],
+        ),
+        (
+            3,
+            8,
+            [
+                (1, "2.3"),
+                (2, "0.094"),
+                (3, "0.14"),
+                (4, "0.007"),
+                (6, "0.0008"),
+            ],
+        ),
     ] {
         let case = Case::new(number).unwrap();
         let problem = problem_of(&case);

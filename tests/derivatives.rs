@@ -16,7 +16,9 @@ use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
 fn exact_error_sum(problem: &ModalProblem, factors: Vec<f64>) -> f64 {
-    let state = problem.state_at(factors, UpdateRule::Eigensolution).unwrap();
+    let state = problem
+        .state_at(factors, UpdateRule::Eigensolution)
+        .unwrap();
     state.errors.sum()
 }
 
@@ -49,7 +51,10 @@ fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
     let scale = expected.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     for (found, expected) in found.iter().zip(expected) {
         let error = (found - expected).abs();
-        assert!(error <= tolerance * scale, "{found:e} {expected:e} of {scale:e}");
+        assert!(
+            error <= tolerance * scale,
+            "{found:e} {expected:e} of {scale:e}"
+        );
     }
 }
 
@@ -203,7 +208,9 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     let chain = Chain::uniform(4);
     let (test, factors) = (chain.modes(&[1.2, 0.8, 1.3, 0.9]), [1.05, 0.97, 1.1, 0.94]);
     let problem = ModalProblem::new(&chain.model(&[1.0; 4]), &test, 4).unwrap();
-    let state = problem.state_at(factors.to_vec(), UpdateRule::default()).unwrap();
+    let state = problem
+        .state_at(factors.to_vec(), UpdateRule::default())
+        .unwrap();
     let moved = ModalProblem::new(&chain.model(&factors), &test, 4).unwrap();
     let found = error_derivatives(&problem, &state).unwrap();
     let expected = error_derivatives(&moved, &moved.start_state().unwrap()).unwrap();
@@ -226,7 +233,10 @@ fn the_loop_over_parameters_allocates_nothing() {
             error_changes_into(&problem, &state, &mut workspace, &mut change).unwrap();
         });
         assert_eq!(count, 0);
-        assert_eq!(change, error_derivatives(&problem, &state).unwrap().error_change);
+        assert_eq!(
+            change,
+            error_derivatives(&problem, &state).unwrap().error_change
+        );
     }
     // The counter counts.
     let mut kept = Vec::new();

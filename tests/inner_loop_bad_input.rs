@@ -27,7 +27,9 @@ fn with_settings(change: impl Fn(&mut InnerSettings)) -> Result<InnerRun, Error>
 fn relaxations_and_tolerance_must_be_positive() {
     type Setter = fn(&mut InnerSettings, f64);
     let setters: [(&str, Setter); 3] = [
-        ("first_relaxation", |settings, value| settings.first_relaxation = value),
+        ("first_relaxation", |settings, value| {
+            settings.first_relaxation = value
+        }),
         ("relaxation", |settings, value| settings.relaxation = value),
         ("tolerance", |settings, value| settings.tolerance = value),
     ];
@@ -77,7 +79,10 @@ fn total_limits_must_be_in_order() {
     };
     match run_with(&[1.0; 2], &[None, Some(crossed)], |_| {}) {
         Err(Error::Limits { what, lower, upper }) => {
-            assert_eq!((what.as_str(), lower, upper), ("parameter limits", 2.0, 0.5));
+            assert_eq!(
+                (what.as_str(), lower, upper),
+                ("parameter limits", 2.0, 0.5)
+            );
         }
         other => panic!("{other:?}"),
     }

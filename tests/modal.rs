@@ -1,6 +1,6 @@
 //! The modal problem: what an inner loop keeps of the last exact solution, and the state it makes of factors.
 
-use crate::common::boxes::{first_problem, uneven_box, problem_of};
+use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::error::Error;
@@ -133,7 +133,10 @@ fn fewer_analysis_modes_are_the_lowest_ones() {
     assert_eq!(some.start_cross.shape(), (3, 2));
     assert_eq!(some.test_stiffness.shape(), (2, 5));
     assert_eq!(some.generalized_shares[0].shape(), (3, 3));
-    assert_eq!(some.start_state().unwrap().generalized_shapes.shape(), (3, 3));
+    assert_eq!(
+        some.start_state().unwrap().generalized_shapes.shape(),
+        (3, 3)
+    );
 }
 
 #[test]
@@ -169,20 +172,40 @@ fn problems_that_do_not_fit_are_refused() {
     ));
     assert!(matches!(
         new(&|model| model.shares[2] = dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0]),
-        Err(Error::NotSymmetric { what: "stiffness share", row: 1, column: 0, .. })
+        Err(Error::NotSymmetric {
+            what: "stiffness share",
+            row: 1,
+            column: 0,
+            ..
+        })
     ));
     assert!(matches!(
         new(&|model| model.mass[(1, 1)] = 0.0),
-        Err(Error::NotPositiveDefinite { what: "dynamic mass", dof: 1 })
+        Err(Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            dof: 1
+        })
     ));
     assert!(matches!(
         ModalProblem::new(&model, &test, 2),
-        Err(Error::TooMany { what: "test modes", available: 2, requested: 3 })
+        Err(Error::TooMany {
+            what: "test modes",
+            available: 2,
+            requested: 3
+        })
     ));
-    let other = Modes { shapes: DMatrix::identity(4, 3), ..test.clone() };
+    let other = Modes {
+        shapes: DMatrix::identity(4, 3),
+        ..test.clone()
+    };
     assert!(matches!(
         ModalProblem::new(&model, &other, 3),
-        Err(Error::WrongShape { what: "test mode shapes", expected_rows: 3, rows: 4, .. })
+        Err(Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            rows: 4,
+            ..
+        })
     ));
 }
 
@@ -208,6 +231,9 @@ fn there_is_one_factor_a_parameter() {
     }
     assert!(matches!(
         problem.state_at(vec![1.0, f64::NAN, 1.0], UpdateRule::default()),
-        Err(Error::NotFinite { what: "generalized stiffness change", .. })
+        Err(Error::NotFinite {
+            what: "generalized stiffness change",
+            ..
+        })
     ));
 }

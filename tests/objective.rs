@@ -149,8 +149,12 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
             .collect()
     };
     let modes = |frequencies: &[f64]| {
-        Modes::from_measured(frequencies, &DMatrix::identity(9, 9), &DMatrix::identity(9, 9))
-            .unwrap()
+        Modes::from_measured(
+            frequencies,
+            &DMatrix::identity(9, 9),
+            &DMatrix::identity(9, 9),
+        )
+        .unwrap()
     };
     let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
     let found = errors(&analysis, &in_order(9), &test);

@@ -21,17 +21,29 @@ fn correlate_with(
 }
 
 fn with_settings(change: impl Fn(&mut Settings)) -> Result<Correlation, Error> {
-    correlate_with(|factors| Ok(Chain::uniform(3).model(factors)), &[None; 3], change)
+    correlate_with(
+        |factors| Ok(Chain::uniform(3).model(factors)),
+        &[None; 3],
+        change,
+    )
 }
 
 #[test]
 fn tolerances_must_be_positive() {
     type Setter = fn(&mut Settings, f64);
     let setters: [(&str, Setter); 4] = [
-        ("later_inner_tolerance", |settings, value| settings.later_inner_tolerance = value),
-        ("error_sum_tolerance", |settings, value| settings.error_sum_tolerance = value),
-        ("frequency_tolerance", |settings, value| settings.frequency_tolerance = value),
-        ("shape_tolerance", |settings, value| settings.shape_tolerance = value),
+        ("later_inner_tolerance", |settings, value| {
+            settings.later_inner_tolerance = value
+        }),
+        ("error_sum_tolerance", |settings, value| {
+            settings.error_sum_tolerance = value
+        }),
+        ("frequency_tolerance", |settings, value| {
+            settings.frequency_tolerance = value
+        }),
+        ("shape_tolerance", |settings, value| {
+            settings.shape_tolerance = value
+        }),
     ];
     for (setting, set) in setters {
         for bad in [0.0, -0.1, f64::INFINITY] {
@@ -62,14 +74,23 @@ fn settings_are_checked_before_any_analysis() {
         &[None; 3],
         |settings| settings.shape_tolerance = -1.0,
     );
-    assert!(matches!(result, Err(Error::Setting { name: "shape_tolerance", .. })));
+    assert!(matches!(
+        result,
+        Err(Error::Setting {
+            name: "shape_tolerance",
+            ..
+        })
+    ));
 }
 
 #[test]
 fn the_inner_loops_errors_are_handed_on() {
     assert!(matches!(
         with_settings(|settings| settings.inner.relaxation = 0.0),
-        Err(Error::Setting { name: "relaxation", .. })
+        Err(Error::Setting {
+            name: "relaxation",
+            ..
+        })
     ));
     assert!(matches!(
         with_settings(|settings| settings.inner.factor_range.lower = 9.0),

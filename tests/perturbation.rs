@@ -1,7 +1,9 @@
 //! Appendix C for a change of stiffness: what holds for every way of solving it, and the exact solution they tend to.
 
 use crate::common::pairings::rearrangement;
-use crate::common::tolerances::{CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::tolerances::{
+    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF,
+};
 use crate::common::vibrations::{Change, any_change, full_change, modes_by_nalgebra};
 use corfem::error::Error;
 use corfem::perturbation::{

@@ -30,7 +30,13 @@ fn every_rule_refuses_a_change_of_another_shape() {
                     rows: found_rows,
                     columns: found_columns,
                 }) => assert_eq!(
-                    (what, expected_rows, expected_columns, found_rows, found_columns),
+                    (
+                        what,
+                        expected_rows,
+                        expected_columns,
+                        found_rows,
+                        found_columns
+                    ),
                     ("generalized stiffness change", 2, 2, rows, columns)
                 ),
                 other => panic!("{rule:?}: {other:?}"),
@@ -72,7 +78,10 @@ fn every_rule_starts_from_vibrations() {
 fn a_change_that_takes_all_stiffness_loses_the_root() {
     for lost in [-2.0, -3.0] {
         let beta = dmatrix![0.0, 0.0; 0.0, lost];
-        for rule in RULES.iter().filter(|&&rule| rule != UpdateRule::Eigensolution) {
+        for rule in RULES
+            .iter()
+            .filter(|&&rule| rule != UpdateRule::Eigensolution)
+        {
             match perturb(&dvector![1.0, 2.0], &beta, *rule) {
                 Err(Error::LostRoot { mode, value }) => {
                     assert_eq!((mode, value), (1, 1.0 / (2.0 + lost)));
@@ -111,7 +120,10 @@ fn a_strong_coupling_loses_the_root_in_a_higher_order() {
 fn modes_that_come_together_are_named() {
     // k + β is 2 for both modes, so that the denominator of row 1 in mode 0 vanishes.
     let beta = dmatrix![1.0, 0.1; 0.1, 0.0];
-    for rule in RULES.iter().filter(|&&rule| rule != UpdateRule::Eigensolution) {
+    for rule in RULES
+        .iter()
+        .filter(|&&rule| rule != UpdateRule::Eigensolution)
+    {
         match perturb(&dvector![1.0, 2.0], &beta, *rule) {
             Err(Error::CoalescingModes {
                 first,

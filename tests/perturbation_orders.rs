@@ -44,7 +44,10 @@ fn slopes(change: &Change, rule: UpdateRule, largest: f64) -> (f64, f64) {
             .copied()
             .filter(|point| point.1 > MEASURABLE_ERROR)
             .collect();
-        assert!(kept.len() >= 2, "{rule:?}: too little to measure: {points:?}");
+        assert!(
+            kept.len() >= 2,
+            "{rule:?}: too little to measure: {points:?}"
+        );
         log_log_slope(&kept)
     };
     (measurable(&roots), measurable(&shapes))
@@ -122,8 +125,14 @@ fn errors_fall_exactly_with_the_order_of_the_rule() {
     };
     for (rule, largest, root_order, shape_order) in ORDERS {
         let (roots, shapes) = slopes(&change, rule, largest);
-        assert!((roots - root_order).abs() <= ORDER_SLACK, "{rule:?} roots {roots}");
-        assert!((shapes - shape_order).abs() <= ORDER_SLACK, "{rule:?} shapes {shapes}");
+        assert!(
+            (roots - root_order).abs() <= ORDER_SLACK,
+            "{rule:?} roots {roots}"
+        );
+        assert!(
+            (shapes - shape_order).abs() <= ORDER_SLACK,
+            "{rule:?} shapes {shapes}"
+        );
     }
 }
 
@@ -136,8 +145,14 @@ fn recursive_2_gains_two_orders_where_recursive_1_gains_one() {
     let beta = change.beta(0.03);
     let exact = eigensolution(&change.stiffness, &beta).unwrap();
     for order in [3, 4] {
-        let one = errors(&recursive_1(&change.stiffness, &beta, order).unwrap(), &exact);
-        let two = errors(&recursive_2(&change.stiffness, &beta, order).unwrap(), &exact);
+        let one = errors(
+            &recursive_1(&change.stiffness, &beta, order).unwrap(),
+            &exact,
+        );
+        let two = errors(
+            &recursive_2(&change.stiffness, &beta, order).unwrap(),
+            &exact,
+        );
         assert!(two.0 < one.0 && two.1 < one.1, "{order}: {one:?} {two:?}");
     }
 }

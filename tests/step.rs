@@ -202,7 +202,10 @@ fn limits_by_hand() {
         ((1.0, 1.0, 9.0, total_range), (1.3, Limit::Total)),
         ((1.0, 1.0, 0.1, total_range), (0.7, Limit::Total)),
         // The iteration's alone where the total's leaves room.
-        ((0.8, 1.0, 9.0, total_range), (1.2000000000000002, Limit::Factor)),
+        (
+            (0.8, 1.0, 9.0, total_range),
+            (1.2000000000000002, Limit::Factor),
+        ),
     ] {
         let found = limited_factor(total, base, step, factor_range, range);
         assert_eq!(found, expected, "{total} {base} {step} {range:?}");

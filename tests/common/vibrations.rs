@@ -182,11 +182,7 @@ pub fn modes_by_nalgebra(
 
 /// The error sum written from its definition on all exact modes through nalgebra, paired and signed by their
 /// mass-weighted products.
-pub fn error_sum_by_definition(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    test: &Modes,
-) -> f64 {
+pub fn error_sum_by_definition(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Modes) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
     let cross = shapes.transpose() * mass * &test.shapes;
     let (mut frequency, mut shape) = (0.0, 0.0);
