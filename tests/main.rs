@@ -2,6 +2,7 @@
 
 mod common;
 
+mod alternatives;
 mod analytical;
 mod appendix_c_close_roots;
 mod appendix_c_close_roots_errors;
@@ -27,6 +28,7 @@ mod errata;
 mod groups;
 mod inner_loop;
 mod inner_loop_bad_input;
+mod inner_loop_stops;
 mod linalg;
 mod mass_parameters;
 mod modal;
@@ -36,6 +38,8 @@ mod modes;
 mod modes_bad_input;
 mod objective;
 mod outer_loop;
+mod outer_loop_bad_input;
+mod outer_loop_stops;
 mod panel_geometry;
 mod perturbation;
 mod perturbation_bad_input;
@@ -46,7 +50,9 @@ mod quadrature;
 mod singular_structures;
 mod snapshots;
 mod sorting;
+mod sorting_bad_input;
 mod step;
+mod strategies_of_vibrations;
 mod structure;
 mod supports;
 mod tables_published;

@@ -83,7 +83,7 @@ proptest! {
         for rule in [UpdateRule::Eigensolution, patient] {
             let state = problem.state_at(factors.to_vec(), rule).unwrap();
             prop_assert_eq!(&state.factors[..], factors);
-            prop_assert!((state.errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule:?} {:e}", state.errors.sum() - expected);
+            prop_assert!((state.errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule:?}");
             let v = &state.modes.shapes;
             prop_assert_eq!(v.shape(), (count, count));
             let mass = v.tr_mul(&(&model.mass * v));

@@ -1,9 +1,11 @@
 //! Strategies of inner-loop problems and settings, and the loop told again from its own record.
 
+use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
 use corfem::derivatives::error_derivatives;
 use corfem::inner_loop::{InnerRun, InnerSettings, Stop};
 use corfem::modal::{ModalProblem, ModalState};
+use corfem::outer_loop::{Correlation, Settings, correlate};
 use corfem::perturbation::UpdateRule;
 use corfem::step::{Limit, Range, StepRule, unlimited_factors};
 use proptest::prelude::*;
@@ -213,4 +215,48 @@ pub fn assert_record_is_the_loop(problem: &ModalProblem, given: &Given, run: &In
     if settings.iterations == 0 {
         assert!(run.first_unlimited_factors.is_empty());
     }
+}
+
+/// Every accepted step lowers the error sum.
+pub fn assert_error_sum_only_falls(run: &InnerRun) {
+    let mut before = run.start.sum();
+    for iteration in &run.iterations {
+        assert!(
+            iteration.errors.sum() < before,
+            "{} {before}",
+            iteration.errors.sum()
+        );
+        before = iteration.errors.sum();
+    }
+}
+
+/// In every iteration every factor, and every product with the passes before, stays within its bounds.
+pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>], factors: Range) {
+    let mut before = vec![1.0; base.len()];
+    for iteration in &run.iterations {
+        for e in 0..base.len() {
+            let ratio = iteration.factors[e] / before[e];
+            assert!(ratio >= factors.lower * (1.0 - ROUND_OFF), "{e}: {ratio}");
+            assert!(ratio <= factors.upper * (1.0 + ROUND_OFF), "{e}: {ratio}");
+            if let Some(range) = ranges[e] {
+                let total = base[e] * iteration.factors[e];
+                assert!(total >= range.lower * (1.0 - ROUND_OFF), "{e}: {total}");
+                assert!(total <= range.upper * (1.0 + ROUND_OFF), "{e}: {total}");
+            }
+        }
+        before.clone_from(&iteration.factors);
+    }
+}
+
+/// Correlates a chain with its truth, without bounds.
+pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
+    let ranges = vec![None; truth.len()];
+    correlate(
+        |factors| Ok(chain.model(factors)),
+        &chain.modes(truth),
+        &ranges,
+        settings,
+        |_, _| {},
+    )
+    .expect("a chain can be correlated")
 }
