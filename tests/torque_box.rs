@@ -1,8 +1,8 @@
 //! The paper's box: the connectivity of Table 2 and the loads of the nine dynamic points.
 
-use crate::common::torque_boxes::reconstruction;
 use crate::common::nastran95::boxes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::torque_boxes::reconstruction;
 use corfem::cases::Case;
 use corfem::structure::ElementKind;
 use corfem::torque_box::{
