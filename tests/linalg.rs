@@ -174,7 +174,7 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
             );
         }
     }
-    assert!(check_finite("test matrix", &DMatrix::zeros(3, 4)).is_ok());
+    assert!(check_finite("test matrix", &DMatrix::<f64>::zeros(3, 4)).is_ok());
 }
 
 #[test]

@@ -158,9 +158,9 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
 #[test]
 fn chain_that_nothing_holds_is_refused() {
     let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
-    let grids = model.structure().grids().iter().cloned().map(|grid| Grid {
+    let grids = model.structure().grids().iter().map(|grid| Grid {
         held: [false, true, true],
-        ..grid
+        ..grid.clone()
     });
     let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
         .expect("a structure");

@@ -48,3 +48,47 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
 /// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
 pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
+pub const ORDER_SLACK: f64 = 0.15;
+/// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
+pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
+/// A derivative of the error sum by a 0.1 % change and first order, beside exact differences with the same step: what is
+/// left is of second order in the change, a thousandth of a derivative of order one.
+pub const FORWARD_DIFFERENCE: f64 = 2e-3;
+/// Percent errors recomputed from frequencies printed to four digits: half a unit of the last digit of a frequency
+/// is 0.02 % of the lowest mode's, and nine of them are squared and summed.
+pub const PRINTED_PERCENT: f64 = 0.02;
+/// The recursion stops when roots change by less than 1e-13; with changes of some percent each order gains a digit
+/// or more, so that what is left is a fraction of that and round-off. Shapes follow the roots times the spread of the
+/// spectrum.
+pub const CONVERGED_RECURSION: f64 = 1e-12;
+/// Slopes this near an order are that order: half way to the next one.
+pub const ORDER_HALFWAY: f64 = 0.45;
+/// Errors below this are round-off of roots near one, a few hundred units in the last place.
+pub const MEASURABLE_ERROR: f64 = 5e-14;
+/// Coefficient of the third-order term of a root relative to the largest stiffness, with neighbours a factor of two
+/// apart and couplings up to one; below 3 in five thousand draws.
+pub const SECOND_ORDER_REMAINDER: f64 = 10.0;
+/// A state by Recursive 1 to roots within 1e-13, whose shapes then enter mass and stiffness products.
+pub const CONVERGED_STATE: f64 = 1e-9;
+/// Coefficient of the second-order terms of the error sum in the ratio of coupling to separation of two modes.
+pub const FIRST_ORDER_REMAINDER: f64 = 10.0;
+/// A forward difference of 0.1 % against a central one: half the step times the curvature, relative to the largest
+/// derivative.
+pub const CENTRAL_DIFFERENCE: f64 = 0.01;
+/// A force or moment that balancing leaves, relative to the sum of the magnitudes of its parts: sums over a dozen DOF.
+pub const BALANCE_RESIDUAL: f64 = 1e-12;
+/// Coefficients of {1} and {x}, 200 in from the reference axis on structures 20 in long: the balance equations have a
+/// condition of some 1e4 when their unknowns are scaled alike.
+pub const BALANCE_EQUATIONS: f64 = 1e-10;
+/// What an eigensolution leaves of ω²Mv = Kv for the lowest modes, relative; scaled by the spread of ω² where used.
+pub const EXACT_MODE_RESIDUAL: f64 = 1e-11;
+/// Modes orthogonal to a matrix product's round-off, after a Cholesky factor and an eigensolution of a matrix that is
+/// diagonal to that round-off.
+pub const ORTHOGONAL_INPUT: f64 = 1e-11;
+/// A slope over a decade and a half of noise below 0.3 %: the next order contributes a few percent at the upper end.
+pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
+/// The balance equations with the reference axis a thousand lengths away, where their condition is 6e6.
+pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
+/// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
+pub const CANCELLED_DIFFERENCE: f64 = 1e-3;
