@@ -2,7 +2,7 @@
 
 use crate::common::matrices::relative_distance;
 use crate::common::strategies::{orthogonal, positive_definite, symmetric};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::error::Error;
 use corfem::linalg::{
     check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
@@ -225,7 +225,7 @@ fn asymmetry_beyond_a_part_in_ten_to_the_eighth_is_refused_by_its_worst_pair() {
         let refused = check_symmetric("test matrix", &skewed(by));
         assert!(
             matches!(refused, Err(Error::NotSymmetric { what: "test matrix", row: 3, column: 1, difference })
-                if (difference * 100.0 / by.abs() - 1.0).abs() < 1e-6),
+                if (difference * 100.0 / by.abs() - 1.0).abs() <= DIFFERENCE_ROUND_OFF),
             "{refused:?}"
         );
     }

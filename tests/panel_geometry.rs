@@ -2,7 +2,7 @@
 
 use crate::common::panels::{flat_panel, panel_sample, placed};
 use crate::common::strategies::{point, rotation};
-use crate::common::tolerances::ELEMENT_ROUND_OFF;
+use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
 use corfem::elements::panel::mean_plane;
 use corfem::elements::{triangle::triangle, unit_stiffness};
 use corfem::error::Error;
@@ -73,22 +73,22 @@ proptest! {
 #[test]
 fn a_panel_needs_area() {
     let kite = |width: f64| {
-        [(-1.0, 0.0), (0.0, -width), (1.0, 0.0), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 0.0))
+        [(-3.0, 0.0), (0.0, -width), (3.0, 0.0), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 0.0))
     };
     for start in 0..4 {
         let numbered = |width: f64| {
             let corners = kite(width);
             mean_plane(&std::array::from_fn(|k| corners[(k + start) % 4]))
         };
-        // Area 2·width over the square of the long diagonal, 4.
-        for width in [0.0, 1.5e-10] {
+        // Area 6·width over the square of the long diagonal, 36.
+        for width in [0.0, 5e-10] {
             let refused = numbered(width);
             assert!(
-                matches!(refused, Err(Error::ZeroArea { area }) if (area - width / 2.0).abs() < 1e-12),
+                matches!(refused, Err(Error::ZeroArea { area }) if (area - width / 6.0).abs() <= ROUND_OFF),
                 "{refused:?}"
             );
         }
-        assert!(numbered(3e-10).is_ok());
+        assert!(numbered(9e-10).is_ok());
     }
     let nowhere = [Vector3::zeros(); 4];
     assert!(matches!(
@@ -130,7 +130,7 @@ fn a_triangle_needs_area() {
         for height in [0.0, 1.5e-10] {
             let refused = numbered(height);
             assert!(
-                matches!(refused, Err(Error::ZeroArea { area }) if (area - height / 2.0).abs() < 1e-12),
+                matches!(refused, Err(Error::ZeroArea { area }) if (area - height / 2.0).abs() <= ROUND_OFF),
                 "{refused:?}"
             );
         }

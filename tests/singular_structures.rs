@@ -4,7 +4,7 @@ use crate::common::nastran95::boxes;
 use crate::common::structures::{
     as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod,
 };
-use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, TAKES_PART};
+use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
 use corfem::assembly::FactorizedStiffness;
 use corfem::error::Error;
 use corfem::structure::{DIRECTIONS, Structure};
@@ -125,7 +125,7 @@ fn a_stiffness_within_round_off_of_singular_is_refused() {
     for (count, delta) in [(2, 3e-15), (100, 3e-14)] {
         let refused = coupled(count, delta);
         let named = matches!(refused, Err(Error::SingularStiffness { grid: 1, direction: 'x' | 'y', ratio })
-            if (ratio / delta - 1.0).abs() < 0.1);
+            if (ratio / delta - 1.0).abs() <= SMALLEST_EIGENVALUE);
         assert!(named, "{count}: {refused:?}");
     }
 }

@@ -6,6 +6,10 @@ pub const ROUND_OFF: f64 = 1e-13;
 pub const MATRIX_ROUND_OFF: f64 = 1e-11;
 /// Round-off of a solution per unit of its matrix's condition number: some fifty roundings.
 pub const CONDITIONED_ROUND_OFF: f64 = 1e-14;
+/// A difference of a hundred-millionth of its terms, relative: what is left of sixteen digits, and some.
+pub const DIFFERENCE_ROUND_OFF: f64 = 1e-6;
+/// An eigenvalue of 3e-15 of the largest, relative: a tenth of it is one rounding of the largest.
+pub const SMALLEST_EIGENVALUE: f64 = 0.1;
 /// Two routes to the free motion of a mechanism, of its largest component: inverse iteration sheds the other motions to
 /// 1e-10 a step.
 pub const SAME_MOTION: f64 = 1e-6;
