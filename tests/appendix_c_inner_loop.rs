@@ -33,11 +33,16 @@ fn state_where_two_roots_meet_is_that_of_the_eigensolution() {
     for distance in [0.1, 1e-2, -1e-3, 1e-4] {
         let factors = vec![1.0, 1.0, 1.0 - distance, 1.0, 1.0, 1.0 / 3.0 + distance];
         let found = problem.state_at(factors.clone(), close).unwrap();
-        let exact = problem.state_at(factors, UpdateRule::Eigensolution).unwrap();
+        let exact = problem
+            .state_at(factors, UpdateRule::Eigensolution)
+            .unwrap();
         // Shapes turn by round-off over the distance of the roots.
         let tolerance = EIGEN_ROUND_OFF / distance.abs();
         assert!((found.errors.frequency - exact.errors.frequency).abs() < EIGEN_ROUND_OFF);
-        assert!((found.errors.shape - exact.errors.shape).abs() < tolerance, "{distance}");
+        assert!(
+            (found.errors.shape - exact.errors.shape).abs() < tolerance,
+            "{distance}"
+        );
         let product = found.generalized_shapes.tr_mul(&found.generalized_shapes);
         assert!((product - DMatrix::identity(3, 3)).amax() < EIGEN_ROUND_OFF);
     }
