@@ -90,13 +90,10 @@ pub fn solve(
         right.column_mut(j).apply(|value| *value /= turn);
         reduced_right.column_mut(j).apply(|value| *value /= turn);
     }
-    let most_parallel = most_parallel(&reduced_right);
+    // An inverse that does not exist has no finite entries, and the cosines below are zero.
     let mut left = reduced_right
         .try_inverse()
-        .ok_or(Error::Defective {
-            mode: most_parallel,
-            cosine: 0.0,
-        })?
+        .unwrap_or_else(|| DMatrix::from_element(size, size, Complex::from(f64::INFINITY)))
         .transpose();
     for (mode, shape) in left.column_iter().enumerate() {
         let cosine = 1.0 / shape.norm();
@@ -141,18 +138,4 @@ fn phase(shape: &[Complex<f64>]) -> Complex<f64> {
         .iter()
         .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest)
         .map_or(Complex::from(1.0), |value| value / value.norm())
-}
-
-/// The first of the two unit shapes that are most nearly parallel.
-fn most_parallel(shapes: &DMatrix<Complex<f64>>) -> usize {
-    let cosines = shapes.ad_mul(shapes);
-    let (mut mode, mut largest) = (0, 0.0);
-    for column in 0..cosines.ncols() {
-        for row in 0..column {
-            if cosines[(row, column)].norm() > largest {
-                (mode, largest) = (row, cosines[(row, column)].norm());
-            }
-        }
-    }
-    mode
 }

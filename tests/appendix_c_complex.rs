@@ -10,7 +10,7 @@ use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_
 use corfem::complex_modes::{LeftRightModes, solve};
 use corfem::error::Error;
 use corfem::perturbation::{ModalChange, general};
-use nalgebra::{Complex, DMatrix, dmatrix, dvector};
+use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
 fn identity(size: usize) -> Complexes {
@@ -151,6 +151,33 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
         let modes = solve(&DMatrix::identity(4, 4), &g).unwrap();
         let turn = Complex::from_polar(1.0, angle);
         let expected = [Complex::from(2.0), turn.conj(), turn, Complex::from(0.25)];
+        for (found, expected) in modes.roots.iter().zip(expected) {
+            assert!(
+                (found - expected).norm() < EIGEN_ROUND_OFF,
+                "{found} {expected}"
+            );
+        }
+    }
+    // Three of equal magnitude between a larger and a smaller one, in every order.
+    let middle = [-1.0, 0.5, 2.0].map(|angle| Complex::from_polar(1.0, angle));
+    for [a, b, c] in [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ] {
+        let roots = [
+            Complex::from(3.0),
+            middle[a],
+            middle[b],
+            middle[c],
+            Complex::from(0.5),
+        ];
+        let g = DMatrix::from_diagonal(&DVector::from_row_slice(&roots));
+        let modes = solve(&DMatrix::identity(5, 5), &g).unwrap();
+        let expected = [roots[0], middle[0], middle[1], middle[2], roots[4]];
         for (found, expected) in modes.roots.iter().zip(expected) {
             assert!(
                 (found - expected).norm() < EIGEN_ROUND_OFF,

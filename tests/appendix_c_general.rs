@@ -3,11 +3,12 @@
 use crate::common::appendix_c::{ascending, errors, four_modes, separate_change, three_mass_chain};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::complex_modes::LeftRightModes;
+use corfem::error::Error;
 use corfem::perturbation::{
     ModalChange, UpdateRule, eigensolution, eigensolution_with_mass, general, normalize_with_mass,
     perturb, perturb_with_mass, recursive,
 };
-use nalgebra::{DMatrix, dvector};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
 const EVERY_RULE: [UpdateRule; 6] = [
@@ -190,4 +191,29 @@ fn eigensolution_with_mass_continues_every_mode() {
     assert!(residual.amax() < EIGEN_ROUND_OFF);
     let plain = eigensolution(&change.generalized_stiffness, &change.beta).unwrap();
     assert!((plain.roots - exact.roots).amax() > 1e-3);
+}
+
+/// Pairing takes the largest parts first; a mode left over may have no part in the place left over, and cannot be
+/// scaled to unit own component.
+#[test]
+fn mode_without_part_in_the_mode_it_would_continue_is_refused() {
+    // Three shapes take places 0, 1, 2 by clear margins; the last has no component left in place 3.
+    let columns: DMatrix<f64> = dmatrix![
+        0.523, 0.659, 0.310, 0.443;
+        -0.594, 0.324, 0.688, -0.262;
+        0.611, -0.249, 0.404, -0.634;
+        0.0, 0.632, -0.517, -0.577];
+    let shapes = columns.qr().q().select_columns(&[1, 2, 3, 0]);
+    let stiffness =
+        &shapes * DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0, 4.0]) * shapes.transpose();
+    let stiffness = 0.5 * (&stiffness + stiffness.transpose());
+    let beta = &stiffness - DMatrix::identity(4, 4);
+    let k = DVector::repeat(4, 1.0);
+    let change = ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(4, 4));
+    for result in [eigensolution(&k, &beta), eigensolution_with_mass(&change)] {
+        assert!(matches!(
+            result,
+            Err(Error::CoalescingModes { first: 3, second: 3, separation }) if separation < 1e-9
+        ));
+    }
 }
