@@ -18,7 +18,8 @@
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
 //!    to change it.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
+//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//!    [`figures`] and [`html_report`] show them.
 //!
 //! # Units
 //!
@@ -63,7 +64,9 @@ pub mod modal;
 pub mod outer_loop;
 
 pub mod cases;
+pub mod figures;
 pub mod fit;
+pub mod html_report;
 pub mod published;
 pub mod report;
 
