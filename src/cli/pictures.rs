@@ -58,7 +58,10 @@ pub fn report(arguments: &ReportArguments) -> Result<bool, Error> {
     let fit = fit(&Reconstruction::embedded()?)?;
     let command = format!("corfem report --out {}", arguments.out.display());
     let html = page(&results, &fit, &all_figures(&results)?, &command)?;
-    put_all(&arguments.out, &[("report.html".to_owned(), html.into_bytes())])?;
+    put_all(
+        &arguments.out,
+        &[("report.html".to_owned(), html.into_bytes())],
+    )?;
     if !arguments.quiet {
         eprintln!("{}", arguments.out.join("report.html").display());
     }

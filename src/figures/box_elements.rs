@@ -2,7 +2,7 @@
 
 use super::box_points::axes;
 use super::canvas::{
-    Area, BLUE, Drawn, INK, LETTERS, Letters, PALE, Pen, SMALL, SKY, Side, WIDTH, between, line,
+    Area, BLUE, Drawn, INK, LETTERS, Letters, PALE, Pen, SKY, SMALL, Side, WIDTH, between, line,
     outline, polygon, rectangle, svg, write,
 };
 use super::view::{DEPTH_DRAWN, View};
@@ -79,7 +79,7 @@ impl BoxElements {
     /// [`Error::Drawing`].
     pub fn draw(&self) -> Result<String, Error> {
         let title = "The wing torque box taken apart: panels 1 to 15 and rods 16 to 39";
-        svg("box_elements", title, (WIDTH, 760.0), |area| self.on(area))
+        svg("box_elements", title, (WIDTH, 690.0), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
@@ -89,45 +89,59 @@ impl BoxElements {
             .flat_map(|element| element.corners.iter().copied())
             .collect();
         // All three layers at the scale at which the webs, the highest, fill the width.
-        let fitted = View::fitted(&corners, DEPTH_DRAWN, [20.0, 20.0, 720.0, 460.0]);
-        for (layer, name, down) in [
-            (Layer::Upper, "Upper covers and caps", 0.0),
-            (Layer::Webs, "Spars, ribs and posts", 0.33),
-            (Layer::Lower, "Lower covers and caps", 0.66),
+        let fitted = View::fitted(&corners, DEPTH_DRAWN, [20.0, 0.0, 720.0, 460.0]);
+        for (layer, name, top) in [
+            (Layer::Upper, "Upper covers and caps", 30.0),
+            (Layer::Webs, "Spars, ribs and posts", 228.0),
+            (Layer::Lower, "Lower covers and caps", 464.0),
         ] {
-            let view = View {
-                origin: (fitted.origin.0, fitted.origin.1 + 750.0 * down - 30.0),
-                heights: if layer == Layer::Webs { DEPTH_DRAWN } else { 0.0 },
-                ..fitted
-            };
-            let heading = Letters::new(LETTERS, Side::Right).bold();
-            write(area, name, (14.0, view.origin.1 - 150.0), heading)?;
-            let here = |element: &&DrawnElement| element.layer == layer;
-            let mut panels: Vec<&DrawnElement> = self
-                .elements
-                .iter()
-                .filter(here)
-                .filter(|element| element.kind != ElementKind::Rod)
-                .collect();
-            // What lies farther from the eye is drawn first: inboard before outboard, front before rear.
-            panels.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
-            for panel in &panels {
-                draw_panel(area, &view, panel)?;
-            }
-            for panel in &panels {
-                write_panel(area, &view, panel)?;
-            }
-            for rod in self.elements.iter().filter(here) {
-                if rod.kind == ElementKind::Rod {
-                    draw_rod(area, &view, rod)?;
-                }
-            }
+            self.layer_on(area, fitted, (layer, name, top))?;
         }
         let words = Letters::new(LETTERS, Side::Right);
-        write(area, "Large numbers: panels. Small numbers: rods.", (445.0, 690.0), words)?;
-        let note = format!("Depth of the webs drawn {DEPTH_DRAWN:.0} times as large as the plan.");
-        write(area, &note, (445.0, 710.0), words)?;
-        axes(area, (60.0, 90.0))
+        let at = (452.0, 646.0);
+        write(
+            area,
+            "Large: panels 1 to 15. Small: rods 16 to 39.",
+            at,
+            words,
+        )?;
+        let note = format!("Webs drawn {DEPTH_DRAWN:.0} times as deep.");
+        write(area, &note, (at.0, at.1 + 20.0), words)?;
+        axes(area, (60.0, 82.0))
+    }
+
+    /// One layer, its highest point at `top`.
+    fn layer_on(&self, area: &Area, fitted: View, (layer, name, top): (Layer, &str, f64)) -> Drawn {
+        let heights = if layer == Layer::Webs {
+            DEPTH_DRAWN
+        } else {
+            0.0
+        };
+        let mut view = View { heights, ..fitted };
+        let mut elements: Vec<&DrawnElement> = self
+            .elements
+            .iter()
+            .filter(|element| element.layer == layer)
+            .collect();
+        let places = elements
+            .iter()
+            .flat_map(|element| &element.corners)
+            .map(|&corner| view.place(corner));
+        let highest = places.clone().map(|at| at.1).fold(f64::INFINITY, f64::min);
+        let leftmost = places.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        view.origin.1 += top - highest;
+        let side = leftmost.map_or(top, |at| at.1 + top - highest);
+        let heading = Letters::new(LETTERS, Side::Right).bold();
+        write(area, name, (14.0, side - 30.0), heading)?;
+        // What lies farther from the eye is drawn first.
+        elements.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
+        for element in &elements {
+            draw_element(area, &view, element)?;
+        }
+        for element in elements {
+            write_element(area, &view, element)?;
+        }
+        Ok(())
     }
 }
 
@@ -135,28 +149,55 @@ fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
 }
 
-/// How near the eye an element is: the eye looks outboard and forward from above.
+/// How near the eye an element is, which looks outboard and forward from above; a rod before the panels it borders.
 fn nearness(element: &DrawnElement) -> f64 {
+    const ROD_BEFORE_PANEL: f64 = 6.0;
     let center = center(&element.corners);
-    center.x - center.y
+    let rod = element.kind == ElementKind::Rod;
+    center.x - center.y + if rod { ROD_BEFORE_PANEL } else { 0.0 }
 }
 
-fn draw_panel(area: &Area, view: &View, panel: &DrawnElement) -> Drawn {
-    let corners: Vec<_> = panel.corners.iter().map(|&corner| view.place(corner)).collect();
+fn draw_element(area: &Area, view: &View, element: &DrawnElement) -> Drawn {
+    let corners: Vec<_> = element
+        .corners
+        .iter()
+        .map(|&corner| view.place(corner))
+        .collect();
+    if element.kind == ElementKind::Rod {
+        return line(area, &corners, Pen::solid(BLUE, 2.2));
+    }
     polygon(area, &corners, between(PALE, SKY, 0.25))?;
     outline(area, &corners, Pen::solid(INK, 0.8))
 }
 
-fn write_panel(area: &Area, view: &View, panel: &DrawnElement) -> Drawn {
-    let at = view.place(center(&panel.corners));
-    write(area, &panel.label.to_string(), at, Letters::new(15.0, Side::Center).bold())
-}
-
-fn draw_rod(area: &Area, view: &View, rod: &DrawnElement) -> Drawn {
-    let ends: Vec<_> = rod.corners.iter().map(|&end| view.place(end)).collect();
-    line(area, &ends, Pen::solid(BLUE, 2.2))?;
-    let (x, y) = view.place(center(&rod.corners));
-    rectangle(area, (x - 8.0, y - 6.5), (x + 8.0, y + 6.5), plotters::style::WHITE)?;
-    let letters = Letters::new(SMALL, Side::Center).color(BLUE);
-    write(area, &rod.label.to_string(), (x, y), letters)
+fn write_element(area: &Area, view: &View, element: &DrawnElement) -> Drawn {
+    let mut middle = center(&element.corners);
+    let number = element.label.to_string();
+    if element.kind == ElementKind::Rod {
+        let (x, y) = view.place(middle);
+        rectangle(
+            area,
+            (x - 8.0, y - 6.5),
+            (x + 8.0, y + 6.5),
+            plotters::style::WHITE,
+        )?;
+        let letters = Letters::new(SMALL, Side::Center).color(BLUE);
+        return write(area, &number, (x, y), letters);
+    }
+    // A web is numbered near its upper edge, which nothing hides.
+    if element.layer == Layer::Webs {
+        let half_depth = element
+            .corners
+            .iter()
+            .map(|corner| corner.z.abs())
+            .sum::<f64>()
+            / 4.0;
+        middle.z += 0.42 * half_depth;
+    }
+    write(
+        area,
+        &number,
+        view.place(middle),
+        Letters::new(14.0, Side::Center).bold(),
+    )
 }

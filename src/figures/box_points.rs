@@ -1,8 +1,8 @@
 //! The box with its structural and dynamic points (Figure 2).
 
 use super::canvas::{
-    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, Pen, SMALL, Side, VERMILION, WIDTH, line, mark,
-    svg, write,
+    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, Pen, SILVER, SMALL, Side, VERMILION, WIDTH,
+    line, mark, svg, write,
 };
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
@@ -70,6 +70,9 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
     })
 }
 
+const STRUCTURAL: (Form, f64) = (Form::Circle, 4.0);
+const DYNAMIC: (Form, f64) = (Form::Square, 4.5);
+
 impl BoxPoints {
     /// The figure as SVG.
     ///
@@ -90,50 +93,86 @@ impl BoxPoints {
                 .map(|point| view.place(point.position))
         };
         for &[from, to] in &self.edges {
-            if let (Some(from), Some(to)) = (at(from), at(to)) {
-                line(area, &[from, to], Pen::solid(INK, 1.0))?;
+            if let (Some(a), Some(b)) = (at(from), at(to)) {
+                let hidden = self.is_hidden(from) || self.is_hidden(to);
+                let (color, width) = if hidden { (SILVER, 0.9) } else { (INK, 1.1) };
+                line(area, &[a, b], Pen::solid(color, width))?;
             }
         }
         for (row, point) in self.dynamic.iter().enumerate() {
             let (x, y) = view.place(*point);
-            let pen = Pen::solid(VERMILION, 1.2);
-            mark(area, (x, y), (Form::Square, 4.5), Some(VERMILION), pen)?;
-            // Rear points are numbered to the right, front ones to the left, mid ones above.
-            let letters = |side| Letters::new(SMALL, side).color(VERMILION);
-            let label = format!("D{}", row + 1);
-            match row % 3 {
-                0 => write(area, &label, (x + 9.0, y), letters(Side::Right))?,
-                1 => write(area, &label, (x, y - 12.0), letters(Side::Center))?,
-                _ => write(area, &label, (x - 9.0, y), letters(Side::Left))?,
-            }
+            // Rear points are numbered to the right, front ones to the left, mid ones where no line passes.
+            let (place, side) = match row % 3 {
+                0 => ((x + 8.0, y), Side::Right),
+                1 if row < 6 => ((x, y - 12.0), Side::Center),
+                1 => ((x, y + 14.0), Side::Center),
+                _ => ((x - 9.0, y), Side::Left),
+            };
+            mark(
+                area,
+                (x, y),
+                DYNAMIC,
+                Some(VERMILION),
+                Pen::solid(VERMILION, 1.2),
+            )?;
+            let letters = Letters::new(SMALL, side).color(VERMILION);
+            write(area, &format!("D{}", row + 1), place, letters)?;
         }
         for point in &self.structural {
             let (x, y) = view.place(point.position);
-            let fill = if point.fixed { INK } else { plotters::style::WHITE };
-            mark(area, (x, y), (Form::Circle, 4.0), Some(fill), Pen::solid(BLUE, 1.6))?;
-            let rear = matches!(point.grid % 4, 1 | 2);
-            let (x, side) = if rear { (x + 9.0, Side::Right) } else { (x - 9.0, Side::Left) };
+            let fill = if point.fixed {
+                INK
+            } else {
+                plotters::style::WHITE
+            };
+            mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
+            // Away from the lines: rear points are numbered to the lower right, front ones above or below.
+            let (place, side) = match point.grid % 4 {
+                1 | 2 => ((x + 8.0, y + 11.0), Side::Right),
+                3 => ((x - 2.0, y - 15.0), Side::Center),
+                _ => ((x, y + 16.0), Side::Center),
+            };
             let letters = Letters::new(LETTERS, side).bold().color(BLUE);
-            write(area, &point.grid.to_string(), (x, y), letters)?;
+            write(area, &point.grid.to_string(), place, letters)?;
         }
         self.legend(area)?;
         axes(area, (70.0, 90.0))
+    }
+
+    /// The view looks down at the upper covers, the rear spar and the root: lower front points lie behind.
+    fn is_hidden(&self, grid: usize) -> bool {
+        let fixed = |point: &StructuralPoint| point.grid == grid && point.fixed;
+        grid.is_multiple_of(4) && !self.structural.iter().any(fixed)
     }
 
     fn legend(&self, area: &Area) -> Drawn {
         let (x, mut y) = (430.0, 400.0);
         let words = Letters::new(LETTERS, Side::Right);
         let fixed = [
-            (plotters::style::WHITE, "structural point: x, y and z motion"),
+            (
+                plotters::style::WHITE,
+                "structural point: x, y and z motion",
+            ),
             (INK, "structural point, fixed"),
         ];
         for (fill, text) in fixed {
-            mark(area, (x, y), (Form::Circle, 4.0), Some(fill), Pen::solid(BLUE, 1.6))?;
+            mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
             write(area, text, (x + 12.0, y), words)?;
             y += 20.0;
         }
-        mark(area, (x, y), (Form::Square, 4.5), Some(VERMILION), Pen::solid(VERMILION, 1.2))?;
-        write(area, "dynamic point at mid-depth: z motion", (x + 12.0, y), words)?;
+        mark(
+            area,
+            (x, y),
+            DYNAMIC,
+            Some(VERMILION),
+            Pen::solid(VERMILION, 1.2),
+        )?;
+        write(
+            area,
+            "dynamic point at mid-depth: z motion",
+            (x + 12.0, y),
+            words,
+        )?;
         let note = format!("Depth drawn {DEPTH_DRAWN:.0} times as large as the plan.");
         write(area, &note, (x - 5.0, y + 22.0), words)
     }
@@ -153,7 +192,13 @@ pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
     ] {
         let (x, y) = view.place(5.0 * direction);
         line(area, &[origin, (x, y)], Pen::solid(INK, 1.2))?;
-        mark(area, (x, y), (Form::Circle, 1.8), Some(INK), Pen::solid(INK, 1.0))?;
+        mark(
+            area,
+            (x, y),
+            (Form::Circle, 1.8),
+            Some(INK),
+            Pen::solid(INK, 1.0),
+        )?;
         let letters = Letters::new(SMALL, side);
         write(area, name, (x + shift.0, y + shift.1), letters)?;
     }

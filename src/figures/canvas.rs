@@ -27,6 +27,7 @@ pub(super) const SMALL: f64 = 11.0;
 // alone: lines differ in dashes, marks in form, cells carry their numbers.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const GRAY: RGBColor = RGBColor(0x8a, 0x8a, 0x8a);
+pub(super) const SILVER: RGBColor = RGBColor(0xb4, 0xb4, 0xb4);
 pub(super) const PALE: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xb2);
 pub(super) const SKY: RGBColor = RGBColor(0x56, 0xb4, 0xe9);
@@ -240,8 +241,26 @@ pub(super) fn mark(
     outline(area, &corners, pen)
 }
 
+/// Part of their height by which the library sets centered letters too high.
+const SET_HIGH: f64 = 0.1;
+
 pub(super) fn write(area: &Area, text: &str, at: Place, letters: Letters) -> Drawn {
+    let lower = SET_HIGH * letters.height;
+    let at = if letters.upward {
+        (at.0 + lower, at.1)
+    } else {
+        (at.0, at.1 + lower)
+    };
     area.draw(&Text::new(text.to_owned(), place(at), letters.style()))
+}
+
+/// The name of a vertical axis, along the left edge.
+pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
+    let letters = Letters {
+        upward: true,
+        ..Letters::new(LETTERS, Side::Center)
+    };
+    write(area, text, (13.0, middle), letters)
 }
 
 /// A color between two, the second's share from 0 to 1.

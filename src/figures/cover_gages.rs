@@ -1,7 +1,7 @@
 //! Gages of the covers in the test configuration and at each case's start (Figure 4).
 
 use super::canvas::{
-    Area, Drawn, INK, LETTERS, Letters, ORANGE, Pen, Place, SMALL, Side, SKY, WIDTH, between,
+    Area, Drawn, INK, LETTERS, Letters, ORANGE, Pen, Place, SKY, SMALL, Side, WIDTH, between,
     outline, polygon, svg, write,
 };
 use super::planform::PlanPoint;
@@ -17,8 +17,8 @@ use plotters::style::{RGBColor, WHITE};
 pub struct Cover {
     /// Element number.
     pub label: usize,
-    /// Shear panel or membrane.
-    pub kind: ElementKind,
+    /// Shear panel or membrane; the test configuration has those of the case it is the target of.
+    pub kind: Option<ElementKind>,
     /// Gage, in.
     pub gage: f64,
     /// Whether it is on the upper side.
@@ -53,7 +53,7 @@ pub fn cover_gages(cases: &[Case]) -> CoverGages {
             let lower = corners.iter().all(|[_, _, z]| *z < 0.0);
             (upper || lower).then(|| Cover {
                 label: panel.label,
-                kind: panel.kind,
+                kind: (!test).then_some(panel.kind),
                 gage: if test { TEST_GAGE } else { panel.gage },
                 upper,
                 corners: corners.iter().map(|&[x, y, _]| [x, y]).collect(),
@@ -76,7 +76,7 @@ pub fn cover_gages(cases: &[Case]) -> CoverGages {
 }
 
 /// Height of one configuration's row, px.
-const ROW: f64 = 178.0;
+const ROW: f64 = 188.0;
 /// Height above the rows, px.
 const HEAD: f64 = 40.0;
 
@@ -112,7 +112,8 @@ impl CoverGages {
             top += ROW;
         }
         let note = Letters::new(LETTERS, Side::Right);
-        let text = "In each panel: element number, S shear panel or M membrane, and gage in inches.";
+        let text =
+            "In each panel: element number, S shear panel or M membrane, and gage in inches.";
         write(area, text, (14.0, top + 16.0), note)?;
         let mut left = 14.0;
         for (text, gage, width) in [
@@ -132,21 +133,43 @@ impl CoverGages {
 }
 
 fn draw_cover(area: &Area, cover: &Cover, plan: &Plan) -> Drawn {
-    let corners: Vec<Place> = cover.corners.iter().map(|&corner| plan.place(corner)).collect();
+    let corners: Vec<Place> = cover
+        .corners
+        .iter()
+        .map(|&corner| plan.place(corner))
+        .collect();
     polygon(area, &corners, shade(cover.gage))?;
     outline(area, &corners, Pen::solid(INK, 1.0))?;
     let count = corners.len() as f64;
     let x = corners.iter().map(|corner| corner.0).sum::<f64>() / count;
     let y = corners.iter().map(|corner| corner.1).sum::<f64>() / count;
-    let kind = if cover.kind == ElementKind::Membrane { "M" } else { "S" };
-    let name = format!("{} {kind}", cover.label);
-    write(area, &name, (x, y - 7.0), Letters::new(SMALL, Side::Center).bold())?;
-    write(area, &gage_text(cover.gage), (x, y + 7.0), Letters::new(SMALL, Side::Center))
+    let kind = match cover.kind {
+        None => "",
+        Some(ElementKind::Membrane) => " M",
+        Some(_) => " S",
+    };
+    let name = format!("{}{kind}", cover.label);
+    write(
+        area,
+        &name,
+        (x, y - 7.0),
+        Letters::new(SMALL, Side::Center).bold(),
+    )?;
+    write(
+        area,
+        &gage_text(cover.gage),
+        (x, y + 7.0),
+        Letters::new(SMALL, Side::Center),
+    )
 }
 
 /// A gage in inches, with the decimals it needs.
 fn gage_text(gage: f64) -> String {
-    if gage < 0.001 { format!("{gage:.4}") } else { format!("{gage:.3}") }
+    if gage < 0.001 {
+        format!("{gage:.4}")
+    } else {
+        format!("{gage:.3}")
+    }
 }
 
 /// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.

@@ -43,7 +43,9 @@ pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, Error> {
         let share = problem.generalized_shares[e].matrix();
         share[(i, i)] / (2.0 * problem.start.omega_squared[i])
     });
-    let error_sum = DMatrix::from_fn(rows, 1, |e, _| derivatives.error_change[e] / DERIVATIVE_STEP);
+    let error_sum = DMatrix::from_fn(rows, 1, |e, _| {
+        derivatives.error_change[e] / DERIVATIVE_STEP
+    });
     Ok(DerivativeMap {
         case: result.case.number,
         parameters: result.parameter_names.clone(),
@@ -60,12 +62,14 @@ impl DerivativeMap {
     pub fn draw(&self) -> Result<String, Error> {
         let name = format!("case_{}_derivatives", self.case);
         let title = format!("Case {}: derivatives of the first model", self.case);
-        let height = 130.0 + 26.0 * self.parameters.len() as f64;
+        let height = 106.0 + 26.0 * self.parameters.len() as f64;
         svg(&name, &title, (WIDTH, height), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let modes = (1..=self.frequency.ncols()).map(|mode| mode.to_string()).collect();
+        let modes = (1..=self.frequency.ncols())
+            .map(|mode| mode.to_string())
+            .collect();
         HeatMap {
             values: &self.frequency,
             title: "Percent of frequency for one percent of stiffness",
@@ -73,7 +77,7 @@ impl DerivativeMap {
             column_heading: "test mode",
             rows: self.parameters.clone(),
             columns: modes,
-            full: 0.5,
+            full: self.frequency.amax(),
             colors: (VERMILION, BLUE),
             cell: (50.0, 26.0),
             write: decimals,
@@ -82,26 +86,29 @@ impl DerivativeMap {
         HeatMap {
             values: &self.error_sum,
             title: "Error sum",
-            row_heading: "panel",
-            column_heading: "(below)",
+            row_heading: "",
+            column_heading: "percent points for",
             rows: self.parameters.clone(),
-            columns: vec!["change".to_owned()],
+            columns: vec!["one percent of stiffness".to_owned()],
             full: self.error_sum.amax(),
             colors: (VERMILION, BLUE),
             cell: (90.0, 26.0),
             write: decimals,
         }
-        .draw(area, (600.0, 64.0))?;
+        .draw(area, (612.0, 64.0))?;
         let bottom = 64.0 + 26.0 * self.parameters.len() as f64;
         let words = Letters::new(LETTERS, Side::Right);
-        let note = "Error sum: points of percent for one percent of stiffness. An empty cell rounds to zero.";
-        write(area, note, (66.0, bottom + 22.0), words)?;
-        let note = "Negative (red): more of this panel lowers the error.";
-        write(area, note, (66.0, bottom + 44.0), words)
+        let note =
+            "An empty cell rounds to zero. Red is negative: more of that panel lowers the error.";
+        write(area, note, (66.0, bottom + 24.0), words)
     }
 }
 
 fn decimals(value: f64) -> String {
     let text = format!("{value:.2}");
-    if text.trim_start_matches('-') == "0.00" { String::new() } else { text.replace('-', "−") }
+    if text.trim_start_matches('-') == "0.00" {
+        String::new()
+    } else {
+        text.replace('-', "−")
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::canvas::{
     Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, WIDTH, between,
-    line, mark, outline, rectangle, svg, units, write,
+    line, mark, name_upright, outline, rectangle, svg, units, write,
 };
 use crate::cases::CaseResult;
 use crate::error::Error;
@@ -86,7 +86,7 @@ fn stage(table: &Table, name: &str, column: usize, count: usize) -> Stage {
 
 const HEIGHT: f64 = 400.0;
 /// Margins of the plot: left, right, top, bottom, px.
-const MARGINS: [f64; 4] = [58.0, 14.0, 50.0, 56.0];
+const MARGINS: [f64; 4] = [66.0, 14.0, 50.0, 56.0];
 
 impl GageErrors {
     /// The figure as SVG.
@@ -104,13 +104,21 @@ impl GageErrors {
         let values = || {
             let each = |stage: &Stage| {
                 let published = stage.published.iter().copied().flatten();
-                stage.computed.iter().copied().chain(published).collect::<Vec<_>>()
+                stage
+                    .computed
+                    .iter()
+                    .copied()
+                    .chain(published)
+                    .collect::<Vec<_>>()
             };
             self.stages.iter().flat_map(each)
         };
         let least = values().fold(0.0, f64::min);
         let most = values().fold(0.0, f64::max);
-        (10.0 * (least / 10.0 - 0.1).floor(), 10.0 * (most / 10.0 + 0.1).ceil())
+        (
+            10.0 * (least / 10.0 - 0.1).floor(),
+            10.0 * (most / 10.0 + 0.1).ceil(),
+        )
     }
 
     fn on(&self, area: &Area) -> Drawn {
@@ -135,14 +143,21 @@ impl GageErrors {
             .y_label_formatter(&|y| format!("{y:.0}").replace('-', "−"))
             .label_style(words.style())
             .axis_desc_style(words.style())
-            .y_desc("gage error, percent of 0.010 in")
             .set_all_tick_mark_size(units(4.0))
             .draw()?;
         let plot = chart.plotting_area();
         let place = |x: f64, percent: f64| {
             let (x, y) = plot.map_coordinate(&(x, percent));
-            (f64::from(x) / f64::from(units(1.0)), f64::from(y) / f64::from(units(1.0)))
+            (
+                f64::from(x) / f64::from(units(1.0)),
+                f64::from(y) / f64::from(units(1.0)),
+            )
         };
+        name_upright(
+            area,
+            "gage error, percent of 0.010 in",
+            0.5 * (HEIGHT + top - bottom),
+        )?;
         for (row, (label, kind)) in self.panels.iter().enumerate() {
             let (x, y) = place(row as f64 + 0.5, low);
             write(area, &format!("{label} {kind}"), (x, y + 13.0), words)?;
@@ -157,15 +172,28 @@ impl GageErrors {
         for (s, stage) in self.stages.iter().enumerate() {
             for (row, &percent) in stage.computed.iter().enumerate() {
                 let from = row as f64 + 0.08 + width * s as f64;
-                let (upper, lower) = (place(from, percent.max(0.0)), place(from + width, percent.min(0.0)));
+                let (upper, lower) = (
+                    place(from, percent.max(0.0)),
+                    place(from + width, percent.min(0.0)),
+                );
                 bar(area, upper, lower, self.fill(s))?;
                 if let (Some(published), true) = (stage.published[row], s > 0) {
                     let at = place(from + 0.5 * width, published);
-                    mark(area, at, (Form::Diamond, 2.8), Some(ORANGE), Pen::solid(INK, 0.9))?;
+                    mark(
+                        area,
+                        at,
+                        (Form::Diamond, 2.8),
+                        Some(ORANGE),
+                        Pen::solid(INK, 0.9),
+                    )?;
                 }
             }
         }
-        line(area, &[place(0.0, 0.0), place(count as f64, 0.0)], Pen::solid(INK, 1.2))?;
+        line(
+            area,
+            &[place(0.0, 0.0), place(count as f64, 0.0)],
+            Pen::solid(INK, 1.2),
+        )?;
         self.legend(area)
     }
 
@@ -175,7 +203,11 @@ impl GageErrors {
             0 => WHITE,
             _ => {
                 let share = stage as f64 / (self.stages.len() - 1) as f64;
-                between(between(WHITE, SKY, 0.5), BLUE, if self.stages.len() == 2 { 1.0 } else { share })
+                between(
+                    between(WHITE, SKY, 0.5),
+                    BLUE,
+                    if self.stages.len() == 2 { 1.0 } else { share },
+                )
             }
         }
     }
@@ -188,9 +220,25 @@ impl GageErrors {
             write(area, &stage.name.to_lowercase(), (x + 23.0, 22.0), words)?;
             x += 92.0;
         }
-        if self.stages.iter().skip(1).any(|stage| stage.published.iter().any(Option::is_some)) {
-            mark(area, (x + 8.0, 22.0), (Form::Diamond, 3.6), Some(ORANGE), Pen::solid(INK, 0.9))?;
-            write(area, "published, on the bar of its pass", (x + 20.0, 22.0), words)?;
+        if self
+            .stages
+            .iter()
+            .skip(1)
+            .any(|stage| stage.published.iter().any(Option::is_some))
+        {
+            mark(
+                area,
+                (x + 8.0, 22.0),
+                (Form::Diamond, 3.6),
+                Some(ORANGE),
+                Pen::solid(INK, 0.9),
+            )?;
+            write(
+                area,
+                "published, on the bar of its pass",
+                (x + 20.0, 22.0),
+                words,
+            )?;
         }
         Ok(())
     }

@@ -33,7 +33,12 @@ impl HeatMap<'_> {
         let center = left + 0.5 * wide * columns as f64;
         let small = Letters::new(SMALL, Side::Center);
         for (j, name) in self.columns.iter().enumerate() {
-            write(area, name, (left + wide * (j as f64 + 0.5), top - 9.0), small)?;
+            write(
+                area,
+                name,
+                (left + wide * (j as f64 + 0.5), top - 9.0),
+                small,
+            )?;
         }
         for (i, name) in self.rows.iter().enumerate() {
             let at = (left - 6.0, top + high * (i as f64 + 0.5));
@@ -46,14 +51,28 @@ impl HeatMap<'_> {
             ..small
         };
         write(area, self.row_heading, (left - 34.0, middle), upward)?;
-        write(area, self.title, (center, top - 46.0), Letters::new(LETTERS, Side::Center).bold())?;
+        write(
+            area,
+            self.title,
+            (center, top - 46.0),
+            Letters::new(LETTERS, Side::Center).bold(),
+        )?;
         for i in 0..rows {
             for j in 0..columns {
                 let value = self.values[(i, j)];
                 let (x, y) = (left + wide * j as f64, top + high * i as f64);
                 let strength = (value.abs() / self.full).min(1.0);
-                let color = if value < 0.0 { self.colors.0 } else { self.colors.1 };
-                rectangle(area, (x, y), (x + wide, y + high), between(WHITE, color, strength))?;
+                let color = if value < 0.0 {
+                    self.colors.0
+                } else {
+                    self.colors.1
+                };
+                rectangle(
+                    area,
+                    (x, y),
+                    (x + wide, y + high),
+                    between(WHITE, color, strength),
+                )?;
                 let ink = if strength > 0.6 { WHITE } else { INK };
                 let at = (x + 0.5 * wide, y + 0.5 * high);
                 write(area, &(self.write)(value), at, small.color(ink))?;

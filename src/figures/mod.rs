@@ -48,7 +48,8 @@ pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, Error> {
     if let Some(first) = results.first() {
         add(
             "box_points",
-            "The wing torque box with its structural and dynamic points (the paper's Figure 2).".into(),
+            "The wing torque box with its structural and dynamic points (the paper's Figure 2)."
+                .into(),
             box_points::box_points(&first.case)?.draw()?,
         );
         add(
@@ -68,17 +69,25 @@ pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, Error> {
         if case == CASES[3] {
             add(
                 &format!("case_{case}_factors"),
-                format!("Case {case}: what the first iteration asks of every panel before any limit, on a linear scale."),
+                format!(
+                    "Case {case}: what the first iteration asks of every panel before any limit, on a linear scale."
+                ),
                 unlimited_factors::unlimited_factors(result).draw()?,
             );
         } else {
             for (name, caption, svg) in correlated(result)? {
-                add(&format!("case_{case}_{name}"), format!("Case {case}: {caption}"), svg);
+                add(
+                    &format!("case_{case}_{name}"),
+                    format!("Case {case}: {caption}"),
+                    svg,
+                );
             }
         }
         add(
             &format!("case_{case}_derivatives"),
-            format!("Case {case}: derivatives of the frequencies and of the error sum at the first model."),
+            format!(
+                "Case {case}: derivatives of the frequencies and of the error sum at the first model."
+            ),
             derivative_map::derivative_map(result)?.draw()?,
         );
     }

@@ -41,7 +41,10 @@ pub fn mode_agreement(result: &CaseResult) -> Result<ModeAgreement, Error> {
         })
     };
     let correlation = &result.correlation;
-    let last = correlation.passes.last().map_or(&correlation.initial, |pass| &pass.check);
+    let last = correlation
+        .passes
+        .last()
+        .map_or(&correlation.initial, |pass| &pass.check);
     Ok(ModeAgreement {
         case: result.case.number,
         before: agreement(&correlation.initial)?,
@@ -56,16 +59,26 @@ impl ModeAgreement {
     /// [`Error::Drawing`].
     pub fn draw(&self) -> Result<String, Error> {
         let name = format!("case_{}_agreement", self.case);
-        let title = format!("Case {}: analysis against test modes before and after", self.case);
+        let title = format!(
+            "Case {}: analysis against test modes before and after",
+            self.case
+        );
         svg(&name, &title, (WIDTH, 760.0), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let columns = [("before", &self.before, 66.0), ("after", &self.after, 446.0)];
+        let columns = [
+            ("before", &self.before, 66.0),
+            ("after", &self.after, 446.0),
+        ];
         for (when, agreement, left) in columns {
             for (what, values, top) in [
                 ("Cross-orthogonality", &agreement.cross_orthogonality, 64.0),
-                ("Modal assurance criterion", &agreement.modal_assurance, 424.0),
+                (
+                    "Modal assurance criterion",
+                    &agreement.modal_assurance,
+                    424.0,
+                ),
             ] {
                 let (rows, columns) = values.shape();
                 HeatMap {
@@ -84,11 +97,20 @@ impl ModeAgreement {
             }
         }
         let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
-        write(area, note, (66.0, 728.0), Letters::new(LETTERS, Side::Right))
+        write(
+            area,
+            note,
+            (66.0, 728.0),
+            Letters::new(LETTERS, Side::Right),
+        )
     }
 }
 
 fn hundredths(value: f64) -> String {
     let rounded = (100.0 * value).round();
-    if rounded == 0.0 { String::new() } else { format!("{rounded:.0}").replace('-', "−") }
+    if rounded == 0.0 {
+        String::new()
+    } else {
+        format!("{rounded:.0}").replace('-', "−")
+    }
 }

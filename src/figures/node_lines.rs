@@ -1,7 +1,7 @@
 //! Mode shapes and node lines of the test, the first model and the correlated one (Figure 6).
 
 use super::canvas::{
-    Area, BLUE, Dash, Drawn, Form, GRAY, INK, LETTERS, Letters, ORANGE, PALE, Pen, Place, SMALL, Side,
+    Area, BLUE, Dash, Drawn, Form, GRAY, LETTERS, Letters, ORANGE, PALE, Pen, Place, SMALL, Side,
     VERMILION, WIDTH, between, line, mark, svg, write,
 };
 use super::planform::{PlanPoint, Planform, RibShape};
@@ -45,9 +45,16 @@ pub struct NodeLines {
 pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
     let planform = Planform::of(&result.case.reconstruction);
     let correlation = &result.correlation;
-    let last = correlation.passes.last().map_or(&correlation.initial, |pass| &pass.check);
+    let last = correlation
+        .passes
+        .last()
+        .map_or(&correlation.initial, |pass| &pass.check);
     let paired = |check: &Check| matched(&check.modes, &check.pairing);
-    let states = [result.test.clone(), paired(&correlation.initial), paired(last)];
+    let states = [
+        result.test.clone(),
+        paired(&correlation.initial),
+        paired(last),
+    ];
     check_shape("mode shapes", &states[0].shapes, 9, result.test.len())?;
     let state = |modes: &Modes, mode: usize| {
         let column = modes.shapes.column(mode);
@@ -72,9 +79,13 @@ pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
 /// A thick pale line, a dashed and a thin one can lie on each other and all be seen.
 fn pens() -> [(&'static str, Pen); 3] {
     let dash = Dash::Dashed;
-    let initial = Pen { color: BLUE, width: 1.6, dash };
+    let initial = Pen {
+        color: BLUE,
+        width: 1.6,
+        dash,
+    };
     [
-        ("test", Pen::solid(between(WHITE, ORANGE, 0.65), 5.0)),
+        ("test", Pen::solid(between(WHITE, ORANGE, 0.6), 4.5)),
         ("initial", initial),
         ("correlated", Pen::solid(VERMILION, 1.3)),
     ]
@@ -96,12 +107,15 @@ impl NodeLines {
         let size = (WIDTH, HEAD + CELL.1 * self.rows());
         svg(&name, &title, size, |area| {
             self.head(area, "node lines of the")?;
-            let at = (478.0, 44.0);
-            mark(area, at, (Form::Circle, 4.0), Some(GRAY), Pen::solid(GRAY, 1.2))?;
-            mark(area, (at.0 + 94.0, at.1), (Form::Circle, 4.0), Some(WHITE), Pen::solid(GRAY, 1.2))?;
             let words = Letters::new(LETTERS, Side::Right);
-            write(area, "test up", (at.0 + 10.0, at.1), words)?;
-            write(area, "down, by amount", (at.0 + 104.0, at.1), words)?;
+            let pen = Pen::solid(GRAY, 1.2);
+            for (name, x, fill) in [
+                ("test up", 470.0, GRAY),
+                ("test down; larger: farther", 560.0, WHITE),
+            ] {
+                mark(area, (x, 44.0), (Form::Circle, 4.0), Some(fill), pen)?;
+                write(area, name, (x + 10.0, 44.0), words)?;
+            }
             self.each(area, |mode, corner| self.plan(area, mode, corner))
         })
     }
@@ -115,7 +129,7 @@ impl NodeLines {
         let title = format!("Case {}: mode shapes", self.case);
         let size = (WIDTH, HEAD + CELL.1 * self.rows());
         svg(&name, &title, size, |area| {
-            self.head(area, "mid-plane shapes of the")?;
+            self.head(area, "mid-plane, root at the left:")?;
             self.each(area, |mode, corner| self.bent(area, mode, corner))
         })
     }
@@ -127,13 +141,18 @@ impl NodeLines {
     fn head(&self, area: &Area, what: &str) -> Drawn {
         let words = Letters::new(LETTERS, Side::Right);
         write(area, what, (14.0, 20.0), words)?;
-        let mut x = 24.0 + 6.9 * what.len() as f64;
+        let mut x = 24.0 + 6.4 * what.len() as f64;
         for (name, pen) in pens() {
             line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
             write(area, name, (x + 43.0, 20.0), words)?;
-            x += 66.0 + 7.5 * name.len() as f64;
+            x += 72.0 + 6.8 * name.len() as f64;
         }
-        write(area, "frequencies in Hz: test | initial | correlated", (14.0, 44.0), words)
+        write(
+            area,
+            "frequencies in Hz: test | initial | correlated",
+            (14.0, 44.0),
+            words,
+        )
     }
 
     fn each(&self, area: &Area, draw: impl Fn(usize, Place) -> Drawn) -> Drawn {
@@ -145,9 +164,16 @@ impl NodeLines {
             let name = format!("Mode {}", mode + 1);
             let at = (corner.0, corner.1 + 14.0);
             write(area, &name, at, Letters::new(LETTERS, Side::Right).bold())?;
-            let frequencies = states.each_ref().map(|state| Digits::Significant(4).write(state.frequency_hz));
+            let frequencies = states
+                .each_ref()
+                .map(|state| Digits::Significant(4).write(state.frequency_hz));
             let at = (corner.0 + 58.0, corner.1 + 14.0);
-            write(area, &frequencies.join(" | "), at, Letters::new(SMALL, Side::Right))?;
+            write(
+                area,
+                &frequencies.join(" | "),
+                at,
+                Letters::new(SMALL, Side::Right),
+            )?;
             draw(mode, (corner.0, corner.1 + 26.0))?;
         }
         Ok(())
@@ -155,7 +181,10 @@ impl NodeLines {
 
     fn plan(&self, area: &Area, mode: usize, (left, top): Place) -> Drawn {
         let form = &self.planform;
-        let plan = Plan::fitted(form.ribs.as_flattened(), [left, top, CELL.0 - 22.0, CELL.1 - 44.0]);
+        let plan = Plan::fitted(
+            form.ribs.as_flattened(),
+            [left, top, CELL.0 - 34.0, CELL.1 - 44.0],
+        );
         let place = |point: PlanPoint| plan.place(point);
         for rib in &form.ribs {
             line(area, &rib.map(place), Pen::solid(GRAY, 1.0))?;
@@ -170,17 +199,30 @@ impl NodeLines {
                 line(area, &points, pen)?;
             }
         }
-        for (point, value) in form.dynamic_points().into_iter().zip(self.modes[mode][0].shape) {
+        for (point, value) in form
+            .dynamic_points()
+            .into_iter()
+            .zip(self.modes[mode][0].shape)
+        {
             let fill = if value > 0.0 { GRAY } else { WHITE };
             let size = 1.5 + 3.5 * value.abs().sqrt();
-            mark(area, place(point), (Form::Circle, size), Some(fill), Pen::solid(GRAY, 1.2))?;
+            mark(
+                area,
+                place(point),
+                (Form::Circle, size),
+                Some(fill),
+                Pen::solid(GRAY, 1.2),
+            )?;
         }
         Ok(())
     }
 
     fn bent(&self, area: &Area, mode: usize, (left, top): Place) -> Drawn {
         let corners = self.planform.ribs.as_flattened();
-        let corners: Vec<_> = corners.iter().map(|&[x, y]| Vector3::new(x, y, 0.0)).collect();
+        let corners: Vec<_> = corners
+            .iter()
+            .map(|&[x, y]| Vector3::new(x, y, 0.0))
+            .collect();
         // The largest displacement is drawn as long as a sixth of the span.
         let span = corners.iter().map(|corner| corner.y).fold(0.0, f64::max);
         let room = [left, top + 12.0, CELL.0 - 26.0, CELL.1 - 52.0];
@@ -196,15 +238,23 @@ impl NodeLines {
                 line(area, &points, pen)?;
             }
         }
-        write(area, "root", (left + 6.0, top + 128.0), Letters::new(SMALL, Side::Right).color(INK))
+        Ok(())
     }
 
     /// Ribs and spars displaced; one inch of the view for a displacement of one.
-    fn mesh(&self, ribs: &[RibShape; 4], flat: &dyn Fn(PlanPoint, f64) -> Place) -> Vec<Vec<Place>> {
+    fn mesh(
+        &self,
+        ribs: &[RibShape; 4],
+        flat: &dyn Fn(PlanPoint, f64) -> Place,
+    ) -> Vec<Vec<Place>> {
         const PARTS: usize = 12;
         let at = |rib: usize, xi: f64| flat(self.planform.on_rib(rib, xi), ribs[rib].at(xi));
         let mut lines: Vec<Vec<Place>> = (0..ribs.len())
-            .map(|rib| (0..=PARTS).map(|part| at(rib, part as f64 / PARTS as f64)).collect())
+            .map(|rib| {
+                (0..=PARTS)
+                    .map(|part| at(rib, part as f64 / PARTS as f64))
+                    .collect()
+            })
             .collect();
         for xi in [0.0, self.planform.mid_chord_fraction, 1.0] {
             lines.push((0..ribs.len()).map(|rib| at(rib, xi)).collect());

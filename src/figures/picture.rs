@@ -25,6 +25,12 @@ pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, Error> {
     let (width, height) = (DOTS * size.width(), DOTS * size.height());
     let mut pixels = Pixmap::new(width.ceil() as u32, height.ceil() as u32)
         .ok_or_else(|| failed(format!("a size of {width} by {height} dots")))?;
-    resvg::render(&tree, Transform::from_scale(DOTS, DOTS), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| failed(error.to_string()))
+    resvg::render(
+        &tree,
+        Transform::from_scale(DOTS, DOTS),
+        &mut pixels.as_mut(),
+    );
+    pixels
+        .encode_png()
+        .map_err(|error| failed(error.to_string()))
 }

@@ -2,12 +2,12 @@
 
 use super::canvas::{
     Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, VERMILION, WIDTH,
-    between, line, mark, rectangle, svg, units, write,
+    between, line, mark, name_upright, rectangle, svg, units, write,
 };
 use crate::cases::CaseResult;
+use crate::error::Error;
 use crate::report::run_tables::factor_table;
 use crate::report::table::{Cell, Digits};
-use crate::error::Error;
 use crate::step::Range;
 use plotters::prelude::*;
 
@@ -65,7 +65,7 @@ pub fn unlimited_factors(result: &CaseResult) -> UnlimitedFactors {
 }
 
 /// Margins of the plot: left, right, top, bottom, px.
-const MARGINS: [f64; 4] = [58.0, 24.0, 44.0, 46.0];
+const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];
 const ROW: f64 = 24.0;
 
 impl UnlimitedFactors {
@@ -88,7 +88,10 @@ impl UnlimitedFactors {
         };
         let least = values().fold(0.0, f64::min);
         let most = values().fold(self.limits.upper, f64::max);
-        (10.0 * (least / 10.0 - 0.4).floor(), 10.0 * (most / 10.0 + 0.4).ceil())
+        (
+            10.0 * (least / 10.0 - 0.4).floor(),
+            10.0 * (most / 10.0 + 0.4).ceil(),
+        )
     }
 
     fn on(&self, area: &Area) -> Drawn {
@@ -114,41 +117,88 @@ impl UnlimitedFactors {
             .label_style(words.style())
             .axis_desc_style(words.style())
             .x_desc("unlimited stiffness change factor, first iteration")
-            .y_desc("panel")
             .set_all_tick_mark_size(units(4.0))
             .draw()?;
         let plot = chart.plotting_area();
         let place = |factor: f64, row: f64| {
             let (x, y) = plot.map_coordinate(&(factor, row));
-            (f64::from(x) / f64::from(units(1.0)), f64::from(y) / f64::from(units(1.0)))
+            (
+                f64::from(x) / f64::from(units(1.0)),
+                f64::from(y) / f64::from(units(1.0)),
+            )
         };
-        let (upper, lower) = (place(self.limits.lower, 0.0), place(self.limits.upper, count as f64));
+        name_upright(area, "panel", top + 0.5 * ROW * count as f64)?;
+        let (upper, lower) = (
+            place(self.limits.lower, 0.0),
+            place(self.limits.upper, count as f64),
+        );
         rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
         let at = (0.5 * (upper.0 + lower.0), upper.1 - 13.0);
-        let text = format!("limits {:.2} to {:.2}", self.limits.lower, self.limits.upper);
+        let text = format!(
+            "limits {:.2} to {:.2}",
+            self.limits.lower, self.limits.upper
+        );
         write(area, &text, at, words.color(BLUE))?;
         for (row, factor) in self.factors.iter().enumerate() {
             let row = row as f64 + 0.5;
-            write(area, &factor.parameter, (place(low, row).0 - 8.0, place(low, row).1), Letters::new(LETTERS, Side::Left))?;
-            let color = if factor.verdict == "anomaly" { VERMILION } else { INK };
+            write(
+                area,
+                &factor.parameter,
+                (place(low, row).0 - 8.0, place(low, row).1),
+                Letters::new(LETTERS, Side::Left),
+            )?;
+            let color = if factor.verdict == "anomaly" {
+                VERMILION
+            } else {
+                INK
+            };
             let tip = place(factor.computed, row);
             line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
             if let Some(published) = factor.published {
-                mark(area, place(published, row), (Form::Diamond, 5.0), Some(ORANGE), Pen::solid(INK, 0.9))?;
+                mark(
+                    area,
+                    place(published, row),
+                    (Form::Diamond, 5.0),
+                    Some(ORANGE),
+                    Pen::solid(INK, 0.9),
+                )?;
             }
-            mark(area, tip, (Form::Circle, 4.0), Some(color), Pen::solid(color, 1.0))?;
+            mark(
+                area,
+                tip,
+                (Form::Circle, 4.0),
+                Some(color),
+                Pen::solid(color, 1.0),
+            )?;
             self.write_factor(area, factor, (tip, lower.0), color)?;
         }
         if self.factors.iter().any(|factor| factor.published.is_some()) {
             let (x, y) = (place(high, 0.0).0 - 230.0, upper.1 - 13.0);
-            mark(area, (x, y), (Form::Diamond, 5.0), Some(ORANGE), Pen::solid(INK, 0.9))?;
-            write(area, "published (“about 60”)", (x + 12.0, y), Letters::new(LETTERS, Side::Right))?;
+            mark(
+                area,
+                (x, y),
+                (Form::Diamond, 5.0),
+                Some(ORANGE),
+                Pen::solid(INK, 0.9),
+            )?;
+            write(
+                area,
+                "published (“about 60”)",
+                (x + 12.0, y),
+                Letters::new(LETTERS, Side::Right),
+            )?;
         }
         Ok(())
     }
 
     /// The number beside its mark, away from the limits; an anomaly is named.
-    fn write_factor(&self, area: &Area, factor: &Factor, (tip, limit): ((f64, f64), f64), color: RGBColor) -> Drawn {
+    fn write_factor(
+        &self,
+        area: &Area,
+        factor: &Factor,
+        (tip, limit): ((f64, f64), f64),
+        color: RGBColor,
+    ) -> Drawn {
         let number = Digits::Fixed(1).write(factor.computed).replace('-', "−");
         let (x, side) = if factor.verdict == "anomaly" || factor.computed < 1.0 {
             (tip.0 - 10.0, Side::Left)

@@ -64,7 +64,10 @@ impl Plan {
     }
 
     pub fn place(&self, [x, y]: PlanPoint) -> Place {
-        (self.origin.0 + self.scale * y, self.origin.1 + self.scale * x)
+        (
+            self.origin.0 + self.scale * y,
+            self.origin.1 + self.scale * x,
+        )
     }
 }
 
@@ -72,7 +75,10 @@ impl Plan {
 fn fit(places: &[Place], [left, top, width, height]: Room) -> (f64, Place) {
     let bounds = |coordinate: fn(&Place) -> f64| {
         let values = || places.iter().map(coordinate);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+        (
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        )
     };
     let (x_low, x_high) = bounds(|place| place.0);
     let (y_low, y_high) = bounds(|place| place.1);

@@ -159,6 +159,7 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
             .map(|pass| pass.inner.iterations.len().to_string())
             .collect();
         cells.push(Cell::Text(counts.join(", ")));
+        cells.push(Cell::Text(outcome(result)));
         rows.push(Row {
             label: result.case.number.to_string(),
             cells,
@@ -167,6 +168,10 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
     let percent = |name: &str| Column {
         name: name.to_owned(),
         unit: "%",
+    };
+    let text = |name: &str| Column {
+        name: name.to_owned(),
+        unit: "",
     };
     Ok(Table {
         name: "summary".to_owned(),
@@ -177,14 +182,23 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
             percent("Frequency, last"),
             percent("Shape, first"),
             percent("Shape, last"),
-            Column {
-                name: "Iterations by pass".to_owned(),
-                unit: "",
-            },
+            text("Iterations by pass"),
+            text("Outcome"),
         ],
         rows,
         notes: Vec::new(),
     })
+}
+
+/// What became of a case, in a few words.
+fn outcome(result: &CaseResult) -> String {
+    if result.correlation.converged {
+        return "correlated".to_owned();
+    }
+    match result.anomalies.first() {
+        Some(anomaly) => format!("modeling error in element {}", anomaly.parameter),
+        None => "not converged".to_owned(),
+    }
 }
 
 /// One sentence for every modeling error found.

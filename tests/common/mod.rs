@@ -1,5 +1,6 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod drawings;
 pub mod golden;
 pub mod strategies;
 pub mod tolerances;

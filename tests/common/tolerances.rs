@@ -19,3 +19,9 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
 /// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
 pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// A node line is a quadratic's zero carried through a bilinear map and back by Newton's iteration: some ten roundings of
+/// displacements whose largest is one, times the slope of the map.
+pub const NODE_LINE: f64 = 1e-9;
+/// Frequencies by central differences of 1e-4 of a gage: the truncation is 1e-8 of a second derivative of order one, the
+/// rounding of the frequency 1e-13 over the step.
+pub const CENTRAL_DIFFERENCE_FREQUENCY: f64 = 1e-7;
