@@ -94,33 +94,48 @@ pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, Error> {
     Ok(figures)
 }
 
-/// Figures of a case that is carried through its passes.
-fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, &'static str, String)>, Error> {
+/// Figures of a case that is carried through its passes: name, caption, drawing.
+fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, String, String)>, Error> {
     let nodes = node_lines::node_lines(result)?;
+    let paper = match result.case.number {
+        1 => " (Figure 5)",
+        2 => " (Figure 7)",
+        _ => " (Figure 8)",
+    };
+    let paper_nodes = if result.case.number == 1 {
+        " (Figure 6)"
+    } else {
+        ""
+    };
     Ok(vec![
         (
             "errors",
-            "errors against iteration (Figures 5, 7 and 8). Between exact solutions the inner loop steps by perturbation; the gap at the end of a pass is what freezing the transformation cost.",
+            format!(
+                "errors against iteration{paper}. Between exact solutions the inner loop steps by perturbation; the gap at the end of a pass is what freezing the transformation cost."
+            ),
             error_history::error_history(result).draw()?,
         ),
         (
             "gages",
-            "gage errors of every panel at the start and after each pass.",
+            "gage errors of every panel at the start and after each pass.".to_owned(),
             gage_errors::gage_errors(result)?.draw()?,
         ),
         (
             "node_lines",
-            "node lines in plan, root at the left (Figure 6). Displacements are interpolated along ribs as the load distribution does and linearly between ribs.",
+            format!(
+                "node lines in plan{paper_nodes}, root at the left. Displacements are interpolated along ribs as the load distribution does and linearly between ribs."
+            ),
             nodes.draw()?,
         ),
         (
             "mode_shapes",
-            "mode shapes of the mid-plane, the largest displacement of each the same.",
+            "mode shapes of the mid-plane, the largest displacement of each the same.".to_owned(),
             nodes.draw_shapes()?,
         ),
         (
             "agreement",
-            "cross-orthogonality and modal assurance criterion of analysis and test modes.",
+            "cross-orthogonality and modal assurance criterion of analysis and test modes."
+                .to_owned(),
             mode_agreement::mode_agreement(result)?.draw()?,
         ),
     ])

@@ -15,7 +15,7 @@ pub(super) fn section(markdown: &str, heading: &str) -> String {
     let events = Parser::new_ext(body, Options::ENABLE_TABLES).flat_map(|event| match event {
         // A table wider than the page scrolls inside it.
         Event::Start(Tag::Table(alignment)) => vec![
-            Event::Html("<div class=\"scroll\" tabindex=\"0\">".into()),
+            Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()),
             Event::Start(Tag::Table(alignment)),
         ],
         Event::End(TagEnd::Table) => {
