@@ -322,11 +322,19 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                     .expect("solved")
                     .frequencies_hz()
             };
-            const STEP: f64 = 1e-4;
-            let (more, less) = (frequencies(STEP), frequencies(-STEP));
+            // Fourth-order central difference: the eigenvalues' rounding asks for a step that second order cannot afford.
+            const STEP: f64 = 2e-3;
+            let stencil = [
+                (8.0, STEP),
+                (-8.0, -STEP),
+                (-1.0, 2.0 * STEP),
+                (1.0, -2.0 * STEP),
+            ]
+            .map(|(weight, step)| (weight, frequencies(step)));
             for j in 0..9 {
                 let i = start.pairing.analysis_mode[j];
-                let difference = (more[i] / less[i]).ln() / (2.0 * STEP);
+                let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();
+                let difference = sum / (12.0 * STEP);
                 let derivative = data.frequency[(e, j)];
                 assert!(
                     (derivative - difference).abs() < CENTRAL_DIFFERENCE_FREQUENCY,
@@ -412,28 +420,29 @@ fn figures_are_the_same_bytes_every_time() {
 
 #[test]
 fn letters_stay_on_the_page_and_off_each_other() {
+    let mut faults = Vec::new();
     for figure in figures() {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
         let words: Vec<_> = written(&figure.svg)
             .into_iter()
-            .filter(|w| !w.text.is_empty())
+            .filter(|word| !word.text.is_empty())
             .collect();
         assert!(words.len() > 10, "{}", figure.name);
         for (row, one) in words.iter().enumerate() {
             let [left, top, right, bottom] = one.bounds;
-            assert!(
-                left >= 0.0 && top >= 0.0 && right <= width && bottom <= height,
-                "{}: {one:?} leaves the page",
-                figure.name
-            );
+            if left < 0.0 || top < 0.0 || right > width || bottom > height {
+                faults.push(format!("{}: {one:?} leaves the page", figure.name));
+            }
             for other in &words[row + 1..] {
                 let [l, t, r, b] = other.bounds;
-                let apart = right <= l || r <= left || bottom <= t || b <= top;
-                assert!(apart, "{}: {one:?} on {other:?}", figure.name);
+                if right > l && r > left && bottom > t && b > top {
+                    faults.push(format!("{}: {one:?} on {other:?}", figure.name));
+                }
             }
         }
     }
+    assert!(faults.is_empty(), "{faults:#?}");
 }
 
 #[test]
@@ -462,7 +471,7 @@ fn stored_figures_are_what_the_command_writes() {
         );
         compared += 1;
     }
-    assert_eq!(compared, 6);
+    assert_eq!(compared, 10, "one of every kind");
 }
 
 #[test]

@@ -172,7 +172,11 @@ fn page_needs_nothing_beside_it() {
             "{}",
             figure.name
         );
-        assert!(html.contains(&format!("<figcaption>{}</figcaption>", figure.caption)));
+        let caption = figure.caption.replace('\'', "&#39;");
+        assert!(
+            html.contains(&format!("<figcaption>{caption}</figcaption>")),
+            "{caption}"
+        );
     }
     assert!(html.contains("name=\"viewport\"") && html.contains("@media print"));
 }

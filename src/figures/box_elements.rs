@@ -99,12 +99,7 @@ impl BoxElements {
         }
         let words = Letters::new(LETTERS, Side::Right);
         let at = (452.0, 646.0);
-        write(
-            area,
-            "Large: panels 1 to 15. Small: rods 16 to 39.",
-            at,
-            words,
-        )?;
+        write(area, "Large numbers: panels. Small ones: rods.", at, words)?;
         let note = format!("Webs drawn {DEPTH_DRAWN:.0} times as deep.");
         write(area, &note, (at.0, at.1 + 20.0), words)?;
         axes(area, (60.0, 82.0))

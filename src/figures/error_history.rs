@@ -276,7 +276,7 @@ fn legend(area: &Area) -> Drawn {
             Pen::solid(color, 1.0),
         )?;
         write(area, name, (x + 41.0, 18.0), words)?;
-        x += 60.0 + 8.0 * name.len() as f64;
+        x += 58.0 + 7.2 * name.len() as f64;
     }
     mark(
         area,

@@ -110,8 +110,8 @@ impl NodeLines {
             let words = Letters::new(LETTERS, Side::Right);
             let pen = Pen::solid(GRAY, 1.2);
             for (name, x, fill) in [
-                ("test up", 470.0, GRAY),
-                ("test down; larger: farther", 560.0, WHITE),
+                ("test up", 440.0, GRAY),
+                ("test down; larger: farther", 525.0, WHITE),
             ] {
                 mark(area, (x, 44.0), (Form::Circle, 4.0), Some(fill), pen)?;
                 write(area, name, (x + 10.0, 44.0), words)?;

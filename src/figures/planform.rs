@@ -9,7 +9,9 @@
 //!    \kappa = \frac{w_m - (1-\xi_m) w_r - \xi_m w_f}{\xi_m(1-\xi_m)} $$
 //!
 //! with $\xi$ from the rear spar and $\xi_m$ the mid point's. Every other cubic through the three adds a multiple of
-//! $\xi(\xi-\xi_m)(\xi-1)$ and bends more.
+//! $\xi(\xi-\xi_m)(\xi-1)$ and, with the mid point halfway, bends more. What the rotations would add can be seen where they are
+//! known, in the model: in modes 1 to 5 of the cases it is below 4 percent of the largest displacement, in the chordwise bending of
+//! modes 6 and 8 up to 31 percent.
 //!
 //! **Between ribs** the displacement is linear along lines of equal $\xi$, and zero at the root. In the inboard bay a
 //! node line is therefore straight.

@@ -36,12 +36,18 @@ fn one(element: &str) -> Written {
         "middle" => 0.5 * width,
         _ => width,
     };
-    // Capitals and digits reach 0.36 em above and below the middle line.
-    let half = 0.36 * em;
+    // From its base line a digit or capital rises 0.72 em.
+    let base = em
+        * match word(tag, "dy") {
+            "0.76em" => 0.76,
+            "0.5ex" => 0.26,
+            _ => -0.26,
+        };
+    let (high, low) = (base - 0.72 * em, base);
     let bounds = if tag.contains("rotate(270") {
-        [x - half, y + before - width, x + half, y + before]
+        [x + high, y + before - width, x + low, y + before]
     } else {
-        [x - before, y - half, x - before + width, y + half]
+        [x - before, y + high, x - before + width, y + low]
     };
     Written { text, bounds }
 }

@@ -22,6 +22,6 @@ pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
 /// A node line is a quadratic's zero carried through a bilinear map and back by Newton's iteration: some ten roundings of
 /// displacements whose largest is one, times the slope of the map.
 pub const NODE_LINE: f64 = 1e-9;
-/// Frequencies by central differences of 1e-4 of a gage: the truncation is 1e-8 of a second derivative of order one, the
-/// rounding of the frequency 1e-13 over the step.
+/// Logarithmic derivatives of frequencies by fourth-order central differences of 0.2 %: eigenvalues over a range of 1e5
+/// round at 1e-11, which 1.5 over the step makes 1e-8; truncation is the step's fourth power.
 pub const CENTRAL_DIFFERENCE_FREQUENCY: f64 = 1e-7;
