@@ -1,5 +1,7 @@
 //! Arguments, progress, output and exit status; all the work is the library's.
 
+mod pictures;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::error::Error;
@@ -38,6 +40,10 @@ Results go to standard output, progress to standard error.";
 enum Command {
     /// Correlate the paper's cases and print the tables beside the published ones
     Cases(CasesArguments),
+    /// Write every figure as SVG
+    Figures(pictures::FiguresArguments),
+    /// Write the report as one web page with tables, figures and assumptions
+    Report(pictures::ReportArguments),
 }
 
 #[derive(Debug, Args)]
@@ -94,6 +100,8 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases(&arguments),
+        Some(Command::Figures(arguments)) => pictures::figures(&arguments),
+        Some(Command::Report(arguments)) => pictures::report(&arguments),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,

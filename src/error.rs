@@ -333,6 +333,20 @@ pub enum Error {
         /// What stood there.
         found: String,
     },
+    /// A figure that cannot be drawn.
+    #[error("figure {figure}: expected to draw it, found {found}")]
+    Drawing {
+        /// The figure's name.
+        figure: String,
+        /// The drawing library's own message.
+        found: String,
+    },
+    /// A page that cannot be put together.
+    #[error("page: expected to fill it, found an error: {source}")]
+    Page {
+        /// The template library's own message.
+        source: askama::Error,
+    },
     /// A file that cannot be read or written.
     #[error("{path}: expected to {action} it, found an error: {source}")]
     File {

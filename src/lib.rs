@@ -21,7 +21,8 @@
 //!    to change it; [`table_1`] compares the perturbation formulae on two
 //!    modes, where [`two_dof`] is exact.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
+//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//!    [`figures`] and [`html_report`] show them.
 //!
 //! # Units
 //!
@@ -72,7 +73,9 @@ pub mod modal;
 pub mod outer_loop;
 
 pub mod cases;
+pub mod figures;
 pub mod fit;
+pub mod html_report;
 pub mod published;
 pub mod report;
 

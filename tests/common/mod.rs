@@ -5,6 +5,7 @@ pub mod boxes;
 pub mod close_roots;
 pub mod complex_pencils;
 pub mod counting_allocator;
+pub mod drawings;
 pub mod golden;
 pub mod loops;
 pub mod matrices;
