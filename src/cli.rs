@@ -5,8 +5,11 @@ mod pictures;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::error::Error;
-use corfem::fit::{Fit, fit};
+use corfem::fewer_modes::{all_runs, published_runs};
+use corfem::fit::fit;
+use corfem::report::fewer_modes_tables::fewer_modes_tables;
 use corfem::report::run_tables::all_tables;
+use corfem::report::table::Table;
 use corfem::report::{Format, json, render};
 use corfem::torque_box::Reconstruction;
 use std::io::Write;
@@ -44,6 +47,18 @@ enum Command {
     Figures(pictures::FiguresArguments),
     /// Write the report as one web page with tables, figures and assumptions
     Report(pictures::ReportArguments),
+    /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
+    FewerModes(OutputArguments),
+}
+
+#[derive(Debug, Args)]
+struct OutputArguments {
+    /// How to write the report
+    #[arg(short, long, value_enum, default_value = "text")]
+    format: FormatArgument,
+    /// Write the report to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -51,12 +66,8 @@ struct CasesArguments {
     /// Which cases to run; all four if none is named
     #[arg(value_name = "CASE")]
     cases: Vec<usize>,
-    /// How to write the report
-    #[arg(short, long, value_enum, default_value = "text")]
-    format: FormatArgument,
-    /// Write the report to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
@@ -102,6 +113,7 @@ pub fn run() -> ExitCode {
         Some(Command::Cases(arguments)) => cases(&arguments),
         Some(Command::Figures(arguments)) => pictures::figures(&arguments),
         Some(Command::Report(arguments)) => pictures::report(&arguments),
+        Some(Command::FewerModes(output)) => fewer_modes(&output),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,
@@ -145,19 +157,33 @@ fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         })?);
     }
     let fit = fit(&reconstruction)?;
-    let report = write_report(&results, &fit, arguments.format.into())?;
-    put(arguments.output.as_deref(), &report)?;
+    let tables = all_tables(&results, &fit)?;
+    write_report(&arguments.output, &tables, || json::json(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }
 
-fn write_report(results: &[CaseResult], fit: &Fit, format: Format) -> Result<String, Error> {
-    let tables = all_tables(results, fit)?;
-    match format {
-        Format::Text => Ok(render::render(&tables, false)),
-        Format::Markdown => Ok(render::render(&tables, true)),
-        Format::Json => json::json(results, fit),
-        Format::Csv => render::csv(&tables),
-    }
+/// Runs Case 2 with fewer modes; there is nothing to converge to, so it always succeeds.
+fn fewer_modes(output: &OutputArguments) -> Result<bool, Error> {
+    let case = Case::new(2)?;
+    let runs = all_runs(&case)?;
+    let tables = fewer_modes_tables(&case, &published_runs(&case)?, &runs)?;
+    write_report(output, &tables, || json::fewer_modes(&runs))?;
+    Ok(true)
+}
+
+/// Writes tables, or what they were made from as JSON, where the arguments say.
+fn write_report(
+    output: &OutputArguments,
+    tables: &[Table],
+    json: impl FnOnce() -> Result<String, Error>,
+) -> Result<(), Error> {
+    let report = match output.format.into() {
+        Format::Text => render::render(tables, false),
+        Format::Markdown => render::render(tables, true),
+        Format::Json => json()?,
+        Format::Csv => render::csv(tables)?,
+    };
+    put(output.output.as_deref(), &report)
 }
 
 fn read(path: &Path) -> Result<String, Error> {

@@ -22,6 +22,7 @@
 //!    modes, where [`two_dof`] is exact.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
 //! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//!    [`fewer_modes`]: what they lose when modes are left out.
 //!    [`figures`] and [`html_report`] show them.
 //!
 //! # Units
@@ -73,6 +74,7 @@ pub mod modal;
 pub mod outer_loop;
 
 pub mod cases;
+pub mod fewer_modes;
 pub mod figures;
 pub mod fit;
 pub mod html_report;

@@ -1,7 +1,9 @@
 //! The modal problem of one inner loop: everything a step needs, reduced to the analysis modes.
 
 use crate::error::Error;
-use crate::linalg::{check_length, check_shape, check_symmetric};
+use crate::linalg::{
+    RankOneTerms, check_length, check_shape, check_symmetric, rank_one_terms, symmetric_part,
+};
 use crate::modes::Modes;
 use crate::objective::{Errors, errors};
 use crate::perturbation::{
@@ -48,6 +50,8 @@ pub struct ModalProblem {
     pub test: Modes,
     /// $V^t K_e V$ (rad²/s²) or $V^t M_e V$ of every parameter's share (n × n).
     pub generalized_shares: Vec<Share>,
+    /// The same as sums of rank-one terms, few for an element: what the derivatives work with.
+    pub share_terms: Vec<RankOneTerms>,
     /// Generalized stiffness or mass of every share on the test modes relative to theirs,
     /// $V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$ or $V_{Gi}^t M_e V_{Gi}$ (test modes × parameters).
     pub test_shares: DMatrix<f64>,
@@ -71,6 +75,7 @@ impl ModalProblem {
         let start_cross = cross_orthogonality(&start, &test, &model.mass)?;
         pair_modes(&start_cross)?;
         let mut generalized_shares = Vec::with_capacity(model.shares.len());
+        let mut share_terms = Vec::with_capacity(model.shares.len());
         let mut test_shares = DMatrix::zeros(test.len(), model.shares.len());
         for (e, share) in model.shares.iter().enumerate() {
             let matrix = share.matrix();
@@ -84,6 +89,10 @@ impl ModalProblem {
                     test_shares[(i, e)] /= test.omega_squared[i];
                 }
             }
+            share_terms.push(rank_one_terms(
+                "generalized share",
+                &symmetric_part(&in_modes),
+            )?);
             generalized_shares.push(match share {
                 Share::Stiffness(_) => Share::Stiffness(in_modes),
                 Share::Mass(_) => Share::Mass(in_modes),
@@ -93,6 +102,7 @@ impl ModalProblem {
             start,
             test,
             generalized_shares,
+            share_terms,
             test_shares,
             start_cross,
         })

@@ -112,6 +112,17 @@ pub struct Panel {
     pub gage: f64,
 }
 
+/// RMS relative error of the gages of one kind of panel against [`TEST_GAGE`]; NaN when there is none of the kind.
+pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
+    let errors: Vec<f64> = panels
+        .iter()
+        .zip(gages)
+        .filter(|(panel, _)| panel.kind == kind)
+        .map(|(_, gage)| (gage / TEST_GAGE - 1.0).powi(2))
+        .collect();
+    (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
+}
+
 /// The 24 rods, by their end grids, elements 16 to 39: twelve spar caps (rear upper, rear lower, front upper,
 /// front lower, each from the tip in), then for every free rib its two posts and its two caps.
 pub fn rod_ends() -> Vec<[usize; 2]> {

@@ -63,39 +63,6 @@ pub(crate) fn first_order_into(
     Ok(())
 }
 
-/// First order for a change of mass alone, $\alpha = V^t \Delta M V$, into storage that is already there:
-/// $\gamma_i = \lambda_i(1 + \alpha_{ii})$, $p_{ij} = \alpha_{ij}/\big(k_{ii}(\gamma_j - \lambda_i) - \alpha_{ii}\big)$ (C.17 with $\beta = 0$).
-pub(crate) fn first_order_mass_into(
-    k: &DVector<f64>,
-    alpha: &DMatrix<f64>,
-    roots: &mut DVector<f64>,
-    shapes: &mut DMatrix<f64>,
-) -> Result<(), Error> {
-    for i in 0..k.len() {
-        roots[i] = (1.0 + alpha[(i, i)]) / k[i];
-        check_root(i, roots[i])?;
-    }
-    for j in 0..k.len() {
-        for i in 0..k.len() {
-            let own = k[i] * roots[j];
-            let difference = own - 1.0 - alpha[(i, i)];
-            shapes[(i, j)] = if i == j {
-                1.0
-            } else if difference.abs() > SMALLEST_SEPARATION * own {
-                alpha[(i, j)] / difference
-            } else {
-                let separation = (difference / own).abs();
-                return Err(Error::CoalescingModes {
-                    first: i,
-                    second: j,
-                    separation,
-                });
-            };
-        }
-    }
-    Ok(())
-}
-
 /// Recursive 1 (7, 8, C.22) to a given order, from first order on; with $\rho = r - 1$:
 ///
 /// $$ (\Delta\lambda_i)_r = -\frac{\beta_{ii}\lambda_i + (\gamma_i)_\rho \sum_{j\ne i}\beta_{ij}(p_{ji})_\rho}{k_{ii}+\beta_{ii}}, \qquad

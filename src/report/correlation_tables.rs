@@ -8,9 +8,9 @@ use crate::published::PublishedTable;
 use crate::structure::ElementKind;
 use crate::torque_box::TEST_GAGE;
 
-const HERTZ: Digits = Digits::Significant(4);
-const INCHES: Digits = Digits::Fixed(5);
-const PERCENT: Digits = Digits::Fixed(1);
+pub(super) const HERTZ: Digits = Digits::Significant(4);
+pub(super) const INCHES: Digits = Digits::Fixed(5);
+pub(super) const PERCENT: Digits = Digits::Fixed(1);
 pub(super) const RMS_PERCENT: Digits = Digits::Fixed(2);
 
 /// The stages of a run as the tables name them: `initial`, `pass_1`, …
@@ -195,15 +195,7 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
 
 /// RMS relative gage error of one kind of panel.
 pub fn gage_rms(result: &CaseResult, gages: &[f64], kind: ElementKind) -> f64 {
-    let errors: Vec<f64> = result
-        .case
-        .panels
-        .iter()
-        .zip(gages)
-        .filter(|(panel, _)| panel.kind == kind)
-        .map(|(_, gage)| (gage / TEST_GAGE - 1.0).powi(2))
-        .collect();
-    (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
+    crate::torque_box::gage_rms(&result.case.panels, gages, kind)
 }
 
 pub(super) fn column(name: &str, unit: &'static str) -> Column {
@@ -224,7 +216,7 @@ fn numbered(paper: Option<&PublishedTable>) -> String {
     paper.map_or_else(String::new, |table| format!(" (Table {})", table.number))
 }
 
-fn kind_letter(kind: ElementKind) -> &'static str {
+pub(super) fn kind_letter(kind: ElementKind) -> &'static str {
     match kind {
         ElementKind::Rod => "R",
         ElementKind::ShearPanel => "S",

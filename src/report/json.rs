@@ -2,11 +2,16 @@
 
 use crate::cases::CaseResult;
 use crate::error::Error;
+use crate::fewer_modes::FewerModesRun;
 use crate::fit::Fit;
 use crate::inner_loop::{Iteration, Stop};
 use crate::published::PublishedTable;
 use crate::step::Limit;
 use serde::Serialize;
+
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+const UNITS: &str = "inch, pound-force, second, hertz; errors are fractions";
 
 /// The document: program, cases, fit of the box.
 #[derive(Debug, Serialize)]
@@ -82,16 +87,41 @@ struct AnomalyDocument {
 pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, Error> {
     let paper = PublishedTable::number(13)?;
     let document = Document {
-        program: env!("CARGO_PKG_NAME"),
-        version: env!("CARGO_PKG_VERSION"),
-        units: "inch, pound-force, second, hertz; errors are fractions",
+        program: PROGRAM,
+        version: VERSION,
+        units: UNITS,
         cases: results
             .iter()
             .map(|result| case_document(result, &paper))
             .collect(),
         reconstruction_fit: fit,
     };
-    let mut text = serde_json::to_string_pretty(&document).map_err(|error| Error::Table {
+    written(&document)
+}
+
+/// Runs with fewer modes as JSON, units and errors as in [`json`].
+///
+/// # Errors
+/// [`Error::Table`] if a number were not finite.
+pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, Error> {
+    #[derive(Serialize)]
+    struct Runs<'a> {
+        program: &'static str,
+        version: &'static str,
+        units: &'static str,
+        runs: &'a [FewerModesRun],
+    }
+    written(&Runs {
+        program: PROGRAM,
+        version: VERSION,
+        units: UNITS,
+        runs,
+    })
+}
+
+/// A document as pretty-printed JSON with a final newline.
+fn written(document: &impl Serialize) -> Result<String, Error> {
+    let mut text = serde_json::to_string_pretty(document).map_err(|error| Error::Table {
         name: "JSON output".into(),
         expected: "finite numbers".into(),
         found: error.to_string(),
