@@ -18,7 +18,8 @@
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
 //!    to change it.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
+//! 9. [`deck`]: the model as NASTRAN bulk data; [`nastran95`]: the analysis by that program.
+//! 10. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers.
 //!
 //! # Units
 //!
@@ -61,6 +62,9 @@ pub mod step;
 pub mod inner_loop;
 pub mod modal;
 pub mod outer_loop;
+
+pub mod deck;
+pub mod nastran95;
 
 pub mod cases;
 pub mod fit;

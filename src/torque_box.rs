@@ -191,13 +191,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
         3.0 * xi.powi(2) - 2.0 * xi.powi(3),
         xi.powi(3) - xi.powi(2),
     ];
-    let at = |grid: usize| {
-        reconstruction
-            .grids
-            .get(&grid)
-            .map(|&position| Vector3::from(position))
-            .ok_or(Error::UnknownGrid { element: 0, grid })
-    };
+    let at = |grid: usize| position(reconstruction, grid);
     let mut t = DMatrix::zeros(3 * RIB_GRIDS * FREE_RIBS, 3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
@@ -221,6 +215,32 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
         }
     }
     Ok(t)
+}
+
+/// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
+///
+/// # Errors
+/// [`Error::UnknownGrid`] for a box without a grid it must have.
+pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, Error> {
+    let at = |grid: usize| position(reconstruction, grid);
+    let mut points = Vec::with_capacity(3 * FREE_RIBS);
+    for rib in 0..FREE_RIBS {
+        let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
+        let rear = 0.5 * (at(rear_upper)? + at(rear_lower)?);
+        let front = 0.5 * (at(front_upper)? + at(front_lower)?);
+        let mid = rear + reconstruction.mid_chord_fraction * (front - rear);
+        points.extend([rear, mid, front]);
+    }
+    Ok(points)
+}
+
+/// Position of a grid, in.
+fn position(reconstruction: &Reconstruction, grid: usize) -> Result<Vector3<f64>, Error> {
+    reconstruction
+        .grids
+        .get(&grid)
+        .map(|&position| Vector3::from(position))
+        .ok_or(Error::UnknownGrid { element: 0, grid })
 }
 
 fn nonzero(length: f64) -> Result<f64, Error> {
