@@ -51,7 +51,7 @@ fn update(criterion: &mut Criterion) {
     let k = &problem.start.omega_squared;
     let mut beta = DMatrix::zeros(k.len(), k.len());
     for (e, share) in problem.generalized_shares.iter().enumerate() {
-        beta += 0.1 * if e % 2 == 0 { 1.0 } else { -1.0 } * share;
+        beta += 0.1 * if e % 2 == 0 { 1.0 } else { -1.0 } * share.matrix();
     }
     let mut group = criterion.benchmark_group("modal update");
     for (name, rule) in [

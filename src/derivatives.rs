@@ -1,6 +1,7 @@
 //! Derivatives of the error sum (12): a 0.1 % change of each parameter by first-order perturbation.
 
 use crate::error::Error;
+use crate::linalg::check_length;
 use crate::modal::{ModalProblem, ModalState, Share};
 use crate::objective::squared_shape_difference;
 use crate::perturbation::recursive::{first_order_into, first_order_mass_into};
@@ -67,13 +68,18 @@ impl Workspace {
 /// $\Delta e$ of every parameter, written into `error_change`, without an allocation.
 ///
 /// # Errors
-/// As [`error_derivatives`].
+/// As [`error_derivatives`], and [`Error::WrongShape`] unless `error_change` has one entry per parameter.
 pub fn error_changes_into(
     problem: &ModalProblem,
     state: &ModalState,
     workspace: &mut Workspace,
     error_change: &mut [f64],
 ) -> Result<(), Error> {
+    check_length(
+        "error changes",
+        error_change.len(),
+        problem.parameter_count(),
+    )?;
     for (e, change) in error_change.iter_mut().enumerate() {
         *change = error_sum_after(problem, state, e, workspace)? - state.errors.sum();
     }

@@ -77,6 +77,14 @@ pub enum Error {
         /// The repeated label.
         element: usize,
     },
+    /// A torque box lacks one of its grid points.
+    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
+    MissingGrid {
+        /// The missing label.
+        grid: usize,
+        /// How many grids a box has.
+        count: usize,
+    },
     /// An element refers to a grid point that does not exist.
     #[error(
         "element {element}: expected an existing grid, found grid {grid}, which is not defined"
@@ -241,6 +249,38 @@ pub enum Error {
         /// The root found, s^2.
         value: f64,
     },
+    /// A change that takes away a mode's generalized stiffness, so that its root has no finite value.
+    #[error(
+        "mode {mode} (from zero): expected a generalized stiffness after the change, found {ratio:.1e} of the one before"
+    )]
+    LostStiffness {
+        /// The mode.
+        mode: usize,
+        /// Magnitude of the generalized stiffness after the change relative to the one before.
+        ratio: f64,
+    },
+    /// Left and right shapes that do not belong together.
+    #[error(
+        "left mode {left} and right mode {right} (from zero): expected no generalized stiffness between them, found {ratio:.1e} of their own"
+    )]
+    NotBiorthogonal {
+        /// The left mode.
+        left: usize,
+        /// The right mode.
+        right: usize,
+        /// Their generalized stiffness relative to the geometric mean of their own ones.
+        ratio: f64,
+    },
+    /// A pencil without a complete set of modes.
+    #[error(
+        "mode {mode} (from zero): expected as many independent modes as degrees of freedom, found its left and right shapes orthogonal to {cosine:.1e}"
+    )]
+    Defective {
+        /// The mode.
+        mode: usize,
+        /// Cosine of the angle between its left and right shapes in the measure of the stiffness.
+        cosine: f64,
+    },
     /// An iterative library routine did not converge.
     #[error("{what}: expected the eigenvalue iteration to converge, found that it did not")]
     NoConvergence {
@@ -381,6 +421,34 @@ pub enum Error {
         action: &'static str,
         /// The operating system's message.
         source: std::io::Error,
+    },
+    /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
+    #[error(
+        "rigid-body vector {vector} (from zero): expected a motion independent of those before it, found a combination of them at the dynamic degrees of freedom"
+    )]
+    DependentRigidBody {
+        /// The first dependent vector, from zero.
+        vector: usize,
+    },
+    /// A structure on supports, where the reactions balance the forces of a mode.
+    #[error(
+        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there, so its modes must not be balanced"
+    )]
+    Supported {
+        /// The first mode with too large a ratio, from zero.
+        mode: usize,
+        /// Largest squared suspension frequency over the mode's.
+        ratio: f64,
+        /// The largest ratio allowed.
+        limit: f64,
+    },
+    /// A test shape that is a combination of others.
+    #[error(
+        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
+    )]
+    DependentTestShape {
+        /// The first dependent mode, from zero.
+        mode: usize,
     },
 }
 

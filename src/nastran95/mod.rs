@@ -39,6 +39,15 @@ pub fn default_folder() -> PathBuf {
     home.join(".cache/nastran95/nastran95/_data")
 }
 
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// The printed output.
+    pub printed: String,
+    /// What was written on Fortran unit 15, if anything.
+    pub unit_15: Option<String>,
+}
+
 /// An installed NASTRAN-95.
 #[derive(Debug, Clone)]
 pub struct Nastran95 {
@@ -70,15 +79,30 @@ impl Nastran95 {
         })
     }
 
-    /// Runs a deck and returns what it wrote with module OUTPUT5 on Fortran unit 15.
+    /// Runs a deck.
     ///
     /// All files of the run are in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
-    /// [`Error::SolverTimeLimit`], [`Error::SolverInterrupted`], [`Error::SolverCrashed`], [`Error::SolverFatal`] with NASTRAN's own message,
-    /// [`Error::SolverAnswer`] when it writes nothing or something else; [`Error::File`].
+    /// [`Error::SolverTimeLimit`], [`Error::SolverInterrupted`], [`Error::SolverCrashed`], [`Error::SolverFatal`] with
+    /// NASTRAN's own message; [`Error::File`].
+    pub fn run(&self, deck: &str) -> Result<Answer, Error> {
+        process::run(self, &self.home, deck)
+    }
+
+    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`]; [`Error::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str) -> Result<Matrices, Error> {
-        read_output5(&process::run(self, &self.home, deck)?)
+        let answer = self.run(deck)?;
+        match answer.unit_15 {
+            Some(text) => read_output5(&text),
+            None => Err(Error::SolverAnswer {
+                expected: "matrices on Fortran unit 15".into(),
+                found: format!("none; printed last: {}", process::last_lines(&answer.printed)),
+            }),
+        }
     }
 
     /// The finite element analysis at the given parameter factors, as [`FiniteElementModel::analyze`] with NASTRAN's elements.

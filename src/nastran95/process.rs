@@ -1,6 +1,6 @@
 //! One run of the program: its files in a temporary folder, its time limited.
 
-use super::Nastran95;
+use super::{Answer, Nastran95};
 use crate::error::Error;
 use std::fs::File;
 use std::path::Path;
@@ -22,8 +22,8 @@ const ANSWER: &str = "ftn15";
 /// Lines of a fatal message, and of the end of the output of a crashed run, that an error carries.
 const MESSAGE_LINES: usize = 3;
 
-/// Runs a deck and returns the text on Fortran unit 15.
-pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<String, Error> {
+/// Runs a deck in a folder of its own.
+pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer, Error> {
     let scratch = tempfile::Builder::new()
         .prefix("corfem-nastran95-")
         .tempdir()
@@ -42,7 +42,7 @@ fn in_scratch(
     home: &Path,
     deck: &str,
     scratch: &Path,
-) -> Result<String, Error> {
+) -> Result<Answer, Error> {
     let path = |name: &str| scratch.join(name);
     std::fs::write(path("deck"), deck).map_err(failed(&path("deck"), "write"))?;
     let open = |name: &str| File::open(path(name)).map_err(failed(&path(name), "read"));
@@ -87,13 +87,11 @@ fn in_scratch(
             message: last_lines(&format!("{printed}\n{errors}")),
         });
     }
-    if !path(ANSWER).is_file() {
-        return Err(Error::SolverAnswer {
-            expected: "matrices on Fortran unit 15".into(),
-            found: format!("none, and printed last: {}", last_lines(&printed)),
-        });
-    }
-    read(&path(ANSWER))
+    let unit_15 = match path(ANSWER).is_file() {
+        true => Some(read(&path(ANSWER))?),
+        false => None,
+    };
+    Ok(Answer { printed, unit_15 })
 }
 
 /// Waits for the end of the program, but not for ever.
@@ -165,7 +163,8 @@ fn fatal_message(printed: &str) -> Option<String> {
     Some(words.join(" ").trim_start_matches(['0', '1', '*', ' ']).to_owned())
 }
 
-fn last_lines(text: &str) -> String {
+/// The last lines that are not blank.
+pub(super) fn last_lines(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
