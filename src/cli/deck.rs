@@ -77,7 +77,10 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
     };
     let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    put(arguments.output.as_deref(), &deck::write(&bulk, &title, &task)?)
+    put(
+        arguments.output.as_deref(),
+        &deck::write(&bulk, &title, &task)?,
+    )
 }
 
 /// Prints the modes of a deck.

@@ -119,7 +119,10 @@ impl Card {
         if text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
             return Ok(());
         }
-        Err(self.error(field, format!("a blank or zero, for the crate has no {meaning}")))
+        Err(self.error(
+            field,
+            format!("a blank or zero, for the crate has no {meaning}"),
+        ))
     }
 
     /// Directions x, y, z named by a list of components such as `123`; 4 to 6, the rotations, are allowed where
@@ -217,7 +220,10 @@ pub fn write_card(
         });
     }
     // NASTRAN-95 takes a line of the large format for half a card and wants the other half too.
-    fields.resize(fields.len().next_multiple_of(FIELDS_PER_LINE), String::new());
+    fields.resize(
+        fields.len().next_multiple_of(FIELDS_PER_LINE),
+        String::new(),
+    );
     let lines: Vec<&[String]> = fields.chunks(per_line).collect();
     let mut text = String::new();
     let mut first = format!("{name}{mark}");

@@ -135,9 +135,8 @@ impl Constraints {
             }
         }
         for (tie, card) in ties.values() {
-            let is_tied = |(term, _): &(StructuralDof, f64)| {
-                ties.contains_key(&(term.grid, term.direction))
-            };
+            let is_tied =
+                |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
             if let Some(row) = tie.terms.iter().position(is_tied) {
                 let expected = "a degree of freedom that no MPC card makes dependent";
                 return Err(card.error(term_field(row + 1), expected));
@@ -148,10 +147,7 @@ impl Constraints {
 }
 
 /// The terms of an equation, the dependent DOF first.
-fn terms(
-    card: &Card,
-    grids: &BTreeMap<usize, Grid>,
-) -> Result<Vec<(StructuralDof, f64)>, Error> {
+fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDof, f64)>, Error> {
     let mut terms = Vec::new();
     while term_field(terms.len()) <= card.last_field() {
         let field = term_field(terms.len());

@@ -49,11 +49,12 @@ impl ElementCards {
     /// # Errors
     /// [`Error::DeckField`].
     pub fn take(&mut self, card: &Card) -> Result<bool, Error> {
-        let starts: &[usize] = if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
-            &[2, 6]
-        } else {
-            &[2]
-        };
+        let starts: &[usize] =
+            if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
+                &[2, 6]
+            } else {
+                &[2]
+            };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             if card.name == connection {
                 for &start in starts {

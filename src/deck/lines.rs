@@ -43,10 +43,7 @@ impl Line {
 }
 
 /// Case control's selection and the lines of bulk data.
-pub(super) fn sections(
-    file: &str,
-    text: &str,
-) -> Result<(Option<Selected>, Vec<Line>), Error> {
+pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), Error> {
     let lines: Vec<(usize, String)> = text
         .lines()
         .enumerate()
@@ -144,7 +141,10 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, Error> {
     parts.resize(count + 1, String::new());
     let tag = parts.pop().unwrap_or_default();
     if let Some(long) = parts.iter().find(|part| part.chars().count() > width) {
-        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", long));
+        return Err(wrong(
+            "a field of 8 characters, or of 16 with an asterisk",
+            long,
+        ));
     }
     let data = parts.into_iter().map(|text| Field { text, line: number });
     Ok(Line {

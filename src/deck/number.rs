@@ -33,7 +33,9 @@ pub fn parse_real(text: &str) -> Option<f64> {
         return None;
     }
     let sign = if text.starts_with('-') { "-" } else { "" };
-    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}").parse().ok()?;
+    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}")
+        .parse()
+        .ok()?;
     value.is_finite().then_some(value)
 }
 

@@ -36,7 +36,9 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, Error
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n",
     );
     if *task == Task::Matrices {
-        text.push_str("INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n");
+        text.push_str(
+            "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n",
+        );
     }
     text.push_str(&format!("CEND\nTITLE = {}\n", title.to_ascii_uppercase()));
     text.push_str(&format!("SPC = {SET}\n"));
@@ -92,7 +94,10 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
     }
     let mut materials: Vec<Material> = Vec::new();
     for element in &model.elements {
-        let number = match materials.iter().position(|known| *known == element.material) {
+        let number = match materials
+            .iter()
+            .position(|known| *known == element.material)
+        {
             Some(row) => row + 1,
             None => {
                 materials.push(element.material);
@@ -121,7 +126,13 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
             density,
         } = *material;
         let derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-        let optional = |blank: bool, value| if blank { Entry::Blank } else { Entry::Real(value) };
+        let optional = |blank: bool, value| {
+            if blank {
+                Entry::Blank
+            } else {
+                Entry::Real(value)
+            }
+        };
         let entries = [
             Entry::Label(row + 1),
             Entry::Real(e),
@@ -138,7 +149,11 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
         mass,
     } in &model.masses
     {
-        let (label, grid, mass) = (Entry::Label(*label), Entry::Label(*grid), Entry::Real(*mass));
+        let (label, grid, mass) = (
+            Entry::Label(*label),
+            Entry::Label(*grid),
+            Entry::Real(*mass),
+        );
         match direction {
             Some(direction) => {
                 let component = Entry::Label(direction + 1);
@@ -175,9 +190,15 @@ fn held_cards(grids: &[Grid]) -> Vec<Vec<Entry>> {
         .map(|run| {
             let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
             let held = (0..3).filter(|&direction| first.held[direction]);
-            let mut components: String = held.map(|direction| (b'1' + direction as u8) as char).collect();
+            let mut components: String = held
+                .map(|direction| (b'1' + direction as u8) as char)
+                .collect();
             components.push_str("456");
-            let mut entries = vec![Entry::Label(SET), Entry::Word(components), Entry::Label(first.label)];
+            let mut entries = vec![
+                Entry::Label(SET),
+                Entry::Word(components),
+                Entry::Label(first.label),
+            ];
             if run.len() > 1 {
                 entries.extend([Entry::Word("THRU".into()), Entry::Label(last.label)]);
             }

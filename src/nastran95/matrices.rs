@@ -58,7 +58,11 @@ pub(super) fn unit_stiffness(
     bulk: &BulkData,
     answer: &Matrices,
 ) -> Result<Vec<DMatrix<f64>>, Error> {
-    let corners: usize = bulk.elements.iter().map(|element| element.grids.len()).sum();
+    let corners: usize = bulk
+        .elements
+        .iter()
+        .map(|element| element.grids.len())
+        .sum();
     let size = GRID_DOF * (bulk.grids.len() + corners);
     let kgg = matrix(answer, "KGG", size)?;
     let mut block_of = HashMap::new();
@@ -120,15 +124,27 @@ pub(super) fn check_assembled(
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     for (name, expected, here, limit) in [
-        ("KAA", "the sum of its element matrices", stiffness, LARGEST_STIFFNESS_DIFFERENCE),
-        ("MAA", "the masses the MPC equations distribute", mass, LARGEST_MASS_DIFFERENCE),
+        (
+            "KAA",
+            "the sum of its element matrices",
+            stiffness,
+            LARGEST_STIFFNESS_DIFFERENCE,
+        ),
+        (
+            "MAA",
+            "the masses the MPC equations distribute",
+            mass,
+            LARGEST_MASS_DIFFERENCE,
+        ),
     ] {
         let there = matrix(answer, name, free.len())?;
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
         if difference.is_nan() || difference > limit {
             return Err(Error::SolverAnswer {
-                expected: format!("{name} to be {expected} within {limit:.0e} of its largest entry"),
+                expected: format!(
+                    "{name} to be {expected} within {limit:.0e} of its largest entry"
+                ),
                 found: format!("them {difference:.1e} apart"),
             });
         }

@@ -100,7 +100,10 @@ impl Nastran95 {
             Some(text) => read_output5(&text),
             None => Err(Error::SolverAnswer {
                 expected: "matrices on Fortran unit 15".into(),
-                found: format!("none; printed last: {}", process::last_lines(&answer.printed)),
+                found: format!(
+                    "none; printed last: {}",
+                    process::last_lines(&answer.printed)
+                ),
             }),
         }
     }
@@ -118,7 +121,11 @@ impl Nastran95 {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
-        let deck = write(&matrices::with_single_elements(&bulk), "ANALYSIS", &Task::Matrices)?;
+        let deck = write(
+            &matrices::with_single_elements(&bulk),
+            "ANALYSIS",
+            &Task::Matrices,
+        )?;
         let answer = self.matrices(&deck)?;
         let units = matrices::unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;

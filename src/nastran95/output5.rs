@@ -13,7 +13,7 @@ const INTEGER: usize = 8;
 const REAL: usize = 26;
 /// Where a matrix's header has its sizes, and after them its name.
 const HEADER_SIZES: usize = 26;
-const HEADER_NAME: std::ops::Range<usize> = 74..82;
+const HEADER_NAME: usize = 74;
 /// NASTRAN's number for the type real double precision.
 const DOUBLE_PRECISION: usize = 2;
 /// Largest matrix read; a damaged header must not ask for all memory.
@@ -31,7 +31,10 @@ pub fn read_output5(text: &str) -> Result<Matrices, Error> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, expected: &str| Error::SolverAnswer {
         expected: format!("{expected} in line {} of the OUTPUT5 file", line + 1),
-        found: lines.get(line).map_or("its end", |line| line.trim()).to_owned(),
+        found: lines
+            .get(line)
+            .map_or("its end", |line| line.trim())
+            .to_owned(),
     };
     let integer = |line: usize, start: usize| -> Result<usize, Error> {
         lines
@@ -57,7 +60,7 @@ pub fn read_output5(text: &str) -> Result<Matrices, Error> {
             if kind != DOUBLE_PRECISION || columns.max(rows) > LARGEST {
                 return Err(wrong(at, "the header of a real double precision matrix"));
             }
-            let name = lines[at].get(HEADER_NAME).unwrap_or_default().trim();
+            let name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
             current = Some((name.to_owned(), DMatrix::zeros(rows, columns)));
             at += 1;
             continue;

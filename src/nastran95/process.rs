@@ -160,12 +160,21 @@ fn fatal_message(printed: &str) -> Option<String> {
         .flat_map(str::split_whitespace)
         .collect();
     // The first column is the printer's carriage control.
-    Some(words.join(" ").trim_start_matches(['0', '1', '*', ' ']).to_owned())
+    Some(
+        words
+            .join(" ")
+            .trim_start_matches(['0', '1', '*', ' '])
+            .to_owned(),
+    )
 }
 
 /// The last lines that are not blank.
 pub(super) fn last_lines(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
         last => last.join(" / "),

@@ -210,7 +210,9 @@ fn free(line: &str) -> Vec<String> {
     let line = format!("{line:80}");
     let name = line[..8].trim().to_owned();
     let width = WIDTHS[usize::from(name.contains('*'))];
-    let data = (8..72).step_by(width).map(|start| line[start..start + width].trim().to_owned());
+    let data = (8..72)
+        .step_by(width)
+        .map(|start| line[start..start + width].trim().to_owned());
     std::iter::once(name)
         .chain(data)
         .chain(std::iter::once(line[72..].trim().to_owned()))
