@@ -347,12 +347,91 @@ pub enum Error {
         /// The template library's own message.
         source: askama::Error,
     },
+    /// A line of a deck that is not what it must be.
+    #[error("{file}, line {line}: expected {expected}, found {found}")]
+    DeckLine {
+        /// The deck.
+        file: String,
+        /// The line, from one.
+        line: usize,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is.
+        found: String,
+    },
+    /// A field of a bulk data card that is not what it must be.
+    #[error("{file}, line {line}: card {card}, field {field}: expected {expected}, found {found}")]
+    DeckField {
+        /// The deck.
+        file: String,
+        /// The line the field stands in, from one.
+        line: usize,
+        /// Name of the card.
+        card: String,
+        /// Number of the field: 2 to 9 on the card's first line, 12 to 19 on its first continuation, and so on.
+        field: usize,
+        /// What it must be.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// An element at a degree of freedom that an MPC equation makes dependent.
+    #[error(
+        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
+    )]
+    TiedElement {
+        /// The element.
+        element: usize,
+        /// The grid.
+        grid: usize,
+        /// The dependent direction: `x`, `y` or `z`.
+        direction: char,
+    },
+    /// An external solver that is not where it was looked for.
+    #[error(
+        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; name it with --nastran or the environment variable NASTRAN95"
+    )]
+    SolverMissing {
+        /// The folder looked in.
+        path: PathBuf,
+    },
+    /// An external solver that did not end in time and was stopped.
+    #[error("NASTRAN-95: expected it to end within {seconds} s, found it still running")]
+    SolverTimeLimit {
+        /// The limit.
+        seconds: f64,
+    },
+    /// A request to stop while an external solver was running.
+    #[error("NASTRAN-95: expected to wait for its end, found a request to stop")]
+    SolverInterrupted,
+    /// An external solver that ended with an error status or a signal.
+    #[error("NASTRAN-95: expected it to end well, found {status}: {message}")]
+    SolverCrashed {
+        /// How it ended.
+        status: String,
+        /// The last lines it printed.
+        message: String,
+    },
+    /// An external solver that refused its input.
+    #[error("NASTRAN-95: expected a run without fatal messages, found: {message}")]
+    SolverFatal {
+        /// Its first fatal message.
+        message: String,
+    },
+    /// Results of an external solver that are not what the deck asks for.
+    #[error("NASTRAN-95: expected {expected}, found {found}")]
+    SolverAnswer {
+        /// What the answer must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
     /// A file that cannot be read or written.
     #[error("{path}: expected to {action} it, found an error: {source}")]
     File {
         /// The file.
         path: PathBuf,
-        /// `read` or `write`.
+        /// `read`, `write`, `run` or `remove`.
         action: &'static str,
         /// The operating system's message.
         source: std::io::Error,

@@ -21,7 +21,8 @@
 //!    to change it; [`table_1`] compares the perturbation formulae on two
 //!    modes, where [`two_dof`] is exact.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//! 9. [`deck`]: the model as NASTRAN bulk data; [`nastran95`]: the analysis by that program.
+//! 10. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
 //!    [`fewer_modes`]: what they lose when modes are left out.
 //!    [`figures`] and [`html_report`] show them.
 //!
@@ -72,6 +73,9 @@ pub mod two_dof;
 pub mod inner_loop;
 pub mod modal;
 pub mod outer_loop;
+
+pub mod deck;
+pub mod nastran95;
 
 pub mod cases;
 pub mod fewer_modes;

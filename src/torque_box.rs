@@ -253,3 +253,26 @@ fn nonzero(length: f64) -> Result<f64, Error> {
         Err(Error::ZeroLength { length })
     }
 }
+
+/// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
+///
+/// # Errors
+/// [`Error::MissingGrid`] for a box without a grid it must have.
+pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, Error> {
+    let at = |grid: usize| match reconstruction.grids.get(&grid) {
+        Some(&position) => Ok(Vector3::from(position)),
+        None => Err(Error::MissingGrid {
+            grid,
+            count: GRID_COUNT,
+        }),
+    };
+    let mut points = Vec::with_capacity(3 * FREE_RIBS);
+    for rib in 0..FREE_RIBS {
+        let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
+        let rear = 0.5 * (at(rear_upper)? + at(rear_lower)?);
+        let front = 0.5 * (at(front_upper)? + at(front_lower)?);
+        let mid = rear + reconstruction.mid_chord_fraction * (front - rear);
+        points.extend([rear, mid, front]);
+    }
+    Ok(points)
+}

@@ -1,6 +1,7 @@
 //! The report: tables as data first, then their rendering.
 
 pub mod correlation_tables;
+pub mod deck_tables;
 pub mod fewer_modes_tables;
 pub mod json;
 pub mod render;

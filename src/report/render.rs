@@ -25,8 +25,13 @@ pub enum Format {
 
 /// Tables as text or Markdown; each computed number has the published one behind it in parentheses.
 pub fn render(tables: &[Table], markdown: bool) -> String {
+    let lead = "Computed numbers, the published ones behind them in parentheses.\n\n";
+    lead.to_owned() + &render_tables(tables, markdown)
+}
+
+/// Tables as text or Markdown, nothing before them.
+pub fn render_tables(tables: &[Table], markdown: bool) -> String {
     let mut out = String::new();
-    out.push_str("Computed numbers, the published ones behind them in parentheses.\n\n");
     for table in tables {
         let heading = if markdown { "## " } else { "" };
         out.push_str(&format!("{heading}{}\n\n", table.title));

@@ -5,12 +5,16 @@ pub mod boxes;
 pub mod close_roots;
 pub mod complex_pencils;
 pub mod counting_allocator;
+pub mod decks;
 pub mod drawings;
+#[cfg(unix)]
+pub mod fake_solver;
 pub mod golden;
 pub mod loops;
 pub mod matrices;
 pub mod measured;
 pub mod nastran95;
+pub mod outer_loop;
 pub mod pairings;
 pub mod panels;
 pub mod strategies;

@@ -103,3 +103,24 @@ pub const NODE_LINE: f64 = 1e-9;
 /// Logarithmic derivatives of frequencies by fourth-order central differences of 0.2 %: eigenvalues over a range of 1e5
 /// round at 1e-11, which 1.5 over the step makes 1e-8; truncation is the step's fourth power.
 pub const CENTRAL_DIFFERENCE_FREQUENCY: f64 = 1e-7;
+/// A field of 16 characters holds ten significant digits of any number: half a unit of the tenth.
+pub const FIELD_ROUNDING: f64 = 5e-10;
+/// It holds twelve of numbers between 1e-9 and 1e9, with a sign and an exponent.
+pub const DECK_ROUNDING: f64 = 5e-12;
+/// Roots of a pencil with singular mass against those of its dynamic part: round-off times the condition of the dynamic
+/// flexibility, up to 1e7 for the strategy's stiffness (1e3) and T (1e2, squared), 2e5 for the box.
+pub const SINGULAR_MASS_ROOT: f64 = 1e-8;
+/// Frequencies by NASTRAN-95's matrices against the crate's, half of `NASTRAN_EIGENVALUE`.
+pub const NASTRAN_FREQUENCY: f64 = 5e-7;
+/// Gages after a correlation with NASTRAN-95 in the outer loop against the crate's own, where the inner loop follows one
+/// path: its steps multiply single precision by some ten.
+pub const NASTRAN_GAGE: f64 = 2e-5;
+/// The same for Case 3, whose inner loop of some thirty steps against the gage bounds multiplies a difference of 1e-7 by
+/// ten thousands: rounding the box's own coordinates to single precision does as much without NASTRAN.
+pub const NASTRAN_GAGE_CASE_3: f64 = 1e-2;
+/// The same for Case 1, where NASTRAN-95's parallel-side snap changes two covers by 0.28 %, on both sides of the comparison.
+pub const NASTRAN_GAGE_CASE_1: f64 = 2e-3;
+/// Two runs of NASTRAN-95 on one deck, perhaps by other processors: round-off of double precision.
+pub const NASTRAN_AGAIN: f64 = 1e-9;
+/// Factors of snapped panels as golden/nastran95/README.md has them: half a unit of the fourth digit.
+pub const PRINTED_SNAP_FACTOR: f64 = 5e-5;
