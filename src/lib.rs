@@ -23,8 +23,8 @@
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
 //! 9. [`deck`]: the model as NASTRAN bulk data; [`nastran95`]: the analysis by that program.
 //! 10. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
-//!    [`fewer_modes`]: what they lose when modes are left out.
-//!    [`figures`] and [`html_report`] show them.
+//!     [`fewer_modes`]: what they lose when modes are left out.
+//!     [`figures`] and [`html_report`] show them.
 //!
 //! # Units
 //!
