@@ -42,6 +42,7 @@ mod inner_loop;
 mod inner_loop_bad_input;
 mod inner_loop_stops;
 mod linalg;
+mod mass_lumping;
 mod mass_parameters;
 mod modal;
 mod model;

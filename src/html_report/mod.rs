@@ -1,6 +1,6 @@
 //! The report as one web page that needs nothing beside it: tables, figures, assumptions, fit, and what made it.
 //!
-//! `templates/report.html` is the page; here is what fills it. Texts on the box and on the differences from the published
+//! `report.html` beside this file is the page; here is what fills it. Texts on the box and on the differences from the published
 //! results are those of `paper/`, so that they are written once.
 
 mod text;
@@ -17,7 +17,7 @@ use text::section;
 
 /// The page.
 #[derive(Debug, Template)]
-#[template(path = "report.html")]
+#[template(path = "report.html", config = "src/html_report/askama.toml")]
 struct Page<'a> {
     version: &'static str,
     command: &'a str,
