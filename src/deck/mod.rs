@@ -15,7 +15,7 @@
 //! which is similar to $K_D^{-1} M$. So NASTRAN's own solution of the deck must be the modes of Appendix A, and is.
 //!
 //! Reading: [`lines`] cuts a file into fields, [`continuation`] joins lines to [`card`]s, [`read()`] makes a model of them;
-//! [`modes`] finds its modes.
+//! [`modes()`] finds its modes.
 
 pub mod card;
 mod constraints;
