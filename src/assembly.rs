@@ -3,8 +3,8 @@
 use crate::elements::mass::corner_volumes;
 use crate::elements::unit_stiffness;
 use crate::error::Error;
-use crate::linalg::check_shape;
-use crate::structure::{DIRECTIONS, StructuralDof, Structure};
+use crate::linalg::{check_shape, cholesky};
+use crate::structure::{DIRECTIONS, StructuralDof, Structure, positive};
 use faer::Side;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
@@ -116,21 +116,18 @@ impl FactorizedStiffness {
     /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotFinite`] for a size that is not finite;
+    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a size that
+    /// is not;
     /// [`Error::SingularStiffness`] naming the grid and direction that nothing holds, when the smallest
-    /// eigenvalue of the unit-diagonal stiffness is within round-off of zero.
+    /// eigenvalue of the unit-diagonal stiffness is within round-off of zero; [`Error::NotPositiveDefinite`] for
+    /// element matrices that are not semidefinite.
     pub fn new(
         elements: &[ElementMatrix],
         sizes: &[f64],
         free: &[StructuralDof],
     ) -> Result<Self, Error> {
-        if let Some(row) = sizes.iter().position(|size| !size.is_finite()) {
-            return Err(Error::NotFinite {
-                what: "element sizes",
-                row,
-                column: 0,
-                value: sizes[row],
-            });
+        for (element, &size) in elements.iter().zip(sizes) {
+            positive("size", || format!("element {}", element.label), size)?;
         }
         if free.is_empty() {
             return Err(Error::Empty {
@@ -165,10 +162,11 @@ impl FactorizedStiffness {
                     smallest - SINGULAR_SHIFT,
                 ))
             }
-            None => Err(Error::NotPositiveDefinite {
-                what: "structural stiffness",
-                dof: 0,
-            }),
+            None => {
+                let what = "structural stiffness";
+                let dense = dense_stiffness(elements, sizes, free.len())?;
+                cholesky(what, &dense, 0.0).and(Err(Error::NoConvergence { what }))
+            }
         }
     }
 

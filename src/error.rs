@@ -77,6 +77,14 @@ pub enum Error {
         /// The repeated label.
         element: usize,
     },
+    /// A torque box lacks one of its grid points.
+    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
+    MissingGrid {
+        /// The missing label.
+        grid: usize,
+        /// How many grids a box has.
+        count: usize,
+    },
     /// An element refers to a grid point that does not exist.
     #[error(
         "element {element}: expected an existing grid, found grid {grid}, which is not defined"
@@ -221,14 +229,6 @@ pub enum Error {
         /// How many were asked for.
         requested: usize,
     },
-    /// A test shape that is a combination of others.
-    #[error(
-        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
-    )]
-    DependentTestShape {
-        /// The first dependent mode, from zero.
-        mode: usize,
-    },
     /// Test shapes that must be orthonormal with the mass and are not.
     #[error(
         "test modes {first} and {second} (from zero): expected a generalized mass of one for each and none between them, found {found:.9}"
@@ -260,6 +260,38 @@ pub enum Error {
         mode: usize,
         /// The root found, s^2.
         value: f64,
+    },
+    /// A change that takes away a mode's generalized stiffness, so that its root has no finite value.
+    #[error(
+        "mode {mode} (from zero): expected a generalized stiffness after the change, found {ratio:.1e} of the one before"
+    )]
+    LostStiffness {
+        /// The mode.
+        mode: usize,
+        /// Magnitude of the generalized stiffness after the change relative to the one before.
+        ratio: f64,
+    },
+    /// Left and right shapes that do not belong together.
+    #[error(
+        "left mode {left} and right mode {right} (from zero): expected no generalized stiffness between them, found {ratio:.1e} of their own"
+    )]
+    NotBiorthogonal {
+        /// The left mode.
+        left: usize,
+        /// The right mode.
+        right: usize,
+        /// Their generalized stiffness relative to the geometric mean of their own ones.
+        ratio: f64,
+    },
+    /// A pencil without a complete set of modes.
+    #[error(
+        "mode {mode} (from zero): expected as many independent modes as degrees of freedom, found its left and right shapes orthogonal to {cosine:.1e}"
+    )]
+    Defective {
+        /// The mode.
+        mode: usize,
+        /// Cosine of the angle between its left and right shapes in the measure of the stiffness.
+        cosine: f64,
     },
     /// An iterative library routine did not converge.
     #[error("{what}: expected the eigenvalue iteration to converge, found that it did not")]
@@ -313,15 +345,136 @@ pub enum Error {
         /// What stood there.
         found: String,
     },
+    /// A figure that cannot be drawn.
+    #[error("figure {figure}: expected to draw it, found {found}")]
+    Drawing {
+        /// The figure's name.
+        figure: String,
+        /// The drawing library's own message.
+        found: String,
+    },
+    /// A page that cannot be put together.
+    #[error("page: expected to fill it, found an error: {source}")]
+    Page {
+        /// The template library's own message.
+        source: askama::Error,
+    },
+    /// A line of a deck that is not what it must be.
+    #[error("{file}, line {line}: expected {expected}, found {found}")]
+    DeckLine {
+        /// The deck.
+        file: String,
+        /// The line, from one.
+        line: usize,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is.
+        found: String,
+    },
+    /// A field of a bulk data card that is not what it must be.
+    #[error("{file}, line {line}: card {card}, field {field}: expected {expected}, found {found}")]
+    DeckField {
+        /// The deck.
+        file: String,
+        /// The line the field stands in, from one.
+        line: usize,
+        /// Name of the card.
+        card: String,
+        /// Number of the field: 2 to 9 on the card's first line, 12 to 19 on its first continuation, and so on.
+        field: usize,
+        /// What it must be.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// An element at a degree of freedom that an MPC equation makes dependent.
+    #[error(
+        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
+    )]
+    TiedElement {
+        /// The element.
+        element: usize,
+        /// The grid.
+        grid: usize,
+        /// The dependent direction: `x`, `y` or `z`.
+        direction: char,
+    },
+    /// An external solver that is not where it was looked for.
+    #[error(
+        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; name it with --nastran or the environment variable NASTRAN95"
+    )]
+    SolverMissing {
+        /// The folder looked in.
+        path: PathBuf,
+    },
+    /// An external solver that did not end in time and was stopped.
+    #[error("NASTRAN-95: expected it to end within {seconds} s, found it still running")]
+    SolverTimeLimit {
+        /// The limit.
+        seconds: f64,
+    },
+    /// A request to stop while an external solver was running.
+    #[error("NASTRAN-95: expected to wait for its end, found a request to stop")]
+    SolverInterrupted,
+    /// An external solver that ended with an error status or a signal.
+    #[error("NASTRAN-95: expected it to end well, found {status}: {message}")]
+    SolverCrashed {
+        /// How it ended.
+        status: String,
+        /// The last lines it printed.
+        message: String,
+    },
+    /// An external solver that refused its input.
+    #[error("NASTRAN-95: expected a run without fatal messages, found: {message}")]
+    SolverFatal {
+        /// Its first fatal message.
+        message: String,
+    },
+    /// Results of an external solver that are not what the deck asks for.
+    #[error("NASTRAN-95: expected {expected}, found {found}")]
+    SolverAnswer {
+        /// What the answer must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
     /// A file that cannot be read or written.
     #[error("{path}: expected to {action} it, found an error: {source}")]
     File {
         /// The file.
         path: PathBuf,
-        /// `read` or `write`.
+        /// `read`, `write`, `run` or `remove`.
         action: &'static str,
         /// The operating system's message.
         source: std::io::Error,
+    },
+    /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
+    #[error(
+        "rigid-body vector {vector} (from zero): expected a motion independent of those before it, found a combination of them at the dynamic degrees of freedom"
+    )]
+    DependentRigidBody {
+        /// The first dependent vector, from zero.
+        vector: usize,
+    },
+    /// A structure on supports, where the reactions balance the forces of a mode.
+    #[error(
+        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there, so its modes must not be balanced"
+    )]
+    Supported {
+        /// The first mode with too large a ratio, from zero.
+        mode: usize,
+        /// Largest squared suspension frequency over the mode's.
+        ratio: f64,
+        /// The largest ratio allowed.
+        limit: f64,
+    },
+    /// A test shape that is a combination of others.
+    #[error(
+        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
+    )]
+    DependentTestShape {
+        /// The first dependent mode, from zero.
+        mode: usize,
     },
 }
 

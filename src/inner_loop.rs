@@ -2,6 +2,7 @@
 
 use crate::derivatives::{Derivatives, error_derivatives};
 use crate::error::Error;
+use crate::linalg::check_length;
 use crate::modal::{ModalProblem, ModalState};
 use crate::objective::Errors;
 use crate::perturbation::UpdateRule;
@@ -96,15 +97,16 @@ pub struct InnerRun {
 /// Runs the inner loop from the last exact modes.
 ///
 /// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product,
-/// both in parameter order; an empty `total_ranges` means none.
+/// both with one entry per parameter.
 ///
 /// At least one step is tried even when the start is within tolerance: the tolerance is a reason to stop
 /// stepping, and the outer loop decides whether to begin.
 ///
 /// # Errors
-/// [`Error::Setting`] for settings out of range; [`Error::WrongShape`] when the lists do not match the parameters;
-/// [`Error::CoalescingModes`] when derivatives cannot be formed at an accepted place. A trial step whose
-/// perturbation fails is not an error: it is halved like one that raises $e_S$.
+/// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
+/// do not match the parameters; [`Error::CoalescingModes`] when derivatives cannot be formed at an accepted place. A
+/// trial step too far for the perturbation (modes that coalesce, a lost root) is not an error: it is halved like one
+/// that raises $e_S$.
 pub fn run(
     problem: &ModalProblem,
     base: &[f64],
@@ -118,6 +120,9 @@ pub fn run(
         total_ranges.len(),
         problem.parameter_count(),
     )?;
+    for range in total_ranges.iter().flatten() {
+        Range::positive("parameter limits", range.lower, range.upper)?;
+    }
     let mut state = problem.start_state()?;
     let start = state.errors;
     let mut iterations: Vec<Iteration> = Vec::new();
@@ -138,7 +143,7 @@ pub fn run(
             first_unlimited_factors.clone_from(&unlimited);
         }
         let Some((halvings, limits, next)) =
-            lowering_step(problem, &state, &unlimited, base, total_ranges, settings)
+            lowering_step(problem, &state, &unlimited, base, total_ranges, settings)?
         else {
             break Stop::LocalMinimum;
         };
@@ -172,7 +177,7 @@ fn lowering_step(
     base: &[f64],
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
-) -> Option<(usize, Vec<Limit>, ModalState)> {
+) -> Result<Option<(usize, Vec<Limit>, ModalState)>, Error> {
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
@@ -189,13 +194,19 @@ fn lowering_step(
             .unzip();
         match problem.state_at(factors, settings.update) {
             Ok(next) if next.errors.sum() < state.errors.sum() => {
-                return Some((halvings, limits, next));
+                return Ok(Some((halvings, limits, next)));
             }
-            // Too far for the perturbation, or uphill: a shorter step may do.
-            _ => {}
+            // Uphill, or too far for the perturbation: a shorter step may do.
+            Ok(_)
+            | Err(
+                Error::CoalescingModes { .. }
+                | Error::LostRoot { .. }
+                | Error::NotAVibration { .. },
+            ) => {}
+            Err(other) => return Err(other),
         }
     }
-    None
+    Ok(None)
 }
 
 fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
@@ -221,17 +232,4 @@ fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
     }
     Range::positive("factor limits", factor_range.lower, factor_range.upper)?;
     Ok(())
-}
-
-fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(Error::WrongShape {
-        what,
-        expected_rows: expected,
-        expected_columns: 1,
-        rows: found,
-        columns: 1,
-    })
 }

@@ -9,18 +9,23 @@
 //! # The method, in the order data flows
 //!
 //! 1. [`structure`]: grids, materials, elements; [`torque_box`]: the paper's wing torque box.
-//! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy).
+//! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy, [`analytical`] for what
+//!    it is compared with).
 //! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
 //! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
 //!    [`model`] puts 1 to 4 together, with the [`parameters`] that may change.
-//! 5. [`modes`]: frequencies and mass-orthonormal shapes.
+//! 5. [`modes`]: frequencies and mass-orthonormal shapes ([`complex_modes`] with aerodynamic terms;
+//!    [`spring_chain`]: structures whose modes are known); [`test_modes`] (Appendix B): measured ones made fit to compare.
 //! 6. [`sorting`] (4) and [`objective`] (5, 6): which mode is which, and how far apart they are.
 //! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
-//!    to change it.
+//!    to change it; [`table_1`] compares the perturbation formulae on two
+//!    modes, where [`two_dof`] is exact.
 //! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
-//!    [`fewer_modes`]: what they lose when modes are left out; [`matrix_correction`], [`matrix_comparison`]: what
-//!    corrections of whole matrices do instead.
+//! 9. [`deck`]: the model as NASTRAN bulk data; [`nastran95`]: the analysis by that program.
+//! 10. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
+//!     [`fewer_modes`]: what they lose when modes are left out; [`matrix_correction`], [`matrix_comparison`]: what
+//!     corrections of whole matrices do instead.
+//!     [`figures`] and [`html_report`] show them.
 //!
 //! # Units
 //!
@@ -42,6 +47,7 @@ pub mod error;
 pub mod structure;
 pub mod torque_box;
 
+pub mod analytical;
 pub mod elements;
 pub mod quadrature;
 
@@ -51,7 +57,10 @@ pub mod linalg;
 pub mod model;
 pub mod parameters;
 
+pub mod complex_modes;
 pub mod modes;
+pub mod spring_chain;
+pub mod test_modes;
 
 pub mod objective;
 pub mod sorting;
@@ -59,14 +68,21 @@ pub mod sorting;
 pub mod derivatives;
 pub mod perturbation;
 pub mod step;
+pub mod table_1;
+pub mod two_dof;
 
 pub mod inner_loop;
 pub mod modal;
 pub mod outer_loop;
 
+pub mod deck;
+pub mod nastran95;
+
 pub mod cases;
 pub mod fewer_modes;
+pub mod figures;
 pub mod fit;
+pub mod html_report;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod published;

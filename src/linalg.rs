@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use faer::{Mat, Side};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
 ///
@@ -13,29 +13,35 @@ const LARGEST_ASYMMETRY: f64 = 1e-8;
 /// a few roundings, so that the rank comes out as that of the element and not of its round-off.
 const RANK_ROUND_OFF: f64 = 1e-15;
 
-/// Refuses matrices with NaN or infinite entries.
+/// Refuses matrices, real or complex, with NaN or infinite entries.
 ///
 /// # Errors
-/// [`Error::NotFinite`] naming the first such entry, column by column.
-pub fn check_finite(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
+/// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
+pub fn check_finite<T>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error>
+where
+    T: ComplexField<RealField = f64> + Copy,
+{
     match matrix.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
-        Some(index) => Err(Error::NotFinite {
-            what,
-            row: index % matrix.nrows(),
-            column: index / matrix.nrows(),
-            value: matrix[index],
-        }),
+        Some(index) => {
+            let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
+            Err(Error::NotFinite {
+                what,
+                row: index % matrix.nrows(),
+                column: index / matrix.nrows(),
+                value: if real.is_finite() { imaginary } else { real },
+            })
+        }
     }
 }
 
-/// Refuses matrices of another shape.
+/// Refuses matrices, real or complex, of another shape.
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both shapes.
-pub fn check_shape(
+pub fn check_shape<T>(
     what: &'static str,
-    matrix: &DMatrix<f64>,
+    matrix: &DMatrix<T>,
     expected_rows: usize,
     expected_columns: usize,
 ) -> Result<(), Error> {
@@ -119,6 +125,12 @@ pub fn cholesky(
     let lower = match to_faer(matrix).llt(Side::Lower) {
         Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
+            // A pivot before it may have been too small already.
+            cholesky(
+                what,
+                &matrix.view((0, 0), (index, index)).into_owned(),
+                smallest_pivot,
+            )?;
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };
@@ -217,7 +229,8 @@ fn spectral_terms(
     })
 }
 
-fn to_faer(matrix: &DMatrix<f64>) -> Mat<f64> {
+/// The same matrix, real or complex, for faer.
+pub(crate) fn to_faer<T: Copy>(matrix: &DMatrix<T>) -> Mat<T> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
         matrix[(row, column)]
     })

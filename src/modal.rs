@@ -7,7 +7,7 @@ use crate::linalg::{
 use crate::modes::Modes;
 use crate::objective::{Errors, errors};
 use crate::perturbation::{
-    ModalChange, Perturbed, UpdateRule, normalize, perturb, perturb_with_mass,
+    ModalChange, Perturbed, UpdateRule, normalize_with_mass, perturb, perturb_with_mass,
 };
 use crate::sorting::{Pairing, cross_orthogonality, pair_modes};
 use nalgebra::{DMatrix, DVector};
@@ -153,7 +153,7 @@ impl ModalProblem {
         } else {
             perturb(k, &beta, rule)?
         };
-        normalize(&mut shapes, &alpha);
+        normalize_with_mass(&mut shapes, &alpha)?;
         self.state(factors, &roots.map(f64::recip), shapes)
     }
 

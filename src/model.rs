@@ -77,6 +77,24 @@ impl FiniteElementModel {
         })
     }
 
+    /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
+    /// element's free DOF, lbf/in, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for another number of matrices or one that does not fit its element; [`Error::NotFinite`] and
+    /// [`Error::NotSymmetric`].
+    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
+        crate::linalg::check_length("element matrices", units.len(), self.element_matrices.len())?;
+        let mut model = self.clone();
+        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
+            let dof_count = element.dof.len();
+            check_shape("element stiffness", &unit, dof_count, dof_count)?;
+            check_symmetric("element stiffness", &unit)?;
+            element.unit = unit;
+        }
+        Ok(model)
+    }
+
     /// The structure with its first sizes.
     pub fn structure(&self) -> &Structure {
         &self.structure

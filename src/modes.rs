@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Components within this fraction of the largest count as equally large for the sign rule, so that round-off
 /// in a symmetric shape does not choose its sign.
-const SIGN_TIE: f64 = 1e-6;
+pub(crate) const SIGN_TIE: f64 = 1e-6;
 
 /// Modes of vibration, in ascending order of frequency.
 ///
@@ -60,7 +60,7 @@ impl Modes {
     /// # Errors
     /// [`Error::WrongShape`] for a mass that does not fit; [`Error::NotPositive`] for a generalized mass that is not.
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
-        check_shape("mode shapes", &self.shapes, mass.nrows(), self.len())?;
+        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
         let mut shapes = self.shapes.clone();
         scale_to_unit_mass(&mut shapes, mass)?;
         Ok(Self {

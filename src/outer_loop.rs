@@ -88,6 +88,8 @@ pub struct Pass {
 /// The whole history of a correlation.
 #[derive(Debug, Clone)]
 pub struct Correlation {
+    /// Number of parameters.
+    pub parameter_count: usize,
     /// The exact solution before any change.
     pub initial: Check,
     /// The passes made.
@@ -99,8 +101,7 @@ pub struct Correlation {
 impl Correlation {
     /// The factors of the pass with the lowest exact error sum; all one when no pass improved on the start.
     pub fn best_factors(&self) -> Vec<f64> {
-        let count = self.passes.first().map_or(0, |pass| pass.factors.len());
-        let mut best = (self.initial.errors.sum(), vec![1.0; count]);
+        let mut best = (self.initial.errors.sum(), vec![1.0; self.parameter_count]);
         for pass in &self.passes {
             if pass.check.errors.sum() < best.0 {
                 best = (pass.check.errors.sum(), pass.factors.clone());
@@ -157,6 +158,7 @@ pub fn correlate(
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
     Ok(Correlation {
+        parameter_count: total_ranges.len(),
         initial,
         passes,
         converged,

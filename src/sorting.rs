@@ -26,6 +26,7 @@ pub fn cross_orthogonality(
     mass: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
+    check_shape("dynamic mass", mass, dof_count, dof_count)?;
     check_shape(
         "analysis mode shapes",
         &analysis.shapes,

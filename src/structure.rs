@@ -41,11 +41,7 @@ impl Material {
     /// [`Error::NotPositive`] unless $E > 0$; [`Error::PoissonsRatio`] unless $-1 < \nu \le 1/2$.
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         positive("Young's modulus", || "the material".into(), youngs_modulus)?;
-        if !(poissons_ratio > -1.0 && poissons_ratio <= 0.5) {
-            return Err(Error::PoissonsRatio {
-                value: poissons_ratio,
-            });
-        }
+        check_poissons_ratio(poissons_ratio)?;
         Ok(Self {
             youngs_modulus,
             poissons_ratio,
@@ -138,8 +134,8 @@ impl Structure {
     ///
     /// # Errors
     /// [`Error::Empty`] without elements; [`Error::DuplicateGrid`], [`Error::DuplicateElement`],
-    /// [`Error::UnknownGrid`], [`Error::WrongCornerCount`], [`Error::NotFinite`] (a coordinate) and
-    /// [`Error::NotPositive`] (a size) for what their names say.
+    /// [`Error::UnknownGrid`], [`Error::WrongCornerCount`], [`Error::NotFinite`] (a coordinate),
+    /// [`Error::NotPositive`] (a size or modulus) and [`Error::PoissonsRatio`] for what their names say.
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         if elements.is_empty() {
             return Err(Error::Empty { what: "elements" });
@@ -239,11 +235,24 @@ fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Re
             });
         }
     }
-    positive(
-        element.kind.size_name(),
-        || format!("element {}", element.label),
-        element.size,
-    )
+    let owner = || format!("element {}", element.label);
+    let material = &element.material;
+    positive("Young's modulus", owner, material.youngs_modulus)?;
+    positive("shear modulus", owner, material.shear_modulus)?;
+    if material.density != 0.0 {
+        positive("density", owner, material.density)?;
+    }
+    check_poissons_ratio(material.poissons_ratio)
+        .map_err(|error| error.in_element(element.label))?;
+    positive(element.kind.size_name(), owner, element.size)
+}
+
+fn check_poissons_ratio(value: f64) -> Result<(), Error> {
+    if value > -1.0 && value <= 0.5 {
+        Ok(())
+    } else {
+        Err(Error::PoissonsRatio { value })
+    }
 }
 
 /// Accepts a positive finite number.

@@ -18,6 +18,8 @@ pub const TEST_GAGE: f64 = 0.010;
 const FREE_RIBS: usize = 3;
 /// Grids per rib.
 const RIB_GRIDS: usize = 4;
+/// Grids of the box, numbered from 1.
+const GRID_COUNT: usize = (FREE_RIBS + 1) * RIB_GRIDS;
 /// First grid of the root.
 const FIRST_FIXED_GRID: usize = FREE_RIBS * RIB_GRIDS + 1;
 
@@ -53,6 +55,7 @@ impl Reconstruction {
     ///
     /// # Errors
     /// [`Error::Toml`] for text of another form; [`Error::WrongShape`] unless there are 16 grids and 9 masses;
+    /// [`Error::MissingGrid`] unless the grids are 1 to 16;
     /// [`Error::Setting`] for a mid-chord fraction not between 0 and 1.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
         let read: Self = toml::from_str(text).map_err(|source| Error::Toml {
@@ -61,7 +64,7 @@ impl Reconstruction {
             source: Box::new(source),
         })?;
         for (what, found, expected) in [
-            ("box grids", read.grids.len(), (FREE_RIBS + 1) * RIB_GRIDS),
+            ("box grids", read.grids.len(), GRID_COUNT),
             ("box masses", read.masses.len(), 3 * FREE_RIBS),
         ] {
             if found != expected {
@@ -73,6 +76,12 @@ impl Reconstruction {
                     columns: 1,
                 });
             }
+        }
+        if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
+            return Err(Error::MissingGrid {
+                grid,
+                count: GRID_COUNT,
+            });
         }
         if !(read.mid_chord_fraction > 0.0 && read.mid_chord_fraction < 1.0) {
             return Err(Error::Setting {
@@ -193,7 +202,7 @@ pub fn structure(
 /// instead would make the dynamic flexibility singular.
 ///
 /// # Errors
-/// [`Error::ZeroLength`] when the spars of a rib meet or a spar has no depth there.
+/// [`Error::ZeroLength`] when the spars of a rib meet or a spar has no depth there; [`Error::MissingGrid`].
 pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>, Error> {
     let xi = reconstruction.mid_chord_fraction;
     let hermite = [
@@ -207,7 +216,10 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
             .grids
             .get(&grid)
             .map(|&position| Vector3::from(position))
-            .ok_or(Error::UnknownGrid { element: 0, grid })
+            .ok_or(Error::MissingGrid {
+                grid,
+                count: GRID_COUNT,
+            })
     };
     let mut t = DMatrix::zeros(3 * RIB_GRIDS * FREE_RIBS, 3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {
@@ -240,4 +252,27 @@ fn nonzero(length: f64) -> Result<f64, Error> {
     } else {
         Err(Error::ZeroLength { length })
     }
+}
+
+/// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
+///
+/// # Errors
+/// [`Error::MissingGrid`] for a box without a grid it must have.
+pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, Error> {
+    let at = |grid: usize| match reconstruction.grids.get(&grid) {
+        Some(&position) => Ok(Vector3::from(position)),
+        None => Err(Error::MissingGrid {
+            grid,
+            count: GRID_COUNT,
+        }),
+    };
+    let mut points = Vec::with_capacity(3 * FREE_RIBS);
+    for rib in 0..FREE_RIBS {
+        let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
+        let rear = 0.5 * (at(rear_upper)? + at(rear_lower)?);
+        let front = 0.5 * (at(front_upper)? + at(front_lower)?);
+        let mid = rear + reconstruction.mid_chord_fraction * (front - rear);
+        points.extend([rear, mid, front]);
+    }
+    Ok(points)
 }

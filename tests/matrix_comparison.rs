@@ -13,7 +13,7 @@ use corfem::matrix_correction::{baruch_stiffness, weighted_norm};
 use corfem::modal::DynamicModel;
 use corfem::modes::solve;
 use corfem::report::matrix_tables::matrix_tables;
-use corfem::report::render::{csv, render};
+use corfem::report::render::{csv, render_tables};
 use nalgebra::DMatrix;
 
 const TEST_MODES: usize = 5;
@@ -348,7 +348,7 @@ fn comparison_as_numbers() {
             numbers,
         );
         if case == 2 {
-            assert_golden("matrices_text", &render(&tables, false), rounded);
+            assert_golden("matrices_text", &render_tables(&tables, false), rounded);
         }
     }
     let all = compare_matrices(&Case::new(2).unwrap(), 9).unwrap();

@@ -1,10 +1,13 @@
 //! Goldens of the report: Tables 3 to 8 and 13, Case 4, and the fit of the box.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE};
+use crate::common::tolerances::{
+    GOLDEN_ABSOLUTE_PERCENT, GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE,
+};
 use corfem::cases::{CASES, Case, Grouping, run_case};
 use corfem::fit::fit;
 use corfem::report::render::{csv, render};
+use corfem::report::root_errors::root_error_table;
 use corfem::report::run_tables::all_tables;
 use corfem::report::table::Table;
 use corfem::torque_box::Reconstruction;
@@ -87,4 +90,17 @@ fn cases_by_substructures() {
         "the paper has no grouped run"
     );
     assert_golden("substructures", &csv(&tables).expect("written"), numbers);
+}
+
+#[test]
+fn root_errors_of_table_1() {
+    // Errors near round-off are another machine's to choose; a percent error of 1e-9 is already eleven digits of a root.
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_ROOT_PERCENT,
+        last_digit: false,
+    };
+    let table = root_error_table().expect("separate roots");
+    assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
+    assert_golden("table_1", &csv(&[table]).expect("written"), numbers);
 }

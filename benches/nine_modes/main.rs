@@ -78,7 +78,7 @@ fn update(criterion: &mut Criterion, setting: &Setting) {
     eigensolutions(
         &mut group,
         summary::EIGENSOLUTION,
-        &[setting.step_matrix.clone()],
+        std::slice::from_ref(&setting.step_matrix),
     );
     let from_modes = DMatrix::from_diagonal(k) + &setting.beta;
     eigensolutions(&mut group, summary::FROM_MODES, &[from_modes]);

@@ -2,10 +2,11 @@
 
 mod run;
 
-pub use run::{Anomaly, CaseResult, anomalies, run_case};
+pub use run::{Anomaly, CaseResult, anomalies, run_case, run_case_with};
 
 use crate::error::Error;
 use crate::inner_loop::InnerSettings;
+use crate::modal::DynamicModel;
 use crate::model::FiniteElementModel;
 use crate::modes::Modes;
 use crate::outer_loop::Settings;
@@ -190,8 +191,19 @@ impl Case {
     /// # Errors
     /// Those of [`Self::model_with`] and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, Error> {
+        self.test_modes_with(FiniteElementModel::analyze)
+    }
+
+    /// The same by another finite element analysis.
+    ///
+    /// # Errors
+    /// Those of [`Self::model_with`] and of `analyze`.
+    pub fn test_modes_with(
+        &self,
+        mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    ) -> Result<Modes, Error> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-        let dynamic = model.analyze(&vec![1.0; model.parameters().len()])?;
+        let dynamic = analyze(&model, &vec![1.0; model.parameters().len()])?;
         crate::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
     }
 }

@@ -2,6 +2,8 @@
 
 use super::Case;
 use crate::error::Error;
+use crate::modal::DynamicModel;
+use crate::model::FiniteElementModel;
 use crate::modes::Modes;
 use crate::outer_loop::{Correlation, Pass, correlate};
 use crate::step::Range;
@@ -64,10 +66,24 @@ impl CaseResult {
 /// # Errors
 /// Those of the model, the analysis and the loops.
 pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
+    run_case_with(case, FiniteElementModel::analyze, progress)
+}
+
+/// Correlates a case with another finite element analysis than the crate's own: `analyze` is given the model and the
+/// factors on its parameters. The test modes come from it too, as in the paper, so that what is peculiar to an
+/// element is the same on both sides.
+///
+/// # Errors
+/// Those of `analyze` and of [`run_case`].
+pub fn run_case_with(
+    case: &Case,
+    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    progress: impl FnMut(usize, &Pass),
+) -> Result<CaseResult, Error> {
     let model = case.model()?;
-    let test = case.test_modes()?;
+    let test = case.test_modes_with(&mut analyze)?;
     let correlation = correlate(
-        |factors| model.analyze(factors),
+        |factors| analyze(&model, factors),
         &test,
         &model.factor_ranges()?,
         &case.settings,

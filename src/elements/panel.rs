@@ -25,8 +25,9 @@ pub struct MeanPlane {
 /// $A = |d_{13} \times d_{24}|/2$; axis $i$ is side 1-2 projected on the plane, $j = k \times i$.
 ///
 /// # Errors
-/// [`Error::ZeroArea`] when the diagonals are parallel or a corner's are repeated;
-/// [`Error::NotConvex`] naming the corner whose interior angle is 180° or more.
+/// [`Error::ZeroArea`] when the diagonals are parallel or one has no length;
+/// [`Error::NotConvex`] naming the first corner whose interior angle is 180° or more, or that coincides with a
+/// neighbor.
 ///
 /// Source: geometry of the NASTRAN shear panel, NASA SP-222 and SP-223.
 pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {

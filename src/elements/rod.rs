@@ -17,7 +17,7 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
     let along = ends[1] - ends[0];
     let length = along.norm();
     // Ends closer than the round-off of their own coordinates have no direction.
-    if length <= 1e-12 * (ends[0].norm() + ends[1].norm()) {
+    if length.is_nan() || length <= 1e-12 * (ends[0].norm() + ends[1].norm()) {
         return Err(Error::ZeroLength { length });
     }
     let n = along / length;

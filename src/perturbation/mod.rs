@@ -8,23 +8,35 @@
 //!
 //! Each function is one way of solving these equations without an eigensolution.
 
+mod blocks;
+pub mod close_roots;
+pub mod general;
+pub mod held;
+pub mod modal_change;
 pub mod recursive;
 
+pub use close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots};
+pub use held::first_order_held;
+pub use modal_change::ModalChange;
+pub(crate) use recursive::{check_input, check_root};
 pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
 
 use crate::error::Error;
+use crate::modes::Modes;
 use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
 
-/// Roots and generalized shapes after a change.
+/// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Perturbed {
+pub struct Perturbed<T = f64> {
     /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
-    pub roots: DVector<f64>,
-    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
-    pub shapes: DMatrix<f64>,
+    pub roots: DVector<T>,
+    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$
+    /// (except by [`close_roots()`], which scales its shapes to unit generalized mass).
+    pub shapes: DMatrix<T>,
     /// Order of approximation reached.
     pub order: usize,
     /// Largest relative change of a root in the last order.
@@ -32,7 +44,8 @@ pub struct Perturbed {
 }
 
 /// How modes are brought up to date after a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum UpdateRule {
     /// Recursive 1 until the roots change by less than `tolerance`, at most `orders` of them. The primary rule.
     Recursive1Converged {
@@ -55,6 +68,8 @@ pub enum UpdateRule {
     FirstOrder,
     /// The 1947 formulae: first-order shapes, second-order roots.
     Original,
+    /// Recursive 1 with every block of close modes solved exactly; shapes scaled to unit generalized mass.
+    CloseRoots(CloseRootsSettings),
     /// An eigensolution in the modal coordinates, what the perturbation replaces.
     Eigensolution,
 }
@@ -89,8 +104,37 @@ pub fn perturb(
         UpdateRule::Recursive2 { order } => recursive_2(k, beta, order),
         UpdateRule::FirstOrder => first_order(k, beta),
         UpdateRule::Original => original(k, beta),
+        UpdateRule::CloseRoots(settings) => {
+            let alpha = DMatrix::zeros(beta.nrows(), beta.ncols());
+            let change = ModalChange::of_vibrations(k, beta.clone(), alpha);
+            close_roots(&change, settings).map(|solved| solved.perturbed)
+        }
         UpdateRule::Eigensolution => eigensolution(k, beta),
     }
+}
+
+/// [`perturb`] for changes of stiffness and mass together: the same rules through [`general`].
+///
+/// # Errors
+/// Those of the rule's own function; [`Error::LostRoot`] when a root is not positive.
+pub fn perturb_with_mass(change: &ModalChange<f64>, rule: UpdateRule) -> Result<Perturbed, Error> {
+    let perturbed = match rule {
+        UpdateRule::Recursive1Converged { tolerance, orders } => {
+            general::recursive_1_converged(change, tolerance, orders)
+        }
+        UpdateRule::Recursive1 { order } => general::recursive_1(change, order),
+        UpdateRule::Recursive2 { order } => general::recursive_2(change, order),
+        UpdateRule::FirstOrder => general::first_order(change),
+        UpdateRule::Original => general::original(change),
+        UpdateRule::CloseRoots(settings) => {
+            close_roots(change, settings).map(|solved| solved.perturbed)
+        }
+        UpdateRule::Eigensolution => eigensolution_with_mass(change),
+    }?;
+    for (mode, &root) in perturbed.roots.iter().enumerate() {
+        recursive::check_root(mode, root)?;
+    }
+    Ok(perturbed)
 }
 
 /// Exact roots and shapes of $k + \beta$ in the modal coordinates: the perturbation's limit, and its yardstick.
@@ -99,14 +143,35 @@ pub fn perturb(
 /// are most like, so that column $j$ continues mode $j$.
 ///
 /// # Errors
-/// Those of [`crate::modes::solve`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+/// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; those of [`crate::modes::solve`];
+/// [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
 pub fn eigensolution(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
 ) -> Result<Perturbed, Error> {
+    check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
     let changed = DMatrix::from_diagonal(generalized_stiffness) + beta;
     let modes = crate::modes::solve(&changed, &DMatrix::identity(size, size), size)?;
+    continuing(&modes)
+}
+
+/// [`eigensolution`] for changes of stiffness and mass together: exact roots and shapes of $k + \beta$ with
+/// $k\Lambda + \alpha$.
+///
+/// # Errors
+/// As [`eigensolution`], and [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] as every
+/// rule on a [`ModalChange`].
+pub fn eigensolution_with_mass(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
+    change.check()?;
+    let k = &change.generalized_stiffness;
+    let stiffness = DMatrix::from_diagonal(k) + &change.beta;
+    let mass = DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha;
+    continuing(&crate::modes::solve(&stiffness, &mass, change.len())?)
+}
+
+/// Modes found in the modal coordinates, each in the place and at the scale of the mode it continues.
+fn continuing(modes: &Modes) -> Result<Perturbed, Error> {
     // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
     let pairing = crate::sorting::pair_modes(&modes.shapes.transpose())?;
     let mut shapes = modes.shapes.select_columns(&pairing.analysis_mode);
@@ -132,23 +197,31 @@ pub fn eigensolution(
     })
 }
 
-/// Scales every generalized shape to unit generalized mass, $p_j^t (I + \alpha) p_j = 1$, keeping $p_{jj} > 0$.
-pub fn normalize(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) {
-    for mut shape in shapes.column_iter_mut() {
+/// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.
+///
+/// `alpha` $= V^t \Delta M V$ (n × n); the shapes $V p$ are then orthonormal in the changed mass.
+///
+/// # Errors
+/// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
+pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
+    crate::linalg::check_shape(
+        "generalized mass change",
+        alpha,
+        shapes.nrows(),
+        shapes.nrows(),
+    )?;
+    for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
         let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
+        let owner = || format!("mode {mode} (from zero)");
+        crate::structure::positive("changed generalized mass", owner, mass)?;
         shape /= mass.sqrt();
     }
+    Ok(())
 }
 
-/// shim
-pub struct ModalChange;
-impl ModalChange {
-    /// shim
-    pub fn of_vibrations(_: &DVector<f64>, _b: DMatrix<f64>, _: DMatrix<f64>) -> Self {
-        Self
+/// Scales every generalized shape to unit generalized mass, $p_j^t p_j = 1$, keeping $p_{jj} > 0$.
+pub fn normalize(shapes: &mut DMatrix<f64>) {
+    for mut shape in shapes.column_iter_mut() {
+        shape.normalize_mut();
     }
-}
-/// shim
-pub fn perturb_with_mass(_: &ModalChange, _: UpdateRule) -> Result<Perturbed, Error> {
-    Err(Error::Empty { what: "shim" })
 }

@@ -150,11 +150,7 @@ pub fn recursive_2(
     let mut now = first_order(k, beta)?;
     for order in 2..=order {
         let roots = explicit_roots(k, beta, &now.shapes)?;
-        now.last_change = roots
-            .iter()
-            .zip(now.roots.iter())
-            .map(|(new, old)| (new / old - 1.0).abs())
-            .fold(0.0, f64::max);
+        now.last_change = largest_change(&roots, &now.roots);
         now.shapes = shapes_by_linear_solution(k, beta, &roots)?;
         now.roots = roots;
         now.order = order;
@@ -173,9 +169,19 @@ pub fn original(
     beta: &DMatrix<f64>,
 ) -> Result<Perturbed, Error> {
     let mut now = first_order(generalized_stiffness, beta)?;
-    now.roots = explicit_roots(generalized_stiffness, beta, &now.shapes)?;
+    let roots = explicit_roots(generalized_stiffness, beta, &now.shapes)?;
+    now.last_change = largest_change(&roots, &now.roots);
+    now.roots = roots;
     now.order = 2;
     Ok(now)
+}
+
+/// Largest relative change from one order's roots to the next.
+fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
+    new.iter()
+        .zip(old.iter())
+        .map(|(new, old)| (new / old - 1.0).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Roots from given shapes, $\gamma_i = \lambda_i - \lambda_i S_i/(k_{ii}+S_i)$ (C.24).
@@ -202,6 +208,10 @@ fn shapes_by_linear_solution(
 ) -> Result<DMatrix<f64>, Error> {
     let size = k.len();
     let mut shapes = DMatrix::identity(size, size);
+    if size == 1 {
+        // One mode has no others, and the library's solution of an empty system panics.
+        return Ok(shapes);
+    }
     for j in 0..size {
         let others: Vec<usize> = (0..size).filter(|&i| i != j).collect();
         let mut system = beta.select_rows(&others).select_columns(&others);
@@ -246,7 +256,8 @@ fn denominator(
     }
 }
 
-fn check_root(mode: usize, value: f64) -> Result<(), Error> {
+/// Refuses a perturbed root that is not positive and finite.
+pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
@@ -254,7 +265,7 @@ fn check_root(mode: usize, value: f64) -> Result<(), Error> {
     }
 }
 
-fn check_order(order: usize) -> Result<(), Error> {
+pub(crate) fn check_order(order: usize) -> Result<(), Error> {
     if order > 0 {
         return Ok(());
     }
@@ -265,7 +276,8 @@ fn check_order(order: usize) -> Result<(), Error> {
     })
 }
 
-fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
+/// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.
+pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
     if k.is_empty() {
         return Err(Error::Empty { what: "modes" });
     }

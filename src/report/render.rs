@@ -23,12 +23,15 @@ pub enum Format {
     Csv,
 }
 
-/// Tables as text or Markdown; a computed number has the published one, if there is any, behind it in parentheses.
+/// Tables as text or Markdown; each computed number has the published one behind it in parentheses.
 pub fn render(tables: &[Table], markdown: bool) -> String {
+    let lead = "Computed numbers, the published ones behind them in parentheses.\n\n";
+    lead.to_owned() + &render_tables(tables, markdown)
+}
+
+/// Tables as text or Markdown, nothing before them.
+pub fn render_tables(tables: &[Table], markdown: bool) -> String {
     let mut out = String::new();
-    if tables.iter().any(has_published) {
-        out.push_str("Computed numbers, the published ones behind them in parentheses.\n\n");
-    }
     for table in tables {
         let heading = if markdown { "## " } else { "" };
         out.push_str(&format!("{heading}{}\n\n", table.title));
@@ -42,19 +45,6 @@ pub fn render(tables: &[Table], markdown: bool) -> String {
         out.pop();
     }
     out
-}
-
-fn has_published(table: &Table) -> bool {
-    let mut cells = table.rows.iter().flat_map(|row| &row.cells);
-    cells.any(|cell| {
-        matches!(
-            cell,
-            Cell::Number {
-                published: Some(_),
-                ..
-            }
-        )
-    })
 }
 
 fn grid(table: &Table, markdown: bool) -> String {

@@ -7,6 +7,8 @@ pub enum Digits {
     Fixed(usize),
     /// This many significant digits, without an exponent.
     Significant(usize),
+    /// This many digits after the point of the mantissa, with an exponent.
+    Scientific(usize),
 }
 
 /// One cell.
@@ -69,6 +71,7 @@ impl Digits {
     pub fn write(self, value: f64) -> String {
         let text = match self {
             Self::Fixed(decimals) => format!("{value:.decimals$}"),
+            Self::Scientific(decimals) => return format!("{value:.decimals$e}"),
             Self::Significant(digits) => {
                 let magnitude = if value == 0.0 {
                     0

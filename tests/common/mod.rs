@@ -1,8 +1,27 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod appendix_c;
+pub mod boxes;
+pub mod close_roots;
+pub mod complex_pencils;
+pub mod counting_allocator;
+pub mod decks;
+pub mod drawings;
+#[cfg(unix)]
+pub mod fake_solver;
 pub mod golden;
+pub mod loops;
+pub mod matrices;
+pub mod measured;
+pub mod nastran95;
+pub mod outer_loop;
+pub mod pairings;
+pub mod panels;
 pub mod strategies;
+pub mod structures;
 pub mod tolerances;
+pub mod torque_boxes;
+pub mod vibrations;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

@@ -4,10 +4,39 @@
 pub const ROUND_OFF: f64 = 1e-13;
 /// A matrix product chain of a dozen DOF, relative to its largest entry.
 pub const MATRIX_ROUND_OFF: f64 = 1e-11;
+/// Round-off of a solution per unit of its matrix's condition number: some fifty roundings.
+pub const CONDITIONED_ROUND_OFF: f64 = 1e-14;
+/// A difference of a hundred-millionth of its terms, relative: what is left of sixteen digits, and some.
+pub const DIFFERENCE_ROUND_OFF: f64 = 1e-6;
+/// An eigenvalue of 3e-15 of the largest, relative: a tenth of it is one rounding of the largest.
+pub const SMALLEST_EIGENVALUE: f64 = 0.1;
+/// Two routes to the free motion of a mechanism, of its largest component: inverse iteration sheds the other motions to
+/// 1e-10 a step.
+pub const SAME_MOTION: f64 = 1e-6;
+/// Part of the mean over all free motions above which a DOF takes part in them: the one that moves most in some of
+/// them may have less than the mean over all, one that is held has nothing but round-off.
+pub const TAKES_PART: f64 = 1e-2;
+/// Eigenvalue over the largest of its matrix below which it is zero: element matrices leave 1e-15 where the theory has
+/// zero, and the strategies' panels have nothing below 1e-3 where it has not.
+pub const RANK_THRESHOLD: f64 = 1e-9;
+/// Element matrices computed in two frames: coordinates 100 in from the origin carry 1e-13 of a panel's size, and
+/// the strategies' distortion multiplies that by ten or so; relative to the largest entry.
+pub const ELEMENT_ROUND_OFF: f64 = 1e-11;
+/// Quadrature of a trapezoid tapered to no less than 0.3 against its closed form: what twelve points leave.
+pub const QUADRATURE_TRAPEZOID: f64 = 5e-10;
+/// The closed form of a panel without parallel sides: its terms exceed their sum some ten thousand times when
+/// opposite sides meet five sides away, and more beyond.
+pub const CLOSED_FORM_GENERAL: f64 = 1e-11;
+/// An order of convergence read off a log-log slope, where the next order's share is still a few percent.
+pub const SLOPE: f64 = 0.05;
 /// Two dense eigensolvers on the same matrix, relative to the eigenvalue; scaled by the condition number where used.
 pub const EIGEN_ROUND_OFF: f64 = 1e-11;
 /// NASTRAN-95 holds geometry and material in single precision; relative to the largest entry.
 pub const NASTRAN_SINGLE_PRECISION: f64 = 3e-7;
+/// Eigenvalues of NASTRAN-95's own matrices against those of double-precision ones.
+pub const NASTRAN_EIGENVALUE: f64 = 1e-6;
+/// Eigenvalues that NASTRAN-95's own methods found, printed with seven digits of which it gets about six right.
+pub const NASTRAN_PRINTED_EIGENVALUE: f64 = 5e-6;
 /// The independent program writes ten digits and steps through some thirty finite-difference iterations.
 pub const EXPECTED_HISTORY: f64 = 1e-5;
 /// The independent program's exact frequencies, ten digits written, another quadrature order of summation.
@@ -24,3 +53,79 @@ pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
 pub const CORRECTION_ROUND_OFF: f64 = 1e-9;
 /// A derivative against its definition: both are differences of error sums of order one, each a few hundred roundings.
 pub const DERIVATIVE_ROUND_OFF: f64 = 1e-13;
+/// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
+pub const ORDER_SLACK: f64 = 0.15;
+/// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
+pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
+/// A derivative of the error sum by a 0.1 % change and first order, beside exact differences with the same step: what is
+/// left is of second order in the change, a thousandth of a derivative of order one.
+pub const FORWARD_DIFFERENCE: f64 = 2e-3;
+/// Percent errors recomputed from frequencies printed to four digits: half a unit of the last digit of a frequency
+/// is 0.02 % of the lowest mode's, and nine of them are squared and summed.
+pub const PRINTED_PERCENT: f64 = 0.02;
+/// The recursion stops when roots change by less than 1e-13; with changes of some percent each order gains a digit
+/// or more, so that what is left is a fraction of that and round-off. Shapes follow the roots times the spread of the
+/// spectrum.
+pub const CONVERGED_RECURSION: f64 = 1e-12;
+/// Slopes this near an order are that order: half way to the next one.
+pub const ORDER_HALFWAY: f64 = 0.45;
+/// Errors below this are round-off of roots near one, a few hundred units in the last place.
+pub const MEASURABLE_ERROR: f64 = 5e-14;
+/// Coefficient of the third-order term of a root relative to the largest stiffness, with neighbours a factor of two
+/// apart and couplings up to one; below 3 in five thousand draws.
+pub const SECOND_ORDER_REMAINDER: f64 = 10.0;
+/// A state by Recursive 1 to roots within 1e-13, whose shapes then enter mass and stiffness products.
+pub const CONVERGED_STATE: f64 = 1e-9;
+/// Coefficient of the second-order terms of the error sum in the ratio of coupling to separation of two modes.
+pub const FIRST_ORDER_REMAINDER: f64 = 10.0;
+/// A forward difference of 0.1 % against a central one: half the step times the curvature, relative to the largest
+/// derivative.
+pub const CENTRAL_DIFFERENCE: f64 = 0.01;
+/// A force or moment that balancing leaves, relative to the sum of the magnitudes of its parts: sums over a dozen DOF.
+pub const BALANCE_RESIDUAL: f64 = 1e-12;
+/// Coefficients of {1} and {x}, 200 in from the reference axis on structures 20 in long: the balance equations have a
+/// condition of some 1e4 when their unknowns are scaled alike.
+pub const BALANCE_EQUATIONS: f64 = 1e-10;
+/// What an eigensolution leaves of ω²Mv = Kv for the lowest modes, relative; scaled by the spread of ω² where used.
+pub const EXACT_MODE_RESIDUAL: f64 = 1e-11;
+/// Modes orthogonal to a matrix product's round-off, after a Cholesky factor and an eigensolution of a matrix that is
+/// diagonal to that round-off.
+pub const ORTHOGONAL_INPUT: f64 = 1e-11;
+/// A slope over a decade and a half of noise below 0.3 %: the next order contributes a few percent at the upper end.
+pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
+/// The balance equations with the reference axis a thousand lengths away, where their condition is 6e6.
+pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
+/// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
+pub const CANCELLED_DIFFERENCE: f64 = 1e-3;
+/// Goldens of root errors in percent: below this they are round-off of roots of order one, a few units in the last place.
+pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
+/// Two update rules exact to 1e-13 in roots through the same two dozen iterations, each of which multiplies what
+/// differs; the same reason as `GOLDEN_RELATIVE`, on one machine.
+pub const SAME_HISTORY: f64 = 1e-6;
+/// A node line is a quadratic's zero carried through a bilinear map and back by Newton's iteration: some ten roundings of
+/// displacements whose largest is one, times the slope of the map.
+pub const NODE_LINE: f64 = 1e-9;
+/// Logarithmic derivatives of frequencies by fourth-order central differences of 0.2 %: eigenvalues over a range of 1e5
+/// round at 1e-11, which 1.5 over the step makes 1e-8; truncation is the step's fourth power.
+pub const CENTRAL_DIFFERENCE_FREQUENCY: f64 = 1e-7;
+/// A field of 16 characters holds ten significant digits of any number: half a unit of the tenth.
+pub const FIELD_ROUNDING: f64 = 5e-10;
+/// It holds twelve of numbers between 1e-9 and 1e9, with a sign and an exponent.
+pub const DECK_ROUNDING: f64 = 5e-12;
+/// Roots of a pencil with singular mass against those of its dynamic part: round-off times the condition of the dynamic
+/// flexibility, up to 1e7 for the strategy's stiffness (1e3) and T (1e2, squared), 2e5 for the box.
+pub const SINGULAR_MASS_ROOT: f64 = 1e-8;
+/// Frequencies by NASTRAN-95's matrices against the crate's, half of `NASTRAN_EIGENVALUE`.
+pub const NASTRAN_FREQUENCY: f64 = 5e-7;
+/// Gages after a correlation with NASTRAN-95 in the outer loop against the crate's own, where the inner loop follows one
+/// path: its steps multiply single precision by some ten.
+pub const NASTRAN_GAGE: f64 = 2e-5;
+/// The same for Case 3, whose inner loop of some thirty steps against the gage bounds multiplies a difference of 1e-7 by
+/// ten thousands: rounding the box's own coordinates to single precision does as much without NASTRAN.
+pub const NASTRAN_GAGE_CASE_3: f64 = 1e-2;
+/// The same for Case 1, where NASTRAN-95's parallel-side snap changes two covers by 0.28 %, on both sides of the comparison.
+pub const NASTRAN_GAGE_CASE_1: f64 = 2e-3;
+/// Two runs of NASTRAN-95 on one deck, perhaps by other processors: round-off of double precision.
+pub const NASTRAN_AGAIN: f64 = 1e-9;
+/// Factors of snapped panels as golden/nastran95/README.md has them: half a unit of the fourth digit.
+pub const PRINTED_SNAP_FACTOR: f64 = 5e-5;

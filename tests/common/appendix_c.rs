@@ -1,0 +1,153 @@
+//! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
+
+use corfem::perturbation::{ModalChange, Perturbed};
+use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
+use proptest::prelude::*;
+
+use super::strategies::symmetric;
+
+/// Largest entry of a generalized change relative to its modes' own stiffness or mass. With roots a factor 1.5 apart
+/// and six modes the sum of a row's $|p_{ij}|$ stays below one half, so the recursions converge, by a digit in
+/// three or four orders at worst.
+pub const LARGEST_CHANGE: f64 = 0.02;
+
+/// Squared circular frequencies from 1 up, each `1.5` to `4` times the one before: apart at every size.
+pub fn separate_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
+    prop::collection::vec(1.5..4.0_f64, size).prop_map(|ratios| {
+        let mut value = 1.0;
+        DVector::from_iterator(
+            ratios.len(),
+            ratios.iter().map(|ratio| {
+                let present = value;
+                value *= ratio;
+                present
+            }),
+        )
+    })
+}
+
+/// β with $\beta_{ij}$ within `largest` of $\sqrt{k_i k_j}$ and α with entries within `largest`, both symmetric.
+pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalChange<f64>> {
+    (symmetric(k.len()), symmetric(k.len())).prop_map(move |(b, a)| {
+        let root = DMatrix::from_diagonal(&k.map(f64::sqrt));
+        let beta = largest * &root * b * &root;
+        // The product of three matrices is symmetric to round-off only.
+        let beta = 0.5 * (&beta + beta.transpose());
+        ModalChange::of_vibrations(&k, beta, largest * a)
+    })
+}
+
+/// A change of two to six separate modes in which every rule converges.
+pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
+    (2..=6_usize)
+        .prop_flat_map(separate_spectrum)
+        .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
+}
+
+/// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
+#[derive(Debug, Clone)]
+pub struct Clustered {
+    pub change: ModalChange<f64>,
+    pub blocks: Vec<Vec<usize>>,
+}
+
+/// One to three clusters of one to three modes, cluster centers a factor 2 to 4 apart, modes within a cluster apart by
+/// at most 1e-3 of the center and down to nothing; changes of at most 2 % move roots by at most 4 %, so 10 % tells
+/// the clusters apart in every case.
+pub fn clustered() -> impl Strategy<Value = Clustered> {
+    let cluster = (
+        2.0..4.0_f64,
+        prop::collection::vec(
+            prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))],
+            1..=3,
+        ),
+    );
+    prop::collection::vec(cluster, 1..=3)
+        .prop_flat_map(|clusters| {
+            let mut k = Vec::new();
+            let mut blocks = Vec::new();
+            let mut center = 1.0;
+            for (ratio, splits) in clusters {
+                if splits.len() > 1 {
+                    blocks.push((k.len()..k.len() + splits.len()).collect());
+                }
+                k.extend(splits.iter().map(|split| center * (1.0 + split)));
+                center *= ratio;
+            }
+            (
+                change_of(DVector::from_vec(k), LARGEST_CHANGE),
+                Just(blocks),
+            )
+        })
+        .prop_map(|(change, blocks)| Clustered { change, blocks })
+}
+
+/// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.
+pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
+    let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&ground));
+    for ((i, j), spring) in [(0, 1), (1, 2), (0, 2)].into_iter().zip(between) {
+        stiffness[(i, i)] += spring;
+        stiffness[(j, j)] += spring;
+        stiffness[(i, j)] -= spring;
+        stiffness[(j, i)] -= spring;
+    }
+    stiffness
+}
+
+/// Real numbers in ascending order.
+pub fn ascending<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.into_iter().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+}
+
+/// Largest relative distance from each root to the nearest of `exact`, every exact one being used once.
+///
+/// Panics when two roots are nearest to the same exact one.
+pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64 {
+    assert_eq!(roots.len(), exact.len());
+    let mut used = vec![false; exact.len()];
+    roots
+        .iter()
+        .map(|root| {
+            let (nearest, distance) = exact
+                .iter()
+                .enumerate()
+                .map(|(i, other)| (i, (root - other).norm() / other.norm()))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .expect("there are roots");
+            assert!(
+                !used[nearest],
+                "two roots are nearest to {}",
+                exact[nearest]
+            );
+            used[nearest] = true;
+            distance
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Four modes, stiffness and mass changed together, every entry of both changes at work.
+pub fn four_modes(size: f64) -> ModalChange<f64> {
+    let beta = dmatrix![
+        0.3, 0.5, -0.4, 0.6;
+        0.5, -0.8, 0.9, 0.7;
+        -0.4, 0.9, 1.1, -1.3;
+        0.6, 0.7, -1.3, 1.7];
+    let alpha = dmatrix![
+        -0.2, 0.15, 0.1, -0.25;
+        0.15, 0.3, -0.2, 0.1;
+        0.1, -0.2, 0.25, 0.05;
+        -0.25, 0.1, 0.05, -0.1];
+    ModalChange::of_vibrations(&dvector![1.0, 2.5, 6.0, 14.0], size * beta, size * alpha)
+}
+
+/// Largest relative error of a root and largest error of a shape against the exact solution.
+pub fn errors(perturbed: &Perturbed, exact: &Perturbed) -> (f64, f64) {
+    let roots = perturbed
+        .roots
+        .component_div(&exact.roots)
+        .add_scalar(-1.0)
+        .amax();
+    (roots, (&perturbed.shapes - &exact.shapes).amax())
+}

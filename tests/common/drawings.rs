@@ -1,0 +1,68 @@
+//! What is written on a figure, read back from its SVG.
+
+/// Letters on a figure, with the box they fill in Noto Sans (regular digits and letters are 0.57 em wide on average).
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// The words.
+    pub text: String,
+    /// Left, top, right, bottom, px.
+    pub bounds: [f64; 4],
+}
+
+/// Width and height of a figure, px.
+pub fn size(svg: &str) -> (f64, f64) {
+    (attribute(svg, "width"), attribute(svg, "height"))
+}
+
+/// Everything written on a figure.
+pub fn written(svg: &str) -> Vec<Written> {
+    svg.split("<text ").skip(1).map(one).collect()
+}
+
+fn one(element: &str) -> Written {
+    const UNITS: f64 = 10.0;
+    let (tag, rest) = element.split_once('>').expect("a tag");
+    let text = rest
+        .split("</text>")
+        .next()
+        .expect("words")
+        .trim()
+        .to_owned();
+    let em = attribute(tag, "font-size") / UNITS;
+    let (x, y) = (attribute(tag, "x") / UNITS, attribute(tag, "y") / UNITS);
+    let width = 0.57 * em * text.chars().count() as f64;
+    let before = match word(tag, "text-anchor") {
+        "start" => 0.0,
+        "middle" => 0.5 * width,
+        _ => width,
+    };
+    // From its base line a digit or capital rises 0.72 em.
+    let base = em
+        * match word(tag, "dy") {
+            "0.76em" => 0.76,
+            "0.5ex" => 0.26,
+            _ => -0.26,
+        };
+    let (high, low) = (base - 0.72 * em, base);
+    let bounds = if tag.contains("rotate(270") {
+        [x + high, y + before - width, x + low, y + before]
+    } else {
+        [x - before, y + high, x - before + width, y + low]
+    };
+    Written { text, bounds }
+}
+
+fn word<'a>(tag: &'a str, name: &str) -> &'a str {
+    let start = format!(" {name}=\"");
+    let at = match tag.find(&start) {
+        Some(at) => at + start.len(),
+        // The first attribute of a tag has no blank before it once the tag's name is cut off.
+        None if tag.starts_with(&start[1..]) => start.len() - 1,
+        None => panic!("no {name} in {tag}"),
+    };
+    tag[at..].split('"').next().expect("a value")
+}
+
+fn attribute(tag: &str, name: &str) -> f64 {
+    word(tag, name).parse().expect("a number")
+}

@@ -1,0 +1,262 @@
+//! Strategies of inner-loop problems and settings, and the loop told again from its own record.
+
+use super::tolerances::ROUND_OFF;
+use super::vibrations::{Chain, chain_and_truth};
+use corfem::derivatives::error_derivatives;
+use corfem::inner_loop::{InnerRun, InnerSettings, Stop};
+use corfem::modal::{ModalProblem, ModalState};
+use corfem::outer_loop::{Correlation, Settings, correlate};
+use corfem::perturbation::UpdateRule;
+use corfem::step::{Limit, Range, StepRule, unlimited_factors};
+use proptest::prelude::*;
+
+/// The problem of a chain towards the truth, with all its modes.
+pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalProblem {
+    let count = truth.len();
+    ModalProblem::new(&chain.model(&vec![1.0; count]), &chain.modes(truth), count)
+        .expect("a chain is a problem")
+}
+
+/// Everything an inner loop is given.
+#[derive(Debug, Clone)]
+pub struct Given {
+    /// The structure.
+    pub chain: Chain,
+    /// Factors on its springs that the test modes have.
+    pub truth: Vec<f64>,
+    /// Factors of earlier passes.
+    pub base: Vec<f64>,
+    /// Bounds on the products.
+    pub total_ranges: Vec<Option<Range>>,
+    /// The settings.
+    pub settings: InnerSettings,
+}
+
+/// Settings from cautious to reckless: relaxations from 0.3 to 3, bounds of one factor from narrow to wide, few
+/// iterations so that all three stops occur.
+fn settings() -> impl Strategy<Value = InnerSettings> {
+    let rule = prop_oneof![
+        Just(StepRule::RootSumOfSquares),
+        Just(StepRule::SumOverModes),
+        Just(StepRule::SteepestDescent),
+    ];
+    let update = prop_oneof![
+        Just(UpdateRule::default()),
+        Just(UpdateRule::Recursive1 { order: 2 }),
+        Just(UpdateRule::Eigensolution),
+    ];
+    (
+        (0.3..3.0_f64, 0.3..3.0_f64),
+        (0.5..0.95_f64, 1.05..2.0_f64),
+        0.01..0.1_f64,
+        (0..=5_usize, 0..=12_usize),
+        (rule, update),
+    )
+        .prop_map(
+            |(relaxations, (lower, upper), tolerance, (halvings, iterations), (step, update))| {
+                InnerSettings {
+                    first_relaxation: relaxations.0,
+                    relaxation: relaxations.1,
+                    factor_range: Range { lower, upper },
+                    tolerance,
+                    halvings,
+                    iterations,
+                    step,
+                    update,
+                }
+            },
+        )
+}
+
+/// An inner loop on a chain: some parameters with bounds on their product of 10 to 50 % either way, some without.
+pub fn given() -> impl Strategy<Value = Given> {
+    (
+        chain_and_truth(),
+        prop::collection::vec(0.5..2.0_f64, 5),
+        prop::collection::vec(prop::option::of((0.5..0.9_f64, 1.1..1.5_f64)), 5),
+        settings(),
+    )
+        .prop_map(|((chain, truth), base, ranges, settings)| {
+            let count = truth.len();
+            let total_ranges = ranges[..count]
+                .iter()
+                .zip(&base)
+                .map(|(range, base)| {
+                    range.map(|(lower, upper)| Range {
+                        lower: base * lower,
+                        upper: base * upper,
+                    })
+                })
+                .collect();
+            Given {
+                base: base[..count].to_vec(),
+                chain,
+                truth,
+                total_ranges,
+                settings,
+            }
+        })
+}
+
+/// New total factor and what held it, written out case by case.
+fn held(
+    total: f64,
+    base: f64,
+    step: f64,
+    factor_range: Range,
+    total_range: Option<Range>,
+) -> (f64, Limit) {
+    let (factor, mut limit) = if step < factor_range.lower {
+        (factor_range.lower, Limit::Factor)
+    } else if step > factor_range.upper {
+        (factor_range.upper, Limit::Factor)
+    } else {
+        (step, Limit::None)
+    };
+    let mut next = total * factor;
+    if let Some(range) = total_range {
+        if base * next < range.lower {
+            (next, limit) = (range.lower / base, Limit::Total);
+        } else if base * next > range.upper {
+            (next, limit) = (range.upper / base, Limit::Total);
+        }
+    }
+    (next, limit)
+}
+
+/// Factors, limits and state of a trial step halved so many times.
+fn trial(
+    problem: &ModalProblem,
+    given: &Given,
+    state: &ModalState,
+    unlimited: &[f64],
+    halvings: usize,
+) -> (Vec<f64>, Vec<Limit>, Option<ModalState>) {
+    let settings = &given.settings;
+    let fraction = 0.5_f64.powi(i32::try_from(halvings).expect("few halvings"));
+    let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
+        .map(|e| {
+            let step = 1.0 + fraction * (unlimited[e] - 1.0);
+            let range = given.total_ranges[e];
+            held(
+                state.factors[e],
+                given.base[e],
+                step,
+                settings.factor_range,
+                range,
+            )
+        })
+        .unzip();
+    let next = problem.state_at(factors.clone(), settings.update).ok();
+    let lower = next.filter(|next| next.errors.sum() < state.errors.sum());
+    (factors, limits, lower)
+}
+
+/// Tells the loop again step by step and asserts that the record says the same.
+pub fn assert_record_is_the_loop(problem: &ModalProblem, given: &Given, run: &InnerRun) {
+    let settings = &given.settings;
+    let mut state = problem.start_state().expect("a start");
+    assert_eq!(run.start, state.errors);
+    assert!(run.iterations.len() <= settings.iterations);
+    let asks = |state: &ModalState, relaxation: f64| {
+        let derivatives = error_derivatives(problem, state).expect("separate modes");
+        let sum = state.errors.sum();
+        let unlimited = unlimited_factors(&derivatives, sum, relaxation, settings.step);
+        (derivatives, unlimited)
+    };
+    let relaxation = |number: usize| {
+        if number == 0 {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        }
+    };
+    for (number, iteration) in run.iterations.iter().enumerate() {
+        assert!(number == 0 || state.errors.sum() >= settings.tolerance);
+        let (derivatives, unlimited) = asks(&state, relaxation(number));
+        assert_eq!(iteration.derivatives, derivatives);
+        assert_eq!(iteration.unlimited_factors, unlimited);
+        if number == 0 {
+            assert_eq!(run.first_unlimited_factors, unlimited);
+        }
+        assert!(iteration.halvings <= settings.halvings);
+        for halvings in 0..iteration.halvings {
+            let (_, _, lower) = trial(problem, given, &state, &unlimited, halvings);
+            assert!(lower.is_none(), "halved although the longer step was good");
+        }
+        let (factors, limits, lower) =
+            trial(problem, given, &state, &unlimited, iteration.halvings);
+        assert_eq!(iteration.factors, factors);
+        assert_eq!(iteration.limits, limits);
+        state = lower.expect("an accepted step lowers the error sum");
+        assert_eq!(iteration.errors, state.errors);
+    }
+    assert_eq!(run.last.factors, state.factors);
+    assert_eq!(run.last.modes, state.modes);
+    assert_eq!(run.last.pairing, state.pairing);
+    assert_eq!(run.last.errors, state.errors);
+    let count = run.iterations.len();
+    let within = count > 0 && state.errors.sum() < settings.tolerance;
+    match run.stop {
+        Stop::Tolerance => assert!(within),
+        Stop::Iterations => assert!(!within && count == settings.iterations),
+        Stop::LocalMinimum => {
+            assert!(!within && count < settings.iterations);
+            let (_, unlimited) = asks(&state, relaxation(count));
+            for halvings in 0..=settings.halvings {
+                let (_, _, lower) = trial(problem, given, &state, &unlimited, halvings);
+                assert!(lower.is_none(), "stopped although a step was good");
+            }
+            if count == 0 {
+                assert_eq!(run.first_unlimited_factors, unlimited);
+            }
+        }
+    }
+    if settings.iterations == 0 {
+        assert!(run.first_unlimited_factors.is_empty());
+    }
+}
+
+/// Every accepted step lowers the error sum.
+pub fn assert_error_sum_only_falls(run: &InnerRun) {
+    let mut before = run.start.sum();
+    for iteration in &run.iterations {
+        assert!(
+            iteration.errors.sum() < before,
+            "{} {before}",
+            iteration.errors.sum()
+        );
+        before = iteration.errors.sum();
+    }
+}
+
+/// In every iteration every factor, and every product with the passes before, stays within its bounds.
+pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>], factors: Range) {
+    let mut before = vec![1.0; base.len()];
+    for iteration in &run.iterations {
+        for e in 0..base.len() {
+            let ratio = iteration.factors[e] / before[e];
+            assert!(ratio >= factors.lower * (1.0 - ROUND_OFF), "{e}: {ratio}");
+            assert!(ratio <= factors.upper * (1.0 + ROUND_OFF), "{e}: {ratio}");
+            if let Some(range) = ranges[e] {
+                let total = base[e] * iteration.factors[e];
+                assert!(total >= range.lower * (1.0 - ROUND_OFF), "{e}: {total}");
+                assert!(total <= range.upper * (1.0 + ROUND_OFF), "{e}: {total}");
+            }
+        }
+        before.clone_from(&iteration.factors);
+    }
+}
+
+/// Correlates a chain with its truth, without bounds.
+pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
+    let ranges = vec![None; truth.len()];
+    correlate(
+        |factors| Ok(chain.model(factors)),
+        &chain.modes(truth),
+        &ranges,
+        settings,
+        |_, _| {},
+    )
+    .expect("a chain can be correlated")
+}

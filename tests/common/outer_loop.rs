@@ -1,0 +1,53 @@
+//! The stored answers of the outer loop through NASTRAN-95.
+
+use corfem::cases::CASES;
+use serde::Deserialize;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stored {
+    case: Vec<StoredCase>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredCase {
+    pub number: usize,
+    pub test_frequencies_hz: Vec<f64>,
+    pub initial: StoredCheck,
+    pub passes: Vec<StoredCheck>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredCheck {
+    pub iterations: Option<usize>,
+    pub gages_in: Vec<f64>,
+    pub frequencies_hz: Vec<f64>,
+    pub frequency_rms: f64,
+    pub shape_rms: f64,
+}
+
+pub fn stored() -> Vec<StoredCase> {
+    let text = include_str!("../../golden/nastran95/outer_loop.toml");
+    let stored: Stored = toml::from_str(text).expect("the golden reads");
+    assert_eq!(
+        stored
+            .case
+            .iter()
+            .map(|case| case.number)
+            .collect::<Vec<_>>(),
+        CASES
+    );
+    stored.case
+}
+
+pub fn assert_near(found: &[f64], expected: &[f64], relative: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (a, b) in found.iter().zip(expected) {
+        assert!(
+            (a - b).abs() <= relative * b.abs(),
+            "{what}: {found:?}, expected {expected:?}"
+        );
+    }
+}

@@ -1,0 +1,170 @@
+//! Small structures with known answers, and strategies of structures and their sizes.
+
+use corfem::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
+use corfem::error::Error;
+use corfem::model::FiniteElementModel;
+use corfem::parameters::Parameter;
+use corfem::step::Range;
+use corfem::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// A material of which a rod of length one and area k is a spring of stiffness k.
+pub fn unit_material() -> Material {
+    Material::isotropic(1.0, 0.25).expect("a material")
+}
+
+pub fn grid(label: usize, position: [f64; 3], held: [bool; 3]) -> Grid {
+    Grid {
+        label,
+        position: position.into(),
+        held,
+    }
+}
+
+pub fn rod(label: usize, ends: [usize; 2], area: f64) -> Element {
+    Element {
+        label,
+        kind: ElementKind::Rod,
+        grids: ends.to_vec(),
+        size: area,
+        material: unit_material(),
+    }
+}
+
+/// Springs in a row along x between grids 1, 2, …, free along x alone; `held` says which ends are fixed.
+pub fn spring_chain(springs: &[f64], held: [bool; 2]) -> Structure {
+    let last = springs.len() + 1;
+    let grids = (1..=last)
+        .map(|label| {
+            let fixed = (label == 1 && held[0]) || (label == last && held[1]);
+            grid(label, [label as f64, 0.0, 0.0], [fixed, true, true])
+        })
+        .collect();
+    let rods = springs
+        .iter()
+        .zip(1..)
+        .map(|(&spring, label)| rod(label, [label, label + 1], spring))
+        .collect();
+    Structure::new(grids, rods).expect("a chain")
+}
+
+/// Elements that change together, with bounds on their sizes.
+pub fn group(name: &str, elements: &[usize], size_range: Option<Range>) -> Parameter {
+    Parameter {
+        size_range,
+        ..Parameter::group(name, elements)
+    }
+}
+
+/// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
+pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
+    let identity = DMatrix::identity(3, 3);
+    FiniteElementModel::new(
+        spring_chain(&[2.0, 4.0, 8.0], [true, false]),
+        identity.clone(),
+        identity,
+        parameters,
+    )
+}
+
+/// A four-bar linkage in the xz-plane: grids 1 and 2 fixed, 3 and 4 free in the plane, rods 1-4, 4-3, 3-2 and, if it is
+/// braced, 1-3. Without the brace one motion is free, in which no DOF is without stiffness.
+pub fn linkage(apex: [[f64; 2]; 2], areas: [f64; 4], braced: bool) -> Structure {
+    let free = [false, true, false];
+    let grids = vec![
+        grid(1, [0.0, 0.0, 0.0], [true; 3]),
+        grid(2, [1.0, 0.0, 0.0], [true; 3]),
+        grid(3, [apex[0][0], 0.0, apex[0][1]], free),
+        grid(4, [apex[1][0], 0.0, apex[1][1]], free),
+    ];
+    let ends = [[1, 4], [4, 3], [3, 2], [1, 3]];
+    let rods = (0..if braced { 4 } else { 3 })
+        .map(|k| rod(k + 1, ends[k], areas[k]))
+        .collect();
+    Structure::new(grids, rods).expect("a linkage")
+}
+
+/// Feet of a linkage a unit apart, its upper corners leaning either way by up to 0.4 and 0.5 to 1.5 high, its areas
+/// within a factor of a hundred. Shrinks to an upright frame.
+pub fn linkage_data() -> impl Strategy<Value = ([[f64; 2]; 2], [f64; 4])> {
+    let lean = -0.4..0.4_f64;
+    let height = 0.5..1.5_f64;
+    (
+        (lean.clone(), height.clone(), lean, height),
+        prop::array::uniform4(-1.0..1.0_f64),
+    )
+        .prop_map(|((x3, z3, x4, z4), decades)| {
+            ([[1.0 + x3, z3], [x4, z4]], decades.map(|d| 10f64.powf(d)))
+        })
+}
+
+/// Gages or areas of `count` elements over two decades, 0.003 to 0.3: condition numbers of the box up to some 1e8.
+pub fn sizes_of(count: usize) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec((-1.0..1.0_f64).prop_map(|d| 0.03 * 10f64.powf(d)), count)
+}
+
+/// Gages and areas as a structure has them.
+pub fn sizes(structure: &Structure) -> Vec<f64> {
+    structure
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect()
+}
+
+/// The stiffness of a structure by dense assembly.
+pub fn dense(structure: &Structure) -> DMatrix<f64> {
+    let matrices = element_matrices(structure).expect("sound elements");
+    dense_stiffness(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
+}
+
+/// The stiffness of a structure, factorized.
+pub fn factorized(structure: &Structure) -> Result<FactorizedStiffness, Error> {
+    let matrices = element_matrices(structure)?;
+    FactorizedStiffness::new(&matrices, &sizes(structure), structure.free_dof())
+}
+
+/// A stiffness matrix as a structure of one element, with as many free DOF as rows.
+pub fn as_element(stiffness: &DMatrix<f64>) -> (Vec<ElementMatrix>, Vec<StructuralDof>) {
+    let count = stiffness.nrows();
+    let element = ElementMatrix {
+        label: 1,
+        dof: (0..count).collect(),
+        unit: stiffness.clone(),
+        unit_mass: DVector::zeros(count),
+    };
+    let free = (0..count)
+        .map(|row| StructuralDof {
+            grid: row / 3 + 1,
+            direction: row % 3,
+        })
+        .collect();
+    (vec![element], free)
+}
+
+/// A stiffness scaled to unit diagonal, and the scale.
+pub fn unit_diagonal(stiffness: &DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let scale = stiffness.diagonal().map(|entry| 1.0 / entry.sqrt());
+    let scaled = DMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |row, column| {
+        scale[row] * stiffness[(row, column)] * scale[column]
+    });
+    (scaled, scale)
+}
+
+/// Condition number of a stiffness scaled to unit diagonal, by nalgebra.
+pub fn condition(stiffness: &DMatrix<f64>) -> f64 {
+    let values = unit_diagonal(stiffness).0.symmetric_eigenvalues();
+    values.max() / values.min()
+}
+
+/// The motions a stiffness does not resist, one per column, by nalgebra: of the unit-diagonal stiffness those
+/// eigenvectors whose eigenvalue is zero to round-off, in physical units.
+pub fn free_motions(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
+    let (scaled, scale) = unit_diagonal(stiffness);
+    let eigen = scaled.symmetric_eigen();
+    let free: Vec<usize> = (0..scale.len())
+        .filter(|&k| eigen.eigenvalues[k].abs() < super::tolerances::MATRIX_ROUND_OFF)
+        .collect();
+    DMatrix::from_diagonal(&scale) * eigen.eigenvectors.select_columns(&free)
+}

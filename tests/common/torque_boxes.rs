@@ -1,0 +1,80 @@
+//! The paper's torque box as a subject of properties.
+
+use corfem::assembly::{FactorizedStiffness, dense_stiffness};
+use corfem::cases::Case;
+use corfem::model::FiniteElementModel;
+use corfem::parameters::Parameter;
+use corfem::torque_box::{Reconstruction, load_distribution, structure};
+use nalgebra::DMatrix;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+/// One of the paper's four cases: shear or membrane covers, thick or thin rods, like gages or one far too thin.
+pub fn case() -> impl Strategy<Value = Case> {
+    (1..=4_usize).prop_map(|number| Case::new(number).expect("a case of the paper"))
+}
+
+/// Factors within the bounds of one iteration, 0.55 to 1.50; they shrink to the lower one.
+pub fn factors(count: usize) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(0.55..=1.5_f64, count)
+}
+
+/// The model of a case with every one of its 39 elements a parameter, the rods too.
+pub fn with_every_element(case: &Case) -> FiniteElementModel {
+    with_parameters(
+        case,
+        (1..=39)
+            .map(|label| Parameter::element(label, None))
+            .collect(),
+    )
+}
+
+/// The model of a case with parameters of one's own.
+pub fn with_parameters(case: &Case, parameters: Vec<Parameter>) -> FiniteElementModel {
+    FiniteElementModel::new(
+        structure(&case.reconstruction, &case.panels, case.rod_area).expect("a box"),
+        load_distribution(&case.reconstruction).expect("a box"),
+        case.reconstruction.mass(),
+        parameters,
+    )
+    .expect("a model")
+}
+
+/// A box with other ribs and mid points than the paper's: every rib's chord points any way in the plane, 1 to 20 in
+/// long, with upright spars 0.2 to 4 in deep, not at one height; ribs up to 60 in from each other. Shrinks to one of
+/// equal ribs.
+pub fn reconstruction() -> impl Strategy<Value = Reconstruction> {
+    let rib = (
+        (-30.0..30.0_f64, -30.0..30.0_f64),
+        (1.0..20.0_f64, -3.0..3.0_f64),
+        prop::array::uniform2((-2.0..2.0_f64, 0.2..4.0_f64)),
+    );
+    (prop::array::uniform4(rib), 0.1..0.9_f64).prop_map(|(ribs, mid_chord_fraction)| {
+        let mut grids = BTreeMap::new();
+        for (number, ((x, y), (chord, angle), spars)) in ribs.into_iter().enumerate() {
+            let ends = [(x, y), (x + chord * angle.cos(), y + chord * angle.sin())];
+            for (spar, ((x, y), (height, depth))) in ends.into_iter().zip(spars).enumerate() {
+                let upper = 4 * number + 2 * spar + 1;
+                grids.insert(upper, [x, y, height + depth / 2.0]);
+                grids.insert(upper + 1, [x, y, height - depth / 2.0]);
+            }
+        }
+        Reconstruction {
+            youngs_modulus: 1e7,
+            poissons_ratio: 0.3,
+            mid_chord_fraction,
+            masses: vec![1.0; 9],
+            grids,
+        }
+    })
+}
+
+/// The structural stiffness of a model at given sizes, dense and factorized.
+pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, FactorizedStiffness) {
+    let free = model.structure().free_dof();
+    let matrices = model.element_matrices();
+    (
+        dense_stiffness(matrices, sizes, free.len()).expect("a size each"),
+        FactorizedStiffness::new(matrices, sizes, free).expect("nothing free"),
+    )
+}

@@ -1,0 +1,155 @@
+//! NASTRAN-95 itself, where it is installed: it answers as stored, and runs the decks as they are written.
+
+use crate::common::outer_loop::{assert_near, stored};
+use crate::common::tolerances::{
+    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
+};
+use corfem::cases::{Case, run_case_with};
+use corfem::deck::{self, BulkData, Task};
+use corfem::model::FiniteElementModel;
+use corfem::modes::solve;
+use corfem::nastran95::{Nastran95, default_folder};
+use corfem::torque_box::{PANEL_COUNT, dynamic_points};
+use nalgebra::DMatrix;
+use std::io::Write;
+
+/// The program, or a loud word that it is not there.
+fn program(test: &str) -> Option<Nastran95> {
+    let folder = std::env::var_os("NASTRAN95").map_or_else(default_folder, Into::into);
+    let found = Nastran95::in_folder(&folder);
+    if let Err(error) = &found {
+        // Not by `eprintln!`, which the test harness keeps to itself.
+        let _ = writeln!(
+            std::io::stderr(),
+            "\n*** NOT TESTED: {test}: {error}\n*** golden/nastran95/README.md says how to install it.\n"
+        );
+    }
+    found.ok()
+}
+
+#[test]
+fn nastran_answers_as_stored() {
+    let Some(nastran) = program("the outer loop through NASTRAN-95") else {
+        return;
+    };
+    for stored in stored() {
+        let case = Case::new(stored.number).expect("a case");
+        for check in std::iter::once(&stored.initial).chain(&stored.passes) {
+            let model = case.model_with(&check.gages_in).expect("a model");
+            let dynamic = nastran
+                .analyze(&model, &[1.0; PANEL_COUNT])
+                .expect("an analysis");
+            let found = solve(&dynamic.stiffness, &dynamic.mass, 9)
+                .expect("modes")
+                .frequencies_hz();
+            let mut expected = check.frequencies_hz.clone();
+            expected.sort_by(f64::total_cmp);
+            assert_near(
+                &found,
+                &expected,
+                NASTRAN_AGAIN,
+                &format!("case {}", stored.number),
+            );
+            // The shares are of this stiffness: they and the rods' sum to it.
+            let panels: DMatrix<f64> = dynamic
+                .shares
+                .iter()
+                .map(|share| share.matrix().clone())
+                .sum();
+            let rods = &dynamic.stiffness - panels;
+            assert!(rods.symmetric_eigenvalues().min() > -NASTRAN_AGAIN * dynamic.stiffness.amax());
+        }
+    }
+    let case = Case::new(2).expect("a case");
+    let run = run_case_with(
+        &case,
+        |model, factors| nastran.analyze(model, factors),
+        |_, _| (),
+    )
+    .expect("a run");
+    let expected = &stored()[1].passes[1];
+    assert_near(
+        &run.pass_gages[1],
+        &expected.gages_in,
+        NASTRAN_GAGE,
+        "case 2",
+    );
+}
+
+#[test]
+fn nastran_solves_the_written_deck_for_its_modes() {
+    let Some(nastran) = program("decks run unchanged in NASTRAN-95") else {
+        return;
+    };
+    for number in [2, 3] {
+        let case = Case::new(number).expect("a case");
+        let model = case.model().expect("a model");
+        let (own, bulk) = modes_and_deck(&case, &model);
+        // By NASTRAN-95's own eigensolution with the singular mass.
+        let task = Task::Modes {
+            count: 9,
+            range_hz: [5.0, 3000.0],
+        };
+        let printed = nastran
+            .run(&deck::write(&bulk, "box", &task).expect("a deck"))
+            .expect("a run")
+            .printed;
+        assert_near(
+            &printed_eigenvalues(&printed),
+            &own,
+            NASTRAN_PRINTED_EIGENVALUE,
+            "printed",
+        );
+        // By its matrices: the nine finite roots of (KAA, MAA).
+        let matrices = nastran
+            .matrices(&deck::write(&bulk, "box", &Task::Matrices).expect("a deck"))
+            .expect("a run");
+        let lower = matrices["KAA"]
+            .clone()
+            .cholesky()
+            .expect("a held structure")
+            .l();
+        let half = lower
+            .solve_lower_triangular(&matrices["MAA"])
+            .expect("a nonzero diagonal");
+        let reduced = lower
+            .solve_lower_triangular(&half.transpose())
+            .expect("a nonzero diagonal");
+        let mut roots: Vec<f64> = (0.5 * (&reduced + reduced.transpose()))
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|root| root.recip())
+            .collect();
+        roots.retain(|root| *root > 0.0 && *root < 1e3 * own[8]);
+        roots.sort_by(f64::total_cmp);
+        assert_near(&roots, &own, NASTRAN_EIGENVALUE, "KAA and MAA");
+    }
+}
+
+/// Squared circular frequencies of a case's model, and its deck.
+fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkData) {
+    let dynamic = model.analyze(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+    let points = dynamic_points(&case.reconstruction).expect("points");
+    let bulk = BulkData::of(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
+    (modes.omega_squared.as_slice().to_vec(), bulk)
+}
+
+/// The column EIGENVALUE of the table of real eigenvalues.
+fn printed_eigenvalues(printed: &str) -> Vec<f64> {
+    let table = printed
+        .split("R E A L   E I G E N V A L U E S")
+        .nth(1)
+        .expect("a table");
+    table
+        .lines()
+        .map(|line| line.split_whitespace().collect::<Vec<_>>())
+        .filter(|fields| {
+            fields.len() == 7
+                && fields[0].parse::<usize>().is_ok()
+                && fields[1].parse::<usize>().is_ok()
+        })
+        .map(|fields| fields[2].parse().expect("an eigenvalue"))
+        .take(9)
+        .collect()
+}
