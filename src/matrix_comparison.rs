@@ -11,7 +11,7 @@ use crate::matrix_correction::{
 };
 use crate::modal::DynamicModel;
 use crate::modes::{Modes, solve};
-use crate::outer_loop::{Settings, correlate};
+use crate::outer_loop::correlate;
 use crate::sorting::{cross_orthogonality, matched, pair_modes};
 use crate::torque_box::{PANEL_COUNT, TEST_GAGE};
 use nalgebra::{DMatrix, DVector};
@@ -93,12 +93,14 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
     let model = case.model()?;
-    let settings = Settings {
-        analysis_modes: None,
-        ..case.settings.clone()
-    };
     let ranges = model.factor_ranges()?;
-    let correlation = correlate(|f| model.analyze(f), &test, &ranges, &settings, |_, _| {})?;
+    let correlation = correlate(
+        |f| model.analyze(f),
+        &test,
+        &ranges,
+        &case.settings,
+        |_, _| {},
+    )?;
     let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
@@ -184,12 +186,13 @@ fn with_doublers(gages: &[f64]) -> Vec<f64> {
     doubled
 }
 
-/// Modes as read from a plot: shapes of unit largest component rounded to two digits, then of unit generalized mass.
+/// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
+/// then of unit generalized mass.
 fn as_read(modes: &Modes, mass: &DMatrix<f64>) -> Result<Modes, Error> {
     let mut shapes = modes.shapes.clone();
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
-        shape.apply(|value| *value = (*value / largest * READ_DIGITS).round() / READ_DIGITS);
+        shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
     Modes {
         omega_squared: modes.omega_squared.clone(),

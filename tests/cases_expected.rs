@@ -2,8 +2,9 @@
 
 use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY};
 use approx::assert_relative_eq;
-use corfem::cases::{CASES, Case, CaseResult, run_case};
+use corfem::cases::{CASES, Case, CaseResult, anomalies, run_case};
 use corfem::fit::fit;
+use corfem::step::Range;
 use corfem::torque_box::Reconstruction;
 use toml::Table;
 
@@ -187,4 +188,42 @@ fn same_input_gives_the_same_bytes() {
         corfem::report::json::json(&results, &fit).expect("written")
     };
     assert_eq!(json(), json());
+}
+
+/// Far is twenty widths beyond either bound, and the farthest comes first.
+#[test]
+fn an_anomaly_lies_far_beyond_either_bound() {
+    let range = Range {
+        lower: 0.55,
+        upper: 1.5,
+    };
+    let width = range.upper - range.lower;
+    let (above, below) = (range.upper + 20.0 * width, range.lower - 20.0 * width);
+    let names = ["A", "B", "C", "D", "E"].map(String::from);
+    let factors = [above + 0.1, above - 0.1, below - 0.2, below + 0.2, 1.0];
+    let found = anomalies(&names, &factors, range);
+    let found: Vec<(&str, f64)> = found
+        .iter()
+        .map(|anomaly| (anomaly.parameter.as_str(), anomaly.factor))
+        .collect();
+    assert_eq!(found, [("C", factors[2]), ("A", factors[0])]);
+}
+
+/// Case 4 as the paper ran it is done when its one iteration names an element; run on, it has to correlate, as every
+/// other case has in however few iterations.
+#[test]
+fn one_iteration_is_enough_for_case_4_alone() {
+    let with_iterations = |number: usize, iterations: usize| {
+        let mut case = Case::new(number).expect("a case");
+        case.settings.inner.iterations = iterations;
+        run_case(&case, |_, _| {}).expect("it runs")
+    };
+    assert!(with_iterations(4, 1).succeeded());
+    let longer = with_iterations(4, 2);
+    assert!(!longer.anomalies.is_empty());
+    assert_eq!(longer.succeeded(), longer.correlation.converged);
+    assert!(!longer.succeeded());
+    let shorter = with_iterations(2, 1);
+    assert!(shorter.anomalies.is_empty());
+    assert_eq!(shorter.succeeded(), shorter.correlation.converged);
 }

@@ -1,6 +1,7 @@
 //! What a deck may say and how: sets, two to a card, defaults, ranges, formats.
 
 use crate::common::tolerances::ROUND_OFF;
+use corfem::deck::write::bulk_data;
 use corfem::deck::{self, Reason, Unread};
 use corfem::error::Error;
 
@@ -133,7 +134,7 @@ GRID,9
 GRID,12
 SPC1,1,1,1,THRU,4
 SPC1,1,23,5,,9,,,,+B
-SPC1,1,3,12
+SPC1,1,3,12,THRU,12
 +B,12
 ";
     let model = deck::read("test", deck).expect("it reads").model;
@@ -141,6 +142,34 @@ SPC1,1,3,12
     let x = [true, false, false];
     let yz = [false, true, true];
     assert_eq!(held, [x, x, x, yz, yz, yz]);
+}
+
+#[test]
+fn grdset_holds_where_a_grid_says_nothing() {
+    let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
+    let grids = deck::read("test", deck).expect("it reads").model.grids;
+    assert_eq!(grids[0].held, [false, false, true]);
+    assert_eq!(grids[1].held, [true, false, false]);
+}
+
+#[test]
+fn neighbors_held_alike_are_written_as_a_range_and_one_alone_is_not() {
+    let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
+    let model = deck::read("test", deck).expect("it reads").model;
+    let text = bulk_data(&model, &mut 0).expect("a deck");
+    let held: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|line| line.starts_with("SPC1"))
+        .map(|line| line.split_whitespace().skip(2).collect())
+        .collect();
+    assert_eq!(
+        held,
+        [
+            vec!["12456", "1", "THRU", "2"],
+            vec!["3456", "3"],
+            vec!["456", "4"]
+        ]
+    );
 }
 
 #[test]

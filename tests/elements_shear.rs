@@ -9,6 +9,7 @@ use crate::common::panels::{
 use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
+use approx::assert_relative_eq;
 use corfem::analytical::{
     no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
     sides_14_23_parallel_energy,
@@ -16,7 +17,7 @@ use corfem::analytical::{
 use corfem::elements::panel::{MeanPlane, mean_plane};
 use corfem::elements::shear::{corner_forces, energy_coefficient, shear_panel};
 use corfem::structure::Material;
-use nalgebra::{DVector, Vector3};
+use nalgebra::{DVector, Vector2, Vector3};
 use proptest::prelude::*;
 
 type Corners = [Vector3<f64>; 4];
@@ -162,4 +163,29 @@ fn sides_become_parallel_without_a_jump() {
         "slope {slope}"
     );
     assert!((energy(1e-12) / parallel - 1.0).abs() < ELEMENT_ROUND_OFF);
+}
+
+/// NASTRAN uses the closed form for parallel sides also where they are parallel only nearly, so each of its terms counts.
+#[test]
+fn parallelogram_formula_has_a_term_for_every_side() {
+    let corners = [
+        Vector2::new(0.0, 0.0),
+        Vector2::new(10.0, 0.0),
+        Vector2::new(11.0, 5.0),
+        Vector2::new(2.0, 4.0),
+    ];
+    let plane = MeanPlane {
+        area: 41.0,
+        corners,
+        diagonals: [Vector3::new(11.0, 5.0, 0.0), Vector3::new(-8.0, 4.0, 0.0)],
+    };
+    let material = aluminum();
+    let d = -0.5 * (2.0 / 4.0 + (11.0 - 10.0) / 5.0 + (5.0 - 4.0) / (11.0 - 2.0));
+    let expected = 41.0 / (2.0 * material.shear_modulus)
+        * (1.0 + 2.0 * d * d / (1.0 + material.poissons_ratio));
+    assert_relative_eq!(
+        parallelogram_energy(&plane, &material),
+        expected,
+        max_relative = ROUND_OFF
+    );
 }

@@ -122,3 +122,29 @@ fn pictures_have_letters_without_a_font_of_the_system() {
     let wrong = picture::png("broken", "<svg");
     assert!(matches!(wrong, Err(Error::Drawing { figure, .. }) if figure == "broken"));
 }
+
+#[test]
+fn captions_name_the_papers_figures() {
+    let caption = |name: &str| {
+        let figure = figures().iter().find(|figure| figure.name == name);
+        figure.expect("drawn").caption.as_str()
+    };
+    for (name, number) in [
+        ("box_points", 2),
+        ("box_elements", 3),
+        ("cover_gages", 4),
+        ("case_1_errors", 5),
+        ("case_1_node_lines", 6),
+        ("case_2_errors", 7),
+        ("case_3_errors", 8),
+    ] {
+        assert!(
+            caption(name).contains(&format!("Figure {number})")),
+            "{name}"
+        );
+    }
+    // The paper has node lines of its first case only.
+    for name in ["case_2_node_lines", "case_3_node_lines"] {
+        assert!(!caption(name).contains("Figure"), "{name}");
+    }
+}

@@ -101,3 +101,19 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
         }
     }
 }
+
+/// A group may have panels at both gage bounds, and the factor that takes one bound to the other is allowed.
+#[test]
+fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
+    let mut case = Case::new(3).expect("a case");
+    case.grouping = Grouping::Substructures;
+    let gages = case.gage_range.expect("bounds of the gages");
+    let model = case.model().expect("a model");
+    assert_eq!(model.parameters().len(), 3);
+    for parameter in model.parameters() {
+        let range = parameter.factor_range.expect("bounds of the factor");
+        assert_eq!(range.lower, gages.lower / gages.upper);
+        assert_eq!(range.upper, gages.upper / gages.lower);
+        assert!(range.lower < 1.0 && 1.0 < range.upper);
+    }
+}

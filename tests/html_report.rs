@@ -200,3 +200,20 @@ fn every_link_leads_somewhere_and_every_tag_is_closed() {
     }
     assert!(open.is_empty(), "{open:?}");
 }
+
+#[test]
+fn every_case_is_introduced_by_what_is_wrong_with_it() {
+    let html = html();
+    for heading in [
+        "Case 1: every panel a shear panel, all half as thick again",
+        "Case 2: membrane covers, all panels half as thick again",
+        "Case 3: membrane covers, gages alternating 30 percent above and below",
+        "Case 4: one cover a hundred times too thin by mistake",
+    ] {
+        assert_eq!(
+            html.matches(&format!("<h2>{heading}</h2>")).count(),
+            1,
+            "{heading}"
+        );
+    }
+}

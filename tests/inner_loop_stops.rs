@@ -278,3 +278,19 @@ fn repeated_roots_are_corrected_by_the_rule_that_holds_them() {
         Err(Error::CoalescingModes { .. })
     ));
 }
+
+#[test]
+fn the_tolerance_itself_is_not_within_the_tolerance() {
+    let to = |tolerance: f64| {
+        let settings = InnerSettings {
+            tolerance,
+            iterations: 1,
+            ..InnerSettings::default()
+        };
+        run(&one_spring(), &[1.0], &[None], &settings).unwrap()
+    };
+    let reached = to(1e-9).last.errors.sum();
+    assert!(reached > 1e-9);
+    assert_eq!(to(reached).stop, Stop::Iterations);
+    assert_eq!(to(reached.next_up()).stop, Stop::Tolerance);
+}

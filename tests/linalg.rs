@@ -230,3 +230,14 @@ fn asymmetry_beyond_a_part_in_ten_to_the_eighth_is_refused_by_its_worst_pair() {
         );
     }
 }
+
+#[test]
+fn of_equal_asymmetries_the_first_is_named() {
+    let mut matrix = DMatrix::identity(4, 4);
+    matrix[(2, 0)] = 0.25;
+    matrix[(3, 1)] = 0.25;
+    match check_symmetric("test matrix", &matrix) {
+        Err(Error::NotSymmetric { row, column, .. }) => assert_eq!((row, column), (2, 0)),
+        other => panic!("{other:?}"),
+    }
+}

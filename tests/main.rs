@@ -37,6 +37,7 @@ mod elements_shear;
 mod errata;
 mod fewer_modes;
 mod figures;
+mod figures_axes;
 mod figures_drawing;
 mod figures_planform;
 mod groups;

@@ -199,3 +199,30 @@ fn the_first_pass_is_the_inner_loop_from_the_first_model() {
     assert_eq!(found.passes[0].inner.last.factors, inner.last.factors);
     assert_eq!(found.initial.errors, inner.start);
 }
+
+/// An analysis that knows nothing of the factors: no pass is better than the start, and none better than another.
+#[test]
+fn of_equal_passes_the_first_is_best() {
+    let chain = Chain::uniform(3);
+    let model = chain.model(&[1.0; 3]);
+    let test = chain.modes(&[1.2; 3]);
+    let settings = Settings {
+        least_passes: 2,
+        most_passes: 2,
+        ..Settings::default()
+    };
+    let found = correlate(
+        |_| Ok(model.clone()),
+        &test,
+        &[None; 3],
+        &settings,
+        |_, _| {},
+    )
+    .unwrap();
+    assert_eq!(found.passes.len(), 2);
+    for pass in &found.passes {
+        assert_eq!(pass.check.errors, found.initial.errors);
+        assert_ne!(pass.factors, [1.0; 3]);
+    }
+    assert_eq!(found.best_factors(), [1.0; 3]);
+}

@@ -133,10 +133,8 @@ fn put(path: Option<&Path>, text: &str) -> Result<(), Error> {
         action: "write",
         source,
     };
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
+    // A bare name has an empty parent, which is the present folder.
+    let folder = path.parent().unwrap_or(Path::new(""));
     let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
     file.write_all(text.as_bytes()).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;

@@ -90,10 +90,8 @@ fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
             source,
         }
     };
-    let beside = match folder.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
+    // A bare name has an empty parent, which is the present folder.
+    let beside = folder.parent().unwrap_or(Path::new(""));
     let scratch = tempfile::tempdir_in(beside).map_err(failed(folder))?;
     // The scratch folder is its owner's alone; one made in it has the rights any new folder has.
     let staged = scratch.path().join("staged");

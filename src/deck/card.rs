@@ -125,21 +125,20 @@ impl Card {
         ))
     }
 
-    /// Directions x, y, z named by a list of components such as `123`; 4 to 6, the rotations, are allowed where
-    /// `rotations` is true and have no place in the result.
+    /// Directions x, y, z named by a list of components such as `123`; 4 to 6, the rotations, are allowed and have no place
+    /// in the result.
     ///
     /// # Errors
     /// [`Error::DeckField`] for other characters.
-    pub fn directions(&self, field: usize, rotations: bool) -> Result<[bool; 3], Error> {
+    pub fn directions(&self, field: usize) -> Result<[bool; 3], Error> {
         let mut named = [false; 3];
         for component in self.text(field).chars() {
             match component {
                 '1' => named[0] = true,
                 '2' => named[1] = true,
                 '3' => named[2] = true,
-                '4'..='6' if rotations => {}
-                _ if rotations => return Err(self.error(field, "components from 1 to 6")),
-                _ => return Err(self.error(field, "components from 1 to 3")),
+                '4'..='6' => {}
+                _ => return Err(self.error(field, "components from 1 to 6")),
             }
         }
         Ok(named)

@@ -62,7 +62,7 @@ impl Constraints {
     /// [`Error::DeckField`] for a grid that does not exist.
     pub fn hold(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), Error> {
         for card in &self.holds {
-            let directions = card.directions(3, true)?;
+            let directions = card.directions(3)?;
             if card.text(3).is_empty() {
                 return Err(card.error(3, "components from 1 to 6"));
             }
@@ -89,14 +89,14 @@ impl Constraints {
                     at += 2;
                 }
                 at += 1;
-                let mut found = 0;
+                let mut is_known = false;
                 for (_, grid) in grids.range_mut(first..=last) {
-                    found += 1;
+                    is_known = true;
                     for (held, direction) in grid.held.iter_mut().zip(directions) {
                         *held |= direction;
                     }
                 }
-                if found == 0 {
+                if !is_known {
                     return Err(card.error(field, "the number of a GRID card"));
                 }
             }

@@ -112,16 +112,10 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, Error> {
         let name: String = columns.iter().take(SMALL_FIELD).collect();
         let large = name.trim_end().ends_with('*') || name.starts_with('*');
         let width = if large { LARGE_FIELD } else { SMALL_FIELD };
-        let (data, tag) = columns
-            .get(SMALL_FIELD..)
-            .unwrap_or_default()
-            .split_at_checked(LINE_WIDTH - 2 * SMALL_FIELD)
-            .unwrap_or((columns.get(SMALL_FIELD..).unwrap_or_default(), &[]));
+        // The last columns, which a large field would overrun, are the tag of a continuation: a chunk of their own.
+        let data = columns.get(SMALL_FIELD..).unwrap_or_default();
         let cut = data.chunks(width).map(|field| field.iter().collect());
-        let mut parts: Vec<String> = std::iter::once(name).chain(cut).collect();
-        if !tag.is_empty() {
-            parts.push(tag.iter().collect());
-        }
+        let parts: Vec<String> = std::iter::once(name).chain(cut).collect();
         parts.iter().map(|part| part.trim().to_owned()).collect()
     };
     let first = parts.remove(0);

@@ -68,11 +68,9 @@ impl RibShape {
             slope,
             curvature,
         } = *self;
-        let discriminant = slope * slope + 4.0 * curvature * rear;
-        if discriminant < 0.0 {
-            return Vec::new();
-        }
-        let larger = -0.5 * (slope + slope.signum() * discriminant.sqrt());
+        // Without real roots they are NaN, which lies nowhere between the spars.
+        let root = (slope * slope + 4.0 * curvature * rear).sqrt();
+        let larger = -0.5 * (slope + slope.signum() * root);
         let mut zeros: Vec<f64> = [-larger / curvature, rear / larger]
             .into_iter()
             .filter(|xi| (0.0..=1.0).contains(xi))

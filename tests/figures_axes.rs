@@ -1,0 +1,71 @@
+//! Axes and numbers of the figures on other data than the four cases': what holds them, and how they are written.
+
+use crate::figures::results;
+use corfem::cases::Case;
+use corfem::figures::cover_gages::cover_gages;
+use corfem::figures::error_history::error_history;
+use corfem::figures::unlimited_factors::unlimited_factors;
+
+/// Everything written in a drawing, in its order.
+fn words(svg: &str) -> Vec<String> {
+    let document = svg.split("<text").skip(1).map(|text| {
+        let text = text.split_once('>').expect("a start tag").1;
+        let text = text.split_once("</text>").expect("its end").0;
+        text.trim().to_owned()
+    });
+    document.collect()
+}
+
+#[test]
+fn thin_gages_are_written_with_the_decimals_they_need() {
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
+    let words = words(&cover_gages(&cases).draw().expect("drawn"));
+    // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
+    assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
+    assert!(words.iter().any(|word| word == "0.010"));
+    assert!(!words.iter().any(|word| word == "0.0100" || word == "0.000"));
+}
+
+#[test]
+fn error_axis_ends_at_the_ticks_around_the_errors() {
+    let mut history = error_history(&results()[0]);
+    let ticks = |history: &corfem::figures::error_history::ErrorHistory| -> Vec<f64> {
+        let words = words(&history.draw().expect("drawn"));
+        // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
+        let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
+        numbers
+            .filter(|number| [0.1, 0.2, 0.5, 50.0, 100.0].contains(number))
+            .collect()
+    };
+    assert!(ticks(&history).contains(&100.0));
+    for pass in &mut history.passes {
+        for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
+            moment.errors.frequency *= 0.2;
+            moment.errors.shape *= 0.2;
+        }
+    }
+    let found = ticks(&history);
+    assert!(!found.contains(&100.0), "{found:?}");
+    assert!(found.contains(&0.5), "{found:?}");
+}
+
+#[test]
+fn factor_axis_leaves_room_for_the_numbers() {
+    let mut figure = unlimited_factors(&results()[3]);
+    let lowest = |figure: &corfem::figures::unlimited_factors::UnlimitedFactors| {
+        let words = words(&figure.draw().expect("drawn"));
+        let labels = words
+            .iter()
+            .filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
+        // Labels of the axis are whole tens; a factor has a decimal.
+        labels
+            .filter(|label| label % 10.0 == 0.0)
+            .fold(0.0, f64::min)
+    };
+    figure.factors[0].computed = -9.9;
+    assert_eq!(lowest(&figure), -20.0);
+    figure.factors[0].computed = -5.0;
+    assert_eq!(lowest(&figure), -10.0);
+}
