@@ -27,6 +27,11 @@ fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) 
     }
 }
 
+/// A text as it stands in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('>', "&#62;").replace('\'', "&#39;")
+}
+
 fn html() -> String {
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
     page(&contents(results(), &fit, figures())).expect("a page")
@@ -68,7 +73,7 @@ fn page_holds_every_table_number_by_number() {
     tables.extend(comparison_tables());
     for table in tables {
         assert_eq!(
-            html.matches(&format!("<caption>{}</caption>", table.title))
+            html.matches(&format!("<caption>{}</caption>", escaped(&table.title)))
                 .count(),
             1,
             "{}",
@@ -119,10 +124,7 @@ fn page_holds_every_table_number_by_number() {
         }
         for note in &table.notes {
             assert!(
-                html.contains(&format!(
-                    "<p class=\"note\">{}</p>",
-                    note.replace('>', "&#62;")
-                )),
+                html.contains(&format!("<p class=\"note\">{}</p>", escaped(note))),
                 "{note}"
             );
         }
@@ -195,7 +197,7 @@ fn page_needs_nothing_beside_it() {
             "{}",
             figure.name
         );
-        let caption = figure.caption.replace('\'', "&#39;");
+        let caption = escaped(&figure.caption);
         assert!(
             html.contains(&format!("<figcaption>{caption}</figcaption>")),
             "{caption}"

@@ -34,6 +34,7 @@ mod elements;
 mod elements_membrane;
 mod elements_nastran95;
 mod elements_shear;
+mod equations;
 mod errata;
 mod errata_tables;
 mod fewer_modes;
