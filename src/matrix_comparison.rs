@@ -17,6 +17,11 @@ use crate::torque_box::{PANEL_COUNT, TEST_GAGE};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
+/// The case compared unless another is asked for: every panel is wrong by as much, so that a corrected stiffness
+/// can be judged entry by entry.
+pub const USUAL_CASE: usize = 2;
+/// Test modes given to the corrections unless another number is asked for: about half, so that there are others to predict.
+pub const USUAL_TEST_MODES: usize = 5;
 /// Covers of the box.
 pub const COVERS: [usize; 6] = [2, 4, 8, 9, 11, 15];
 /// Name of the prediction that is right by definition.

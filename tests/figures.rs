@@ -3,22 +3,19 @@
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::cases::{CASES, Case, CaseResult, run_case};
-use corfem::figures::box_elements::{Layer, box_elements};
-use corfem::figures::box_points::box_points;
-use corfem::figures::cover_gages::cover_gages;
+use corfem::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::figures::derivative_map::derivative_map;
 use corfem::figures::error_history::error_history;
 use corfem::figures::gage_errors::gage_errors;
 use corfem::figures::mode_agreement::mode_agreement;
 use corfem::figures::node_lines::node_lines;
 use corfem::figures::unlimited_factors::unlimited_factors;
-use corfem::figures::{Figure, all_figures};
-use corfem::published::PublishedTable;
+use corfem::figures::{Figure, all_figures, comparison_figures};
+use corfem::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::report::correlation_tables::{frequency_table, gage_table};
 use corfem::report::run_tables::{factor_table, iteration_table};
 use corfem::report::table::{Cell, Table};
 use corfem::structure::ElementKind;
-use nalgebra::DVector;
 use std::sync::OnceLock;
 
 /// The four cases, run once for all tests of figures.
@@ -31,10 +28,33 @@ pub fn results() -> &'static [CaseResult] {
     })
 }
 
-/// The figures of the four cases, drawn once.
+/// The runs with fewer modes, run once.
+pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
+    static RUNS: OnceLock<Vec<FewerModesRun>> = OnceLock::new();
+    RUNS.get_or_init(|| all_runs(&Case::new(PUBLISHED_CASE).expect("a case")).expect("they run"))
+}
+
+/// Corrections by elements and by matrices, compared once.
+pub fn comparison() -> &'static MatrixComparison {
+    static COMPARISON: OnceLock<MatrixComparison> = OnceLock::new();
+    COMPARISON.get_or_init(|| {
+        let case = Case::new(USUAL_CASE).expect("a case");
+        compare_matrices(&case, USUAL_TEST_MODES).expect("it runs")
+    })
+}
+
+/// Every figure, drawn anew.
+pub fn draw_all() -> Vec<Figure> {
+    let mut figures = all_figures(results()).expect("drawn");
+    let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
+    figures.extend(compared.expect("drawn"));
+    figures
+}
+
+/// Every figure, drawn once.
 pub fn figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
-    FIGURES.get_or_init(|| all_figures(results()).expect("drawn"))
+    FIGURES.get_or_init(draw_all)
 }
 
 fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>) {
@@ -49,112 +69,6 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
         } => (computed, published),
         _ => panic!("no number in row {}, column {column}", row.label),
     }
-}
-
-#[test]
-fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
-    let case = &results()[0].case;
-    let data = box_points(case).expect("a box");
-    let numbers: Vec<usize> = data.structural.iter().map(|point| point.grid).collect();
-    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
-    for point in &data.structural {
-        assert_eq!(point.fixed, point.grid >= 13);
-        let position: [f64; 3] = point.position.into();
-        assert_eq!(position, case.reconstruction.grids[&point.grid]);
-    }
-    assert_eq!(
-        data.edges.len(),
-        28,
-        "24 edges that rods run along, and four in the root"
-    );
-    assert!(data.edges.iter().all(|[from, to]| from < to));
-    // A rigid tilt of the structure moves each dynamic point as the plane through it says.
-    let model = case.model().expect("a model");
-    for (a, b, c) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)] {
-        let motion = model.structure().free_dof().iter().map(|dof| {
-            let [x, y, z] = case.reconstruction.grids[&dof.grid];
-            [b * z, -a * z, a * y - b * x + c][dof.direction]
-        });
-        let structural = DVector::from_iterator(36, motion);
-        let dynamic = model.load_distribution().tr_mul(&structural);
-        assert_eq!((dynamic.len(), data.dynamic.len()), (9, 9));
-        for (moved, point) in dynamic.iter().zip(&data.dynamic) {
-            assert_eq!(point.z, 0.0);
-            let plane = a * point.y - b * point.x + c;
-            assert!(
-                (moved - plane).abs() < MATRIX_ROUND_OFF * 40.0,
-                "{moved} for {plane}"
-            );
-        }
-    }
-}
-
-#[test]
-fn box_elements_are_the_models_in_three_layers() {
-    let case = &results()[1].case;
-    let data = box_elements(case).expect("a box");
-    let model = case.model().expect("a model");
-    assert_eq!(data.elements.len(), 39);
-    for (drawn, element) in data.elements.iter().zip(model.structure().elements()) {
-        assert_eq!((drawn.label, drawn.kind), (element.label, element.kind));
-        assert_eq!(drawn.corners, model.structure().corners(element));
-    }
-    let on = |layer| {
-        let here = data
-            .elements
-            .iter()
-            .filter(move |drawn| drawn.layer == layer);
-        here.map(|drawn| drawn.label).collect::<Vec<_>>()
-    };
-    assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
-    assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);
-    assert_eq!(on(Layer::Webs)[..9], [1, 3, 5, 6, 7, 10, 12, 13, 14]);
-    // Nine caps above, nine below, six posts between.
-    let counts = [Layer::Upper, Layer::Lower, Layer::Webs].map(|layer| on(layer).len());
-    assert_eq!(counts, [3 + 9, 3 + 9, 9 + 6]);
-}
-
-#[test]
-fn cover_gages_are_those_of_table_2() {
-    let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
-    let data = cover_gages(&cases);
-    let table = PublishedTable::number(2).expect("it reads");
-    let names: Vec<&str> = data
-        .configurations
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
-    assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
-    for (number, configuration) in data.configurations.iter().enumerate() {
-        let labels: Vec<usize> = configuration
-            .covers
-            .iter()
-            .map(|cover| cover.label)
-            .collect();
-        assert_eq!(labels, [2, 4, 8, 9, 11, 15]);
-        for cover in &configuration.covers {
-            assert_eq!(cover.upper, [4, 9, 15].contains(&cover.label));
-            assert_eq!(cover.corners.len(), 4);
-            let row = cover.label.to_string();
-            if number == 0 {
-                assert_eq!((cover.gage, cover.kind), (0.010, None));
-                continue;
-            }
-            let printed = table
-                .required(&row, &format!("gage_{number}"))
-                .expect("printed");
-            assert_eq!(cover.gage, printed);
-            let kind = match table.text(&row, &format!("type_{number}")) {
-                Some("S") => ElementKind::ShearPanel,
-                _ => ElementKind::Membrane,
-            };
-            assert_eq!(cover.kind, Some(kind));
-            let [x, y, _] =
-                cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
-            assert_eq!(cover.corners[0], [x, y]);
-        }
-    }
-    assert!(cover_gages(&[]).configurations.is_empty());
 }
 
 #[test]

@@ -64,6 +64,9 @@ fn factor_axis_leaves_room_for_the_numbers() {
             .filter(|label| label % 10.0 == 0.0)
             .fold(0.0, f64::min)
     };
+    for factor in &mut figure.factors {
+        (factor.computed, factor.published) = (1.0, None);
+    }
     figure.factors[0].computed = -9.9;
     assert_eq!(lowest(&figure), -20.0);
     figure.factors[0].computed = -5.0;

@@ -1,27 +1,79 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
-use crate::figures::{figures, results};
-use corfem::fit::fit;
-use corfem::html_report::{page, summary};
+use crate::figures::{comparison, fewer_modes_runs, figures, results};
+use corfem::cases::{Case, CaseResult};
+use corfem::fewer_modes::{PUBLISHED_CASE, published_runs};
+use corfem::figures::Figure;
+use corfem::fit::{Fit, fit};
+use corfem::html_report::{Contents, page, summary};
+use corfem::matrix_comparison::USUAL_CASE;
 use corfem::report::correlation_tables::frequency_table;
+use corfem::report::fewer_modes_tables::fewer_modes_tables;
+use corfem::report::matrix_tables::matrix_tables;
 use corfem::report::run_tables::all_tables;
-use corfem::report::table::Cell;
+use corfem::report::table::{Cell, Table};
 use corfem::torque_box::Reconstruction;
 
 const COMMAND: &str = "corfem report --out <somewhere>";
 
+fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) -> Contents<'a> {
+    Contents {
+        results,
+        fit,
+        fewer_modes: fewer_modes_runs(),
+        matrices: comparison(),
+        figures,
+        command: COMMAND,
+    }
+}
+
+/// A text as it stands in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('>', "&#62;").replace('\'', "&#39;")
+}
+
 fn html() -> String {
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    page(results(), &fit, figures(), COMMAND).expect("a page")
+    page(&contents(results(), &fit, figures())).expect("a page")
+}
+
+/// Tables 9 to 12, and what corrections know; what is left out the figures have.
+fn comparison_tables() -> Vec<Table> {
+    let case = Case::new(PUBLISHED_CASE).expect("a case");
+    let runs = published_runs(&case).expect("they run");
+    let mut tables = fewer_modes_tables(&case, &runs, fewer_modes_runs()).expect("it reads");
+    let corrected = Case::new(USUAL_CASE).expect("a case");
+    tables.extend(matrix_tables(&corrected, comparison()));
+    tables.retain(|table| !table.name.contains("_change_") || table.name.contains("after"));
+    tables.retain(|table| !table.name.starts_with("truncation"));
+    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "table_9",
+            "table_9_exact",
+            "table_10",
+            "table_11",
+            "table_12",
+            "fewer_modes_iterations",
+            "matrix_frequencies_as_tested",
+            "matrix_frequencies_after_a_change",
+            "matrix_distance",
+            "matrix_factors"
+        ]
+    );
+    tables
 }
 
 #[test]
 fn page_holds_every_table_number_by_number() {
     let html = html();
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    for table in all_tables(results(), &fit).expect("it reads") {
+    let mut tables = all_tables(results(), &fit).expect("it reads");
+    tables.extend(comparison_tables());
+    for table in tables {
         assert_eq!(
-            html.matches(&format!("<caption>{}</caption>", table.title))
+            html.matches(&format!("<caption>{}</caption>", escaped(&table.title)))
                 .count(),
             1,
             "{}",
@@ -72,10 +124,7 @@ fn page_holds_every_table_number_by_number() {
         }
         for note in &table.notes {
             assert!(
-                html.contains(&format!(
-                    "<p class=\"note\">{}</p>",
-                    note.replace('>', "&#62;")
-                )),
+                html.contains(&format!("<p class=\"note\">{}</p>", escaped(note))),
                 "{note}"
             );
         }
@@ -124,7 +173,7 @@ fn summary_says_so_when_a_case_does_not_converge() {
         Cell::Text("not converged".to_owned())
     );
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    let html = page(&[result], &fit, &[], COMMAND).expect("a page");
+    let html = page(&contents(&[result], &fit, &[])).expect("a page");
     assert!(html.contains("did not converge within its limits"));
     assert!(!html.contains("Every case did what was asked"));
 }
@@ -148,7 +197,7 @@ fn page_needs_nothing_beside_it() {
             "{}",
             figure.name
         );
-        let caption = figure.caption.replace('\'', "&#39;");
+        let caption = escaped(&figure.caption);
         assert!(
             html.contains(&format!("<figcaption>{caption}</figcaption>")),
             "{caption}"

@@ -1,7 +1,7 @@
 //! Changes of mass: element and point masses, their derivatives, and correlation by mass or by both.
 
 use crate::common::log_log_slope;
-use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::assembly::{FactorizedStiffness, element_matrices};
 use corfem::cases::Case;
@@ -12,17 +12,16 @@ use corfem::error::Error;
 use corfem::modal::{ModalProblem, Share};
 use corfem::model::FiniteElementModel;
 use corfem::modes::{Modes, solve};
-use corfem::outer_loop::{Settings, correlate};
 use corfem::parameters::{Parameter, Scaled};
 use corfem::perturbation::UpdateRule;
 use corfem::structure::Structure;
 use nalgebra::DMatrix;
 
 /// Aluminum, lbf·s²/in⁴.
-const DENSITY: f64 = 2.5e-4;
+pub const DENSITY: f64 = 2.5e-4;
 
 /// The box of Case 2 at its test gages, its panels with a density, given parameters and point mass factors.
-fn boxed(
+pub fn boxed(
     parameters: Vec<Parameter>,
     density: f64,
     point_factors: [f64; 9],
@@ -46,7 +45,7 @@ fn boxed(
     )
 }
 
-fn point_masses() -> Vec<Parameter> {
+pub fn point_masses() -> Vec<Parameter> {
     (0..9)
         .map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass(vec![dof])))
         .collect()
@@ -58,7 +57,7 @@ fn element_masses() -> Vec<Parameter> {
         .collect()
 }
 
-fn modes(model: &FiniteElementModel) -> Modes {
+pub fn modes(model: &FiniteElementModel) -> Modes {
     let dynamic = model
         .analyze(&vec![1.0; model.parameters().len()])
         .expect("held");
@@ -159,7 +158,7 @@ fn unit_mass_share_is_symmetric_and_semidefinite() {
 }
 
 /// The box with point masses off by up to 30 %, stiffness of panels and masses as parameters.
-fn both() -> (FiniteElementModel, Modes) {
+pub fn both() -> (FiniteElementModel, Modes) {
     let truth = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
     let parameters = (1..=15)
@@ -267,161 +266,4 @@ fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
         exact.errors.sum(),
         max_relative = 1e4 * MATRIX_ROUND_OFF
     );
-}
-
-#[test]
-fn wrong_point_masses_are_found() {
-    let truth = boxed(point_masses(), 1e-12, [1.0; 9]).expect("a model");
-    let wrong = [1.2, 0.85, 1.15, 0.8, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let model = boxed(point_masses(), 1e-12, wrong).expect("a model");
-    let mut settings = Settings {
-        least_passes: 2,
-        ..Settings::default()
-    };
-    settings.inner.tolerance = 0.002;
-    settings.later_inner_tolerance = 0.002;
-    let ranges = model.factor_ranges().expect("no bounds");
-    let result = correlate(
-        |f| model.analyze(f),
-        &modes(&truth),
-        &ranges,
-        &settings,
-        |_, _| {},
-    )
-    .expect("it runs");
-    assert!(result.converged);
-    let last = result.passes.last().expect("a pass");
-    for (dof, (factor, wrong)) in last.factors.iter().zip(wrong).enumerate() {
-        // The tip's front mass of 0.0001 is a hundredth of its neighbors and hardly felt: 10 %.
-        let bar = if dof == 2 { 0.1 } else { 0.02 };
-        assert!(
-            (factor * wrong - 1.0).abs() < bar,
-            "mass {dof}: {}",
-            factor * wrong
-        );
-    }
-}
-
-#[test]
-fn stiffness_and_mass_change_together() {
-    let (model, test) = both();
-    let ranges = model.factor_ranges().expect("no bounds");
-    let settings = Settings::default();
-    let result =
-        correlate(|f| model.analyze(f), &test, &ranges, &settings, |_, _| {}).expect("it runs");
-    assert!(
-        result.converged,
-        "{:?}",
-        result.passes.last().expect("a pass").check.errors
-    );
-    // Stiffness and mass scaled alike leave every mode alone, so the factors themselves need not be the true ones.
-    let last = result.passes.last().expect("a pass");
-    assert!(last.factors[..15].iter().any(|f| (f - 1.0).abs() > 0.01));
-    assert!(last.factors[15..].iter().any(|f| (f - 1.0).abs() > 0.01));
-}
-
-#[test]
-fn mass_limits_hold() {
-    let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let range = corfem::step::Range::positive("factor", 0.9, 1.1).expect("a range");
-    let parameters = point_masses()
-        .into_iter()
-        .map(|p| Parameter {
-            factor_range: Some(range),
-            ..p
-        })
-        .collect();
-    let model = boxed(parameters, DENSITY, wrong).expect("a model");
-    let truth = modes(&boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model"));
-    let ranges = model.factor_ranges().expect("bounds");
-    let settings = Settings {
-        most_passes: 2,
-        ..Settings::default()
-    };
-    let result =
-        correlate(|f| model.analyze(f), &truth, &ranges, &settings, |_, _| {}).expect("it runs");
-    for pass in &result.passes {
-        assert!(
-            pass.factors
-                .iter()
-                .all(|factor| (0.9 - ROUND_OFF..=1.1 + ROUND_OFF).contains(factor))
-        );
-    }
-    let held = result
-        .passes
-        .iter()
-        .flat_map(|pass| &pass.factors)
-        .any(|f| (f - 0.9).abs() < ROUND_OFF || (f - 1.1).abs() < ROUND_OFF);
-    assert!(held, "some limit was reached");
-}
-
-#[test]
-fn bad_mass_parameters_name_the_offender() {
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::PointMass(vec![9]))],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(
-        matches!(unknown, Err(Error::UnknownDynamicDof { found: 9, count: 9, ref parameter }) if parameter == "far")
-    );
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::ElementMass(vec![40]))],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(
-        matches!(unknown, Err(Error::UnknownElement { element: 40, ref parameter }) if parameter == "far")
-    );
-    let twice = vec![
-        Parameter::of("a", Scaled::PointMass(vec![3])),
-        Parameter::of("b", Scaled::PointMass(vec![4, 3])),
-    ];
-    let shared = boxed(twice, DENSITY, [1.0; 9]);
-    assert!(
-        matches!(shared, Err(Error::SharedElement { element: 3, ref first, ref second }) if first == "a" && second == "b")
-    );
-    // The same element may have its stiffness in one parameter and its mass in another.
-    let both = vec![
-        Parameter::element(3, None),
-        Parameter::of("mass of 3", Scaled::ElementMass(vec![3])),
-    ];
-    assert!(boxed(both, DENSITY, [1.0; 9]).is_ok());
-    let empty = boxed(
-        vec![Parameter::of("none", Scaled::PointMass(vec![]))],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(matches!(
-        empty,
-        Err(Error::Empty {
-            what: "members of a parameter"
-        })
-    ));
-    assert!(matches!(
-        boxed(vec![], DENSITY, [1.0; 9]),
-        Err(Error::Empty { what: "parameters" })
-    ));
-    assert!(matches!(
-        boxed(point_masses(), -1.0, [1.0; 9]),
-        Err(Error::NotPositive {
-            what: "density",
-            ..
-        })
-    ));
-}
-
-#[test]
-fn point_mass_coupled_to_others_cannot_be_scaled() {
-    let model = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
-    let mut mass = model.mass().clone();
-    mass[(4, 6)] = 0.001;
-    mass[(6, 4)] = 0.001;
-    let parameters = |dof| vec![Parameter::of("p", Scaled::PointMass(vec![dof]))];
-    let make = |dof| {
-        let t = model.load_distribution().clone();
-        FiniteElementModel::new(model.structure().clone(), t, mass.clone(), parameters(dof))
-    };
-    assert!(matches!(make(6), Err(Error::CoupledMass { dof: 6 })));
-    assert!(make(5).is_ok());
 }

@@ -1,28 +1,22 @@
 //! Why elements and not matrices: the comparison's numbers by other routes, and what they show.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{
-    CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF,
-};
+use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
 use corfem::error::Error;
 use corfem::matrix_comparison::{
-    COVER_DOUBLER, COVERS, MatrixComparison, Prediction, compare_matrices,
+    COVER_DOUBLER, COVERS, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
 };
-use corfem::matrix_correction::{baruch_stiffness, weighted_norm};
+use corfem::matrix_correction::baruch_stiffness;
 use corfem::modal::DynamicModel;
 use corfem::modes::solve;
-use corfem::report::matrix_tables::matrix_tables;
-use corfem::report::render::{csv, render_tables};
-use nalgebra::DMatrix;
 
-const TEST_MODES: usize = 5;
+pub const TEST_MODES: usize = USUAL_TEST_MODES;
 
-fn compared(case: usize) -> MatrixComparison {
+pub fn compared(case: usize) -> MatrixComparison {
     compare_matrices(&Case::new(case).expect("a case"), TEST_MODES).expect("it runs")
 }
 
-fn model(case: usize, gages: &[f64]) -> DynamicModel {
+pub fn model(case: usize, gages: &[f64]) -> DynamicModel {
     let case = Case::new(case).expect("a case");
     case.model_with(gages)
         .expect("a model")
@@ -30,7 +24,7 @@ fn model(case: usize, gages: &[f64]) -> DynamicModel {
         .expect("analyzed")
 }
 
-fn by_name<'a>(comparison: &'a MatrixComparison, name: &str) -> &'a Prediction {
+pub fn by_name<'a>(comparison: &'a MatrixComparison, name: &str) -> &'a Prediction {
     comparison
         .predictions
         .iter()
@@ -45,7 +39,7 @@ fn largest(errors: &[f64]) -> f64 {
 }
 
 /// Gages that factors on the first ones give, with doublers on the covers or without.
-fn gages(case: usize, factors: &[f64], doublers: bool) -> Vec<f64> {
+pub fn gages(case: usize, factors: &[f64], doublers: bool) -> Vec<f64> {
     let first = Case::new(case).expect("a case").first_gages();
     let mut gages: Vec<f64> = first
         .iter()
@@ -233,60 +227,6 @@ fn reading_errors_become_coupled_masses() {
 }
 
 #[test]
-fn nearest_factors_leave_the_least() {
-    for case in 1..=3 {
-        let comparison = compared(case);
-        let first = model(case, &gages(case, &[1.0; 15], false));
-        let test = Case::new(case)
-            .unwrap()
-            .test_modes()
-            .unwrap()
-            .lowest(TEST_MODES)
-            .unwrap();
-        let corrected = baruch_stiffness(&first.stiffness, &first.mass, &test).unwrap();
-        let change: DMatrix<f64> = corrected - &first.stiffness;
-        let left = |factors: &[f64]| {
-            let made = first.shares.iter().zip(factors);
-            let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share.matrix()).sum();
-            weighted_norm(&(&change - made), &first.mass).unwrap()
-                / weighted_norm(&change, &first.mass).unwrap()
-        };
-        let nearest: Vec<f64> = comparison
-            .factors
-            .iter()
-            .map(|f| f.nearest_to_baruch)
-            .collect();
-        let least = left(&nearest);
-        let beyond = by_name(&comparison, "Baruch").beyond_elements;
-        assert!(
-            (least - beyond).abs() <= CORRECTION_ROUND_OFF,
-            "{least} {beyond}"
-        );
-        for element in 0..15 {
-            for step in [-0.01, 0.01] {
-                let mut other = nearest.clone();
-                other[element] += step;
-                assert!(left(&other) > least);
-            }
-        }
-        // What elements did change can be made of elements, but for the new B; what matrices did cannot.
-        assert!(by_name(&comparison, "Truth").beyond_elements < 0.006);
-        assert!(by_name(&comparison, "Element factors").beyond_elements < 0.006);
-        assert!(beyond > 0.1, "{beyond}");
-    }
-}
-
-#[test]
-fn like_covers_share_a_change_equally() {
-    // Upper and lower covers of Case 2 have one share between them at its start.
-    let comparison = compared(2);
-    for (upper, lower) in [(2, 15), (4, 8), (9, 11)] {
-        let factor = |element: usize| comparison.factors[element - 1].nearest_to_baruch;
-        assert!((factor(upper) - factor(lower)).abs() < CORRECTION_ROUND_OFF);
-    }
-}
-
-#[test]
 fn as_many_modes_as_points_give_baruch_the_truth() {
     let comparison = compare_matrices(&Case::new(2).unwrap(), 9).unwrap();
     let baruch = by_name(&comparison, "Baruch");
@@ -311,58 +251,4 @@ fn numbers_of_test_modes_out_of_range_are_errors() {
             requested: 10
         })
     ));
-}
-
-#[test]
-fn comparison_as_numbers() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
-    let rounded = Numbers {
-        relative: 0.0,
-        absolute: 0.0,
-        last_digit: true,
-    };
-    for case in 1..=3 {
-        let tables = matrix_tables(&Case::new(case).unwrap(), &compared(case));
-        let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
-        assert_eq!(
-            names,
-            [
-                "matrix_frequencies_as_tested",
-                "matrix_frequencies_after_a_change",
-                "matrix_distance",
-                "stiffness_change_truth",
-                "stiffness_change_element_factors",
-                "stiffness_change_baruch",
-                "stiffness_change_berman_and_nagy",
-                "mass_change_berman_and_nagy",
-                "matrix_factors"
-            ]
-        );
-        assert_golden(
-            &format!("matrices_case_{case}"),
-            &csv(&tables).unwrap(),
-            numbers,
-        );
-        if case == 2 {
-            assert_golden("matrices_text", &render_tables(&tables, false), rounded);
-        }
-    }
-    let all = compare_matrices(&Case::new(2).unwrap(), 9).unwrap();
-    let tables = matrix_tables(&Case::new(2).unwrap(), &all);
-    let labels = |table: usize| {
-        tables[table]
-            .rows
-            .iter()
-            .map(|row| row.label.as_str())
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(
-        labels(0).last(),
-        Some(&"RMS test modes"),
-        "there are no others"
-    );
 }

@@ -5,11 +5,15 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
 use crate::nastran95_analysis::disordered;
-use corfem::cases::{Case, run_case, run_case_with};
+use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::deck::BulkData;
 use corfem::error::Error;
+use corfem::fit::fit;
 use corfem::modal::Share;
 use corfem::model::FiniteElementModel;
+use corfem::report::json::json;
+use corfem::report::render::render;
+use corfem::report::run_tables::all_tables;
 use nalgebra::DMatrix;
 
 #[test]
@@ -166,7 +170,7 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         Ok(dynamic)
     };
     let own = run_case(&case, |_, _| ()).expect("a run");
-    let other = run_case_with(&case, stiffer, |_, _| ()).expect("a run");
+    let other = run_case_with(&case, "a stiffer box", stiffer, |_, _| ()).expect("a run");
     for (a, b) in [
         (&own.test, &other.test),
         (
@@ -177,6 +181,24 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         let doubled = b.omega_squared.map(|root| root / 4.0);
         approx::assert_relative_eq!(doubled, a.omega_squared, max_relative = GOLDEN_RELATIVE);
     }
+    // The report says whose analysis it is, and nothing of the crate's own.
+    let fit = fit(&case.reconstruction).expect("solved");
+    let report = |run: &CaseResult| {
+        let run = std::slice::from_ref(run);
+        let tables = all_tables(run, &fit).expect("it reads");
+        [
+            render(&tables, false),
+            render(&tables, true),
+            json(run, &fit).expect("written"),
+        ]
+    };
+    for (own, other) in report(&own)[..2].iter().zip(&report(&other)) {
+        let says = "\nFinite element analyses by a stiffer box, of the test configuration too;";
+        assert_eq!(other.matches(says).count(), 1, "{other}");
+        assert!(!own.contains("analyses by"), "{own}");
+    }
+    assert!(report(&own)[2].contains("\"solver\": \"built-in\""));
+    assert!(report(&other)[2].contains("\"solver\": \"a stiffer box\""));
     for (a, b) in own.pass_gages[1].iter().zip(&other.pass_gages[1]) {
         approx::assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
     }

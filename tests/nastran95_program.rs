@@ -8,7 +8,7 @@ use corfem::cases::{Case, run_case_with};
 use corfem::deck::{self, BulkData, Task};
 use corfem::model::FiniteElementModel;
 use corfem::modes::solve;
-use corfem::nastran95::{Nastran95, default_folder};
+use corfem::nastran95::{NAME, Nastran95, default_folder};
 use corfem::torque_box::{PANEL_COUNT, dynamic_points};
 use nalgebra::DMatrix;
 use std::io::Write;
@@ -63,6 +63,7 @@ fn nastran_answers_as_stored() {
     let case = Case::new(2).expect("a case");
     let run = run_case_with(
         &case,
+        NAME,
         |model, factors| nastran.analyze(model, factors),
         |_, _| (),
     )

@@ -205,7 +205,7 @@ fn the_first_pass_is_the_inner_loop_from_the_first_model() {
 fn of_equal_passes_the_first_is_best() {
     let chain = Chain::uniform(3);
     let model = chain.model(&[1.0; 3]);
-    let test = chain.modes(&[1.2; 3]);
+    let test = chain.modes(&[1.3, 0.8, 1.1]);
     let settings = Settings {
         least_passes: 2,
         most_passes: 2,

@@ -2,7 +2,7 @@
 
 mod run;
 
-pub use run::{Anomaly, CaseResult, anomalies, run_case, run_case_with};
+pub use run::{Anomaly, BUILT_IN, CaseResult, anomalies, run_case, run_case_with};
 
 use crate::error::Error;
 use crate::inner_loop::InnerSettings;

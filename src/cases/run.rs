@@ -15,6 +15,9 @@ use crate::torque_box::PANEL_COUNT;
 /// elements reach 9 widths, its faulty one 60.
 const ANOMALY_WIDTHS: f64 = 20.0;
 
+/// The finite element analysis of a run unless another is given: the crate's own elements.
+pub const BUILT_IN: &str = "built-in";
+
 /// An element whose unlimited factor cannot be meant: a modeling error, in all likelihood.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anomaly {
@@ -29,6 +32,8 @@ pub struct Anomaly {
 pub struct CaseResult {
     /// The case.
     pub case: Case,
+    /// What did the finite element analyses: [`BUILT_IN`] or another program.
+    pub solver: &'static str,
     /// Its test modes.
     pub test: Modes,
     /// Its whole history.
@@ -66,17 +71,18 @@ impl CaseResult {
 /// # Errors
 /// Those of the model, the analysis and the loops.
 pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
-    run_case_with(case, FiniteElementModel::analyze, progress)
+    run_case_with(case, BUILT_IN, FiniteElementModel::analyze, progress)
 }
 
-/// Correlates a case with another finite element analysis than the crate's own: `analyze` is given the model and the
-/// factors on its parameters. The test modes come from it too, as in the paper, so that what is peculiar to an
+/// Correlates a case with another finite element analysis than the crate's own: `solver` is its name for the report,
+/// `analyze` is given the model and the factors on its parameters. The test modes come from it too, as in the paper, so that what is peculiar to an
 /// element is the same on both sides.
 ///
 /// # Errors
 /// Those of `analyze` and of [`run_case`].
 pub fn run_case_with(
     case: &Case,
+    solver: &'static str,
     mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
     progress: impl FnMut(usize, &Pass),
 ) -> Result<CaseResult, Error> {
@@ -104,6 +110,7 @@ pub fn run_case_with(
     });
     Ok(CaseResult {
         case: case.clone(),
+        solver,
         test,
         correlation,
         parameter_names,

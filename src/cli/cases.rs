@@ -2,12 +2,12 @@
 
 use super::{FormatArgument, put, reconstruction};
 use clap::{Args, ValueEnum};
-use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
+use corfem::cases::{BUILT_IN, CASES, Case, CaseResult, Grouping, run_case_with};
 use corfem::error::Error;
 use corfem::fit::{Fit, fit};
 use corfem::modal::DynamicModel;
 use corfem::model::FiniteElementModel;
-use corfem::nastran95::{Nastran95, default_folder};
+use corfem::nastran95::{NAME, Nastran95, default_folder};
 use corfem::report::run_tables::all_tables;
 use corfem::report::{Format, json, render};
 use std::path::PathBuf;
@@ -84,7 +84,8 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        results.push(run_case_with(&case, analyze, |pass, done| {
+        let name = solver.as_ref().map_or(BUILT_IN, |_| NAME);
+        results.push(run_case_with(&case, name, analyze, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
                     "case {number}, pass {pass}: {} iterations, error sum {:.4} by perturbation, {:.4} exact",

@@ -4,7 +4,7 @@ use super::{FormatArgument, put};
 use clap::Args;
 use corfem::cases::Case;
 use corfem::error::Error;
-use corfem::fewer_modes::{all_runs, published_runs};
+use corfem::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
 use corfem::report::fewer_modes_tables::fewer_modes_tables;
 use corfem::report::{Format, json, render};
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ pub struct FewerModesArguments {
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
 pub fn fewer_modes(arguments: &FewerModesArguments) -> Result<bool, Error> {
-    let case = Case::new(2)?;
+    let case = Case::new(PUBLISHED_CASE)?;
     let runs = all_runs(&case)?;
     let tables = fewer_modes_tables(&case, &published_runs(&case)?, &runs)?;
     let report = match arguments.format.into() {

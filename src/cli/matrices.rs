@@ -4,7 +4,7 @@ use super::{FormatArgument, put};
 use clap::Args;
 use corfem::cases::Case;
 use corfem::error::Error;
-use corfem::matrix_comparison::compare_matrices;
+use corfem::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::report::matrix_tables::matrix_tables;
 use corfem::report::{Format, json, render};
 use std::path::PathBuf;
@@ -12,10 +12,10 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub struct MatricesArguments {
     /// Which case
-    #[arg(value_name = "CASE", default_value_t = 2)]
+    #[arg(value_name = "CASE", default_value_t = USUAL_CASE)]
     case: usize,
     /// How many test modes, the lowest, the corrections are given
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    #[arg(long, value_name = "N", default_value_t = USUAL_TEST_MODES)]
     test_modes: usize,
     /// How to write the report
     #[arg(short, long, value_enum, default_value = "text")]

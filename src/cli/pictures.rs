@@ -3,9 +3,11 @@
 use clap::Args;
 use corfem::cases::{CASES, Case, CaseResult, run_case};
 use corfem::error::Error;
-use corfem::figures::{all_figures, picture};
+use corfem::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::figures::{Figure, all_figures, comparison_figures, picture};
 use corfem::fit::fit;
-use corfem::html_report::page;
+use corfem::html_report::{Contents, page};
+use corfem::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::torque_box::Reconstruction;
 use std::path::{Path, PathBuf};
 
@@ -34,11 +36,49 @@ pub struct ReportArguments {
     quiet: bool,
 }
 
-/// Runs the four cases and writes their figures; whether all cases succeeded.
+/// Everything there is to show.
+struct Runs {
+    cases: Vec<CaseResult>,
+    fewer_modes: Vec<FewerModesRun>,
+    matrices: MatrixComparison,
+}
+
+impl Runs {
+    fn new(quiet: bool) -> Result<Self, Error> {
+        let run = |number| {
+            let result = run_case(&Case::new(number)?, |_, _| {})?;
+            if !quiet {
+                eprintln!("case {number}: {} passes", result.correlation.passes.len());
+            }
+            Ok(result)
+        };
+        Ok(Self {
+            cases: CASES.into_iter().map(run).collect::<Result<_, Error>>()?,
+            fewer_modes: all_runs(&Case::new(PUBLISHED_CASE)?)?,
+            matrices: compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?,
+        })
+    }
+
+    fn succeeded(&self) -> bool {
+        self.cases.iter().all(CaseResult::succeeded)
+    }
+
+    fn figures(&self) -> Result<Vec<Figure>, Error> {
+        let mut figures = all_figures(&self.cases)?;
+        figures.extend(comparison_figures(
+            PUBLISHED_CASE,
+            &self.fewer_modes,
+            &self.matrices,
+        )?);
+        Ok(figures)
+    }
+}
+
+/// Runs the four cases and what is compared with them, and writes the figures; whether all cases succeeded.
 pub fn figures(arguments: &FiguresArguments) -> Result<bool, Error> {
-    let results = run_all(arguments.quiet)?;
+    let runs = Runs::new(arguments.quiet)?;
     let mut files = Vec::new();
-    for figure in all_figures(&results)? {
+    for figure in runs.figures()? {
         if arguments.png {
             let png = picture::png(&figure.name, &figure.svg)?;
             files.push((format!("{}.png", figure.name), png));
@@ -49,15 +89,22 @@ pub fn figures(arguments: &FiguresArguments) -> Result<bool, Error> {
     if !arguments.quiet {
         eprintln!("{} files in {}", files.len(), arguments.out.display());
     }
-    Ok(results.iter().all(CaseResult::succeeded))
+    Ok(runs.succeeded())
 }
 
-/// Runs the four cases and writes their report; whether all cases succeeded.
+/// Runs the four cases and what is compared with them, and writes the report; whether all cases succeeded.
 pub fn report(arguments: &ReportArguments) -> Result<bool, Error> {
-    let results = run_all(arguments.quiet)?;
+    let runs = Runs::new(arguments.quiet)?;
     let fit = fit(&Reconstruction::embedded()?)?;
     let command = format!("corfem report --out {}", arguments.out.display());
-    let html = page(&results, &fit, &all_figures(&results)?, &command)?;
+    let html = page(&Contents {
+        results: &runs.cases,
+        fit: &fit,
+        fewer_modes: &runs.fewer_modes,
+        matrices: &runs.matrices,
+        figures: &runs.figures()?,
+        command: &command,
+    })?;
     put_all(
         &arguments.out,
         &[("report.html".to_owned(), html.into_bytes())],
@@ -65,18 +112,7 @@ pub fn report(arguments: &ReportArguments) -> Result<bool, Error> {
     if !arguments.quiet {
         eprintln!("{}", arguments.out.join("report.html").display());
     }
-    Ok(results.iter().all(CaseResult::succeeded))
-}
-
-fn run_all(quiet: bool) -> Result<Vec<CaseResult>, Error> {
-    let run = |number| {
-        let result = run_case(&Case::new(number)?, |_, _| {})?;
-        if !quiet {
-            eprintln!("case {number}: {} passes", result.correlation.passes.len());
-        }
-        Ok(result)
-    };
-    CASES.into_iter().map(run).collect()
+    Ok(runs.succeeded())
 }
 
 /// Writes files into a folder, all of them or none: they are written elsewhere beside it first. A new folder then takes

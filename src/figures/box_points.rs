@@ -101,13 +101,19 @@ impl BoxPoints {
         }
         for (row, point) in self.dynamic.iter().enumerate() {
             let (x, y) = view.place(*point);
-            // Rear points are numbered to the right, front ones to the left, mid ones where no line passes.
-            let (place, side) = match row % 3 {
-                0 => ((x + 8.0, y), Side::Right),
-                1 if row < 6 => ((x, y - 12.0), Side::Center),
-                1 => ((x, y + 14.0), Side::Center),
+            // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the mid
+            // ones the tip's has no room beside it and a thin line leads to its number outside.
+            let (place, side) = match row {
+                1 => ((x + 4.0, y - 34.0), Side::Center),
+                4 => ((x, y - 12.0), Side::Center),
+                7 => ((x, y + 14.0), Side::Center),
+                0 | 6 => ((x + 8.0, y), Side::Right),
                 _ => ((x - 9.0, y), Side::Left),
             };
+            if row == 1 {
+                let lead = [(x, y), (x + 3.0, y - 27.0)];
+                line(area, &lead, Pen::solid(VERMILION, 0.8))?;
+            }
             mark(
                 area,
                 (x, y),

@@ -211,6 +211,18 @@ pub(super) fn rectangle(area: &Area, from: Place, to: Place, fill: RGBColor) -> 
     area.draw(&Rectangle::new([place(from), place(to)], fill.filled()))
 }
 
+/// A bar of a bar chart between two opposite corners.
+pub(super) fn bar(
+    area: &Area,
+    (left, top): Place,
+    (right, bottom): Place,
+    fill: RGBColor,
+) -> Drawn {
+    rectangle(area, (left, top), (right, bottom), fill)?;
+    let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+    outline(area, &corners, Pen::solid(INK, 0.7))
+}
+
 /// A mark of a form, its size the radius of the circle; open when it has no fill.
 pub(super) fn mark(
     area: &Area,

@@ -71,7 +71,7 @@ impl DerivativeMap {
             .map(|mode| mode.to_string())
             .collect();
         HeatMap {
-            values: &self.frequency,
+            values: &self.frequency.map(Some),
             title: "Percent of frequency for one percent of stiffness",
             row_heading: "panel",
             column_heading: "test mode",
@@ -84,7 +84,7 @@ impl DerivativeMap {
         }
         .draw(area, (66.0, 64.0))?;
         HeatMap {
-            values: &self.error_sum,
+            values: &self.error_sum.map(Some),
             title: "Error sum",
             row_heading: "",
             column_heading: "percent points for",

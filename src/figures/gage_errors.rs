@@ -1,8 +1,8 @@
 //! Gage errors of every panel, at the start and after each pass.
 
 use super::canvas::{
-    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, WIDTH, between,
-    line, mark, name_upright, outline, rectangle, svg, units, write,
+    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, WIDTH, bar,
+    between, line, mark, name_upright, svg, units, write,
 };
 use crate::cases::CaseResult;
 use crate::error::Error;
@@ -242,10 +242,4 @@ impl GageErrors {
         }
         Ok(())
     }
-}
-
-fn bar(area: &Area, (left, top): (f64, f64), (right, bottom): (f64, f64), fill: RGBColor) -> Drawn {
-    rectangle(area, (left, top), (right, bottom), fill)?;
-    let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
-    outline(area, &corners, Pen::solid(INK, 0.7))
 }

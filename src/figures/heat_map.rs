@@ -9,7 +9,8 @@ use plotters::style::{RGBColor, WHITE};
 
 /// How a matrix is laid out.
 pub(super) struct HeatMap<'a> {
-    pub values: &'a DMatrix<f64>,
+    /// Nothing where there is no cell.
+    pub values: &'a DMatrix<Option<f64>>,
     pub title: &'a str,
     pub row_heading: &'a str,
     pub column_heading: &'a str,
@@ -59,7 +60,9 @@ impl HeatMap<'_> {
         )?;
         for i in 0..rows {
             for j in 0..columns {
-                let value = self.values[(i, j)];
+                let Some(value) = self.values[(i, j)] else {
+                    continue;
+                };
                 let (x, y) = (left + wide * j as f64, top + high * i as f64);
                 let strength = (value.abs() / self.full).min(1.0);
                 let color = if value < 0.0 {
@@ -81,5 +84,15 @@ impl HeatMap<'_> {
         let (right, bottom) = (left + wide * columns as f64, top + high * rows as f64);
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
         outline(area, &corners, Pen::solid(GRAY, 1.0))
+    }
+}
+
+/// A fraction in whole percent; nothing when that is zero.
+pub(super) fn percent(value: f64) -> String {
+    let rounded = (100.0 * value).round();
+    if rounded == 0.0 {
+        String::new()
+    } else {
+        format!("{rounded:.0}").replace('-', "−")
     }
 }

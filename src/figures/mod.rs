@@ -15,11 +15,16 @@ pub mod mode_agreement;
 pub mod node_lines;
 pub mod picture;
 pub mod planform;
+pub mod predictions;
+pub mod stiffness_change;
+pub mod truncation;
 pub mod unlimited_factors;
 mod view;
 
 use crate::cases::{CASES, Case, CaseResult};
 use crate::error::Error;
+use crate::fewer_modes::FewerModesRun;
+use crate::matrix_comparison::MatrixComparison;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,7 +37,44 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// Every figure of a run, in the order of the report: the box, then each case.
+/// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
+///
+/// # Errors
+/// [`Error::Drawing`].
+pub fn comparison_figures(
+    case: usize,
+    runs: &[FewerModesRun],
+    comparison: &MatrixComparison,
+) -> Result<Vec<Figure>, Error> {
+    let changes = stiffness_change::stiffness_change(comparison);
+    let predictions = predictions::predictions(comparison);
+    let (corrected, given) = (comparison.case, comparison.test_modes);
+    Ok(vec![
+        Figure {
+            name: "truncation".to_owned(),
+            caption: format!(
+                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of analysis modes."
+            ),
+            svg: truncation::truncation(case, runs).draw()?,
+        },
+        Figure {
+            name: "matrices_stiffness".to_owned(),
+            caption: format!(
+                "Case {corrected} corrected with {given} test modes: change of the dynamic stiffness entry by entry, the right one, by element factors, and by closed forms on the matrices."
+            ),
+            svg: changes.draw()?,
+        },
+        Figure {
+            name: "matrices_frequencies".to_owned(),
+            caption: format!(
+                "Case {corrected} corrected with {given} test modes: frequency errors of the box as tested and with every cover thicker, a set of gages that no correction was fitted to."
+            ),
+            svg: predictions.draw()?,
+        },
+    ])
+}
+
+/// Every figure of the cases, in the order of the report: the box, then each case.
 ///
 /// # Errors
 /// Those of the figures' data; [`Error::Drawing`].

@@ -1,7 +1,7 @@
 //! Cross-orthogonality and modal assurance criterion, before and after the correlation.
 
 use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH, svg, write};
-use super::heat_map::HeatMap;
+use super::heat_map::{HeatMap, percent};
 use crate::cases::CaseResult;
 use crate::error::Error;
 use crate::outer_loop::Check;
@@ -82,7 +82,7 @@ impl ModeAgreement {
             ] {
                 let (rows, columns) = values.shape();
                 HeatMap {
-                    values,
+                    values: &values.map(Some),
                     title: &format!("{what} {when}"),
                     row_heading: "analysis mode",
                     column_heading: "test mode",
@@ -91,7 +91,7 @@ impl ModeAgreement {
                     full: 1.0,
                     colors: (VERMILION, BLUE),
                     cell: (33.0, 30.0),
-                    write: hundredths,
+                    write: percent,
                 }
                 .draw(area, (left, top))?;
             }
@@ -103,14 +103,5 @@ impl ModeAgreement {
             (66.0, 728.0),
             Letters::new(LETTERS, Side::Right),
         )
-    }
-}
-
-fn hundredths(value: f64) -> String {
-    let rounded = (100.0 * value).round();
-    if rounded == 0.0 {
-        String::new()
-    } else {
-        format!("{rounded:.0}").replace('-', "−")
     }
 }

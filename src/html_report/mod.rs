@@ -5,15 +5,36 @@
 
 mod text;
 
-use crate::cases::CaseResult;
+use crate::cases::{Case, CaseResult};
 use crate::error::Error;
+use crate::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::figures::Figure;
 use crate::fit::Fit;
+use crate::matrix_comparison::MatrixComparison;
 use crate::report::correlation_tables::frequency_table;
+use crate::report::fewer_modes_tables::fewer_modes_tables;
+use crate::report::matrix_tables::matrix_tables;
 use crate::report::run_tables::all_tables;
 use crate::report::table::{Cell, Column, Digits, Row, Table};
 use askama::Template;
 use text::section;
+
+/// What the page tells.
+#[derive(Debug, Clone, Copy)]
+pub struct Contents<'a> {
+    /// The cases.
+    pub results: &'a [CaseResult],
+    /// The fit of the box.
+    pub fit: &'a Fit,
+    /// Runs with fewer modes, all pairs.
+    pub fewer_modes: &'a [FewerModesRun],
+    /// Corrections by elements and by matrices.
+    pub matrices: &'a MatrixComparison,
+    /// The figures of all these.
+    pub figures: &'a [Figure],
+    /// The command that makes the page again.
+    pub command: &'a str,
+}
 
 /// The page.
 #[derive(Debug, Template)]
@@ -24,8 +45,10 @@ struct Page<'a> {
     summary: Table,
     anomalies: Vec<String>,
     all_succeeded: bool,
-    cases: Vec<CaseSection>,
+    cases: Vec<CaseSection<'a>>,
     box_figures: Vec<&'a Figure>,
+    fewer_modes: Part<'a>,
+    matrices: Part<'a>,
     assumptions: String,
     differences: String,
     fit: Table,
@@ -36,31 +59,31 @@ struct Page<'a> {
 
 /// What the page shows of one case.
 #[derive(Debug)]
-struct CaseSection {
+struct CaseSection<'a> {
     number: usize,
     title: String,
-    tables: Vec<Table>,
-    figures: Vec<FigureOf>,
+    part: Part<'a>,
 }
 
-/// A figure of a case.
+/// Tables and the figures that belong to them.
 #[derive(Debug)]
-struct FigureOf {
-    name: String,
-    caption: String,
-    svg: String,
+struct Part<'a> {
+    tables: Vec<Table>,
+    figures: Vec<&'a Figure>,
 }
 
-/// The page of a run; `command` is the one that makes it again.
+/// The page.
 ///
 /// # Errors
 /// [`Error::Table`] for damaged published tables; [`Error::Page`] when the page cannot be put together.
-pub fn page(
-    results: &[CaseResult],
-    fit: &Fit,
-    figures: &[Figure],
-    command: &str,
-) -> Result<String, Error> {
+pub fn page(contents: &Contents) -> Result<String, Error> {
+    let &Contents {
+        results,
+        fit,
+        figures,
+        command,
+        ..
+    } = contents;
     let mut tables = all_tables(results, fit)?;
     let mut take = |wanted: &dyn Fn(&Table) -> bool| -> Vec<Table> {
         let (taken, rest) = std::mem::take(&mut tables).into_iter().partition(wanted);
@@ -77,16 +100,10 @@ pub fn page(
             CaseSection {
                 number,
                 title: about(number).to_owned(),
-                tables: take(&|table| table.title.starts_with(&heading)),
-                figures: figures
-                    .iter()
-                    .filter(|figure| figure.name.starts_with(&prefix))
-                    .map(|figure| FigureOf {
-                        name: figure.name.clone(),
-                        caption: figure.caption.clone(),
-                        svg: figure.svg.clone(),
-                    })
-                    .collect(),
+                part: Part {
+                    tables: take(&|table| table.title.starts_with(&heading)),
+                    figures: named(figures, &prefix),
+                },
             }
         })
         .collect();
@@ -97,10 +114,15 @@ pub fn page(
         anomalies: anomalies(results),
         all_succeeded: results.iter().all(CaseResult::succeeded),
         cases,
-        box_figures: figures
-            .iter()
-            .filter(|figure| !figure.name.starts_with("case_"))
-            .collect(),
+        box_figures: [named(figures, "box_"), named(figures, "cover_")].concat(),
+        fewer_modes: Part {
+            tables: published_tables(contents.fewer_modes)?,
+            figures: named(figures, "truncation"),
+        },
+        matrices: Part {
+            tables: whole_tables(contents.matrices)?,
+            figures: named(figures, "matrices_"),
+        },
         assumptions: section(
             include_str!("../../paper/reconstruction.md"),
             "Assumed beyond the paper",
@@ -112,6 +134,29 @@ pub fn page(
         fit_largest_percent: Digits::Fixed(2).write(100.0 * fit.largest),
     };
     page.render().map_err(|source| Error::Page { source })
+}
+
+/// Figures whose names begin alike.
+fn named<'a>(figures: &'a [Figure], prefix: &str) -> Vec<&'a Figure> {
+    let like = |figure: &&Figure| figure.name.starts_with(prefix);
+    figures.iter().filter(like).collect()
+}
+
+/// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
+fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
+    let is_published =
+        |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
+    let published: Vec<FewerModesRun> = runs.iter().filter(is_published).cloned().collect();
+    let mut tables = fewer_modes_tables(&Case::new(PUBLISHED_CASE)?, &published, &[])?;
+    tables.retain(|table| !table.name.starts_with("truncation"));
+    Ok(tables)
+}
+
+/// What the corrections know and the factors they stand for; entry by entry they are left to their figure.
+fn whole_tables(comparison: &MatrixComparison) -> Result<Vec<Table>, Error> {
+    let mut tables = matrix_tables(&Case::new(comparison.case)?, comparison);
+    tables.retain(|table| table.name.starts_with("matrix_"));
+    Ok(tables)
 }
 
 fn only(mut tables: Vec<Table>, name: &str) -> Result<Table, Error> {

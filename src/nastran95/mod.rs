@@ -30,6 +30,9 @@ use std::time::Duration;
 
 pub use output5::{Matrices, read_output5};
 
+/// The program's name in reports.
+pub const NAME: &str = "NASTRAN-95";
+
 /// How long a run may take unless told otherwise; the box takes half a second.
 pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(60);
 

@@ -1,7 +1,7 @@
 //! The paper's Tables 3 to 8 from a run: frequencies and gages, each number beside the published one.
 
 use super::table::{Cell, Column, Digits, Row, Table};
-use crate::cases::{CaseResult, Grouping};
+use crate::cases::{BUILT_IN, CaseResult, Grouping};
 use crate::error::Error;
 use crate::objective::Errors;
 use crate::published::PublishedTable;
@@ -114,7 +114,20 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
         label_heading: "Mode",
         columns,
         rows,
-        notes: remarks(paper.as_ref()),
+        notes: solver(result)
+            .into_iter()
+            .chain(remarks(paper.as_ref()))
+            .collect(),
+    })
+}
+
+/// What did the finite element analyses, when it was not the crate itself.
+fn solver(result: &CaseResult) -> Option<String> {
+    (result.solver != BUILT_IN).then(|| {
+        format!(
+            "Finite element analyses by {}, of the test configuration too; everything else by this program.",
+            result.solver
+        )
     })
 }
 

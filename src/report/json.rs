@@ -27,6 +27,7 @@ struct Document<'a> {
 #[derive(Debug, Serialize)]
 struct CaseDocument {
     case: usize,
+    solver: &'static str,
     succeeded: bool,
     converged: bool,
     element_numbers: Vec<usize>,
@@ -81,7 +82,7 @@ struct AnomalyDocument {
 ///
 /// RMS and SRSS errors are fractions, gages inches, frequencies hertz in the order of the test modes;
 /// `unlimited_factors` of a case are those of its first iteration; factors of an iteration are totals since the
-/// last exact solution.
+/// last exact solution; `solver` did the finite element analyses.
 ///
 /// # Errors
 /// [`Error::Table`] if Table 13 were damaged or a number were not finite.
@@ -164,6 +165,7 @@ fn case_document(result: &CaseResult, paper: &PublishedTable) -> CaseDocument {
         .enumerate();
     CaseDocument {
         case,
+        solver: result.solver,
         succeeded: result.succeeded(),
         converged: correlation.converged,
         element_numbers: result.case.panels.iter().map(|panel| panel.label).collect(),
