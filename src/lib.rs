@@ -45,8 +45,8 @@
 
 pub mod error;
 
-pub mod structure;
 pub mod delta_wing;
+pub mod structure;
 pub mod torque_box;
 
 pub mod analytical;
