@@ -130,8 +130,8 @@ fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
 
 #[test]
 fn history_does_not_hang_on_round_off() {
-    // A modulus off by 1e-12 on both sides changes nothing that can be seen; with plain Recursive 1, which does not
-    // converge where two roots are close, such a change grows to percents.
+    // A modulus off by 1e-12 changes nothing that can be seen. Plain Recursive 1 does not converge where two roots are
+    // close, and would magnify it.
     let run = &*RUN;
     let other = DeltaWing {
         youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12),
