@@ -105,7 +105,6 @@ fn command_writes_every_format() {
     ] {
         assert_eq!(json[key].as_array().map(Vec::len), Some(count), "{key}");
     }
-    let run = &*RUN;
     for (key, load) in [
         ("trailing_edge_load_deflections_in", TipLoad::TrailingEdge),
         ("leading_edge_load_deflections_in", TipLoad::LeadingEdge),

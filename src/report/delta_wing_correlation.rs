@@ -68,18 +68,22 @@ fn test_mode_table(run: &WingCorrelation) -> Table {
             Row { label, cells }
         })
         .collect();
-    let rms: [(&str, fn(&Check) -> f64); 2] = [
-        ("frequency RMS", |check| check.errors.frequency_rms()),
-        ("shape RMS", |check| check.errors.shape_rms()),
-    ];
-    for (label, value) in rms {
+    let rms = |label: &str, values: [f64; 2]| {
         let mut cells = vec![Cell::Blank];
-        for check in checks {
-            cells.extend([Cell::Blank, plain(100.0 * value(check), RMS_PERCENT)]);
+        for value in values {
+            cells.extend([Cell::Blank, plain(100.0 * value, RMS_PERCENT)]);
         }
         let label = label.to_owned();
-        rows.push(Row { label, cells });
-    }
+        Row { label, cells }
+    };
+    rows.push(rms(
+        "frequency RMS",
+        checks.map(|check| check.errors.frequency_rms()),
+    ));
+    rows.push(rms(
+        "shape RMS",
+        checks.map(|check| check.errors.shape_rms()),
+    ));
     Table {
         name: "delta_wing_test_modes".to_owned(),
         title: "Delta wing with wrong gages: frequencies and errors".to_owned(),
