@@ -17,6 +17,13 @@ use nalgebra::DMatrix;
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;
 
+/// Separation of two roots, relative to the larger $\omega^2$, below which a derivative holds their modes to their own
+/// shapes.
+///
+/// A step of [`DERIVATIVE_STEP`] couples two modes so close by up to a tenth and more, which is no longer first order; where
+/// the roots meet the shapes have no derivative at all, and those of the roots are what is left.
+pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
+
 /// What a small change of each parameter does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
@@ -30,11 +37,11 @@ pub struct Derivatives {
 /// $\Delta e$ and $\Delta k$ of (12) for every parameter at the present state.
 ///
 /// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by first order
-/// (C.20, C.21) and the error sum is taken anew with the present pairing. The loop allocates nothing.
+/// (C.20, C.21), modes closer than [`HELD_SEPARATION`] held to their own shapes, and the error sum is taken anew with the
+/// present pairing. The loop allocates nothing.
 ///
 /// # Errors
-/// [`Error::CoalescingModes`] when two present modes are too close for first order; [`Error::LostRoot`] when a change
-/// takes a root's sign.
+/// [`Error::LostRoot`] when a change takes a root's sign.
 pub fn error_derivatives(problem: &ModalProblem, state: &ModalState) -> Result<Derivatives, Error> {
     let mut workspace = Workspace::new(problem);
     let mut error_change = vec![0.0; problem.parameter_count()];

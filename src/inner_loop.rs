@@ -104,9 +104,9 @@ pub struct InnerRun {
 ///
 /// # Errors
 /// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
-/// do not match the parameters; [`Error::CoalescingModes`] when derivatives cannot be formed at an accepted place. A
-/// trial step too far for the perturbation (modes that coalesce, a lost root) is not an error: it is halved like one
-/// that raises $e_S$.
+/// do not match the parameters; those of [`error_derivatives`]. A trial step too far for the perturbation (modes that
+/// coalesce, a lost root) is halved like one that raises $e_S$; [`Error::CoalescingModes`] is returned when modes coalesce
+/// in the first step and in every one of its halvings.
 pub fn run(
     problem: &ModalProblem,
     base: &[f64],
@@ -142,10 +142,12 @@ pub fn run(
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
-        let Some((halvings, limits, next)) =
-            lowering_step(problem, &state, &unlimited, base, total_ranges, settings)?
-        else {
-            break Stop::LocalMinimum;
+        let tried = lowering_step(problem, &state, &unlimited, base, total_ranges, settings);
+        let (halvings, limits, next) = match tried? {
+            Trial::Lower(halvings, limits, next) => (halvings, limits, next),
+            // No step at all: the modes that stand in the way are worth more than a loop that did nothing.
+            Trial::Refused(error) if iterations.is_empty() => return Err(error),
+            Trial::Refused(_) | Trial::TooFar => break Stop::LocalMinimum,
         };
         state = next;
         iterations.push(Iteration {
@@ -169,6 +171,16 @@ pub fn run(
     })
 }
 
+/// What became of a step and its halvings.
+enum Trial {
+    /// The longest that lowers the error sum: how often it was halved, what held it, where it leads.
+    Lower(usize, Vec<Limit>, ModalState),
+    /// None lowers it.
+    TooFar,
+    /// Modes coalesce in every one of them; the error of the shortest.
+    Refused(Error),
+}
+
 /// The longest of the step and its halvings that lowers the error sum.
 fn lowering_step(
     problem: &ModalProblem,
@@ -177,7 +189,8 @@ fn lowering_step(
     base: &[f64],
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
-) -> Result<Option<(usize, Vec<Limit>, ModalState)>, Error> {
+) -> Result<Trial, Error> {
+    let (mut is_too_far, mut refusal) = (false, None);
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
@@ -194,19 +207,18 @@ fn lowering_step(
             .unzip();
         match problem.state_at(factors, settings.update) {
             Ok(next) if next.errors.sum() < state.errors.sum() => {
-                return Ok(Some((halvings, limits, next)));
+                return Ok(Trial::Lower(halvings, limits, next));
             }
             // Uphill, or too far for the perturbation: a shorter step may do.
-            Ok(_)
-            | Err(
-                Error::CoalescingModes { .. }
-                | Error::LostRoot { .. }
-                | Error::NotAVibration { .. },
-            ) => {}
+            Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
+            Err(error @ Error::CoalescingModes { .. }) => refusal = Some(error),
             Err(other) => return Err(other),
         }
     }
-    Ok(None)
+    Ok(match refusal {
+        Some(error) if !is_too_far => Trial::Refused(error),
+        _ => Trial::TooFar,
+    })
 }
 
 fn check_settings(settings: &InnerSettings) -> Result<(), Error> {

@@ -120,6 +120,7 @@ impl ModalProblem {
             vec![1.0; self.parameter_count()],
             &self.start.omega_squared,
             DMatrix::identity(count, count),
+            0.0,
         )
     }
 
@@ -147,14 +148,17 @@ impl ModalProblem {
             .any(|share| matches!(share, Share::Mass(_)));
         // The real stiffness-only path is the plain one; the general one serves changes of mass.
         let Perturbed {
-            roots, mut shapes, ..
+            roots,
+            mut shapes,
+            last_change,
+            ..
         } = if has_mass {
             perturb_with_mass(&ModalChange::of_vibrations(k, beta, alpha.clone()), rule)?
         } else {
             perturb(k, &beta, rule)?
         };
         normalize_with_mass(&mut shapes, &alpha)?;
-        self.state(factors, &roots.map(f64::recip), shapes)
+        self.state(factors, &roots.map(f64::recip), shapes, last_change)
     }
 
     fn state(
@@ -162,6 +166,7 @@ impl ModalProblem {
         factors: Vec<f64>,
         omega_squared: &DVector<f64>,
         generalized_shapes: DMatrix<f64>,
+        last_change: f64,
     ) -> Result<ModalState, Error> {
         let pairing = pair_modes(&generalized_shapes.tr_mul(&self.start_cross))?;
         let modes = Modes {
@@ -175,6 +180,7 @@ impl ModalProblem {
             generalized_shapes,
             pairing,
             errors,
+            last_change,
         })
     }
 }
@@ -192,4 +198,7 @@ pub struct ModalState {
     pub pairing: Pairing,
     /// Distance from the test modes.
     pub errors: Errors,
+    /// Largest relative change of a root in the perturbation's last order, zero after an eigensolution: how far the
+    /// recursion had still to go when it reached its tolerance or the most orders allowed.
+    pub last_change: f64,
 }

@@ -42,7 +42,7 @@ pub fn cross_orthogonality(
 /// $$ \mathrm{MAC}_{ij} = \frac{(v_i^t w_j)^2}{(v_i^t v_i)(w_j^t w_j)} $$
 ///
 /// # Errors
-/// [`Error::WrongShape`] when the shapes have different numbers of DOF.
+/// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero.
 ///
 /// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
 pub fn modal_assurance(
@@ -50,6 +50,12 @@ pub fn modal_assurance(
     others: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
+    for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
+        for (mode, shape) in shapes.column_iter().enumerate() {
+            let owner = || format!("{of} {mode} (from zero)");
+            crate::structure::positive("squared length", owner, shape.norm_squared())?;
+        }
+    }
     let cross = shapes.tr_mul(others);
     Ok(DMatrix::from_fn(cross.nrows(), cross.ncols(), |i, j| {
         cross[(i, j)].powi(2) / (shapes.column(i).norm_squared() * others.column(j).norm_squared())

@@ -8,10 +8,8 @@ use crate::common::tolerances::{
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::derivatives::{DERIVATIVE_STEP, Workspace, error_changes_into, error_derivatives};
 use corfem::error::Error;
-use corfem::modal::{DynamicModel, ModalProblem, ModalState, Share};
-use corfem::modes::solve;
+use corfem::modal::{ModalProblem, ModalState};
 use corfem::perturbation::UpdateRule;
-use nalgebra::DMatrix;
 use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
@@ -242,27 +240,6 @@ fn the_loop_over_parameters_allocates_nothing() {
     let mut kept = Vec::new();
     assert_eq!(allocations(|| kept.push(1_u8)), 1);
     assert_eq!(allocations(|| kept.reserve_exact(100)), 1);
-}
-
-#[test]
-fn modes_too_close_for_first_order_are_named() {
-    // Two like oscillators side by side, stiffened together.
-    let stiffness = DMatrix::identity(2, 2) * 100.0;
-    let model = DynamicModel {
-        shares: vec![Share::Stiffness(stiffness.clone())],
-        mass: DMatrix::identity(2, 2),
-        stiffness,
-    };
-    let test = solve(&(1.1 * &model.stiffness), &model.mass, 2).unwrap();
-    let problem = ModalProblem::new(&model, &test, 2).unwrap();
-    match error_derivatives(&problem, &problem.start_state().unwrap()) {
-        Err(Error::CoalescingModes {
-            first,
-            second,
-            separation,
-        }) => assert_eq!((first, second, separation), (1, 0, 0.0)),
-        other => panic!("{other:?}"),
-    }
 }
 
 #[test]

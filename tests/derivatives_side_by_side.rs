@@ -1,13 +1,14 @@
 //! Derivatives of many parameters side by side: each is what its definition gives for it alone.
 
 use crate::common::tolerances::{DERIVATIVE_ROUND_OFF, ROUND_OFF};
+use approx::assert_relative_eq;
 use corfem::cases::Case;
-use corfem::derivatives::{DERIVATIVE_STEP, error_derivatives};
+use corfem::derivatives::{DERIVATIVE_STEP, HELD_SEPARATION, error_derivatives};
 use corfem::error::Error;
 use corfem::modal::{DynamicModel, ModalProblem, ModalState, Share};
 use corfem::modes::{Modes, solve};
 use corfem::objective::errors;
-use corfem::perturbation::{UpdateRule, first_order};
+use corfem::perturbation::{ModalChange, Perturbed, UpdateRule, first_order_held};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -68,31 +69,21 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         })
 }
 
-/// The error sum's change by first order, one parameter alone: (C.20, C.21) with `first_order` for a stiffness, written
-/// out for a mass.
+/// The error sum's change by first order, one parameter alone: (C.20, C.21) with close modes held.
 fn by_definition(problem: &ModalProblem, state: &ModalState, parameter: usize) -> f64 {
     let k = &state.modes.omega_squared;
     let present = &state.generalized_shapes;
     let share = &problem.generalized_shares[parameter];
     let size = DERIVATIVE_STEP * state.factors[parameter];
     let change = size * present.tr_mul(&(share.matrix() * present));
-    let (roots, shapes) = match share {
-        Share::Stiffness(_) => {
-            let perturbed = first_order(k, &change).expect("separate modes");
-            (perturbed.roots, perturbed.shapes)
-        }
-        Share::Mass(_) => {
-            let roots = DVector::from_fn(k.len(), |i, _| (1.0 + change[(i, i)]) / k[i]);
-            let shapes = DMatrix::from_fn(k.len(), k.len(), |i, j| {
-                if i == j {
-                    1.0
-                } else {
-                    change[(i, j)] / (k[i] * roots[j] - 1.0 - change[(i, i)])
-                }
-            });
-            (roots, shapes)
-        }
+    let none = DMatrix::zeros(k.len(), k.len());
+    let (beta, alpha) = match share {
+        Share::Stiffness(_) => (change, none),
+        Share::Mass(_) => (none, change),
     };
+    let change = ModalChange::of_vibrations(k, beta, alpha);
+    let Perturbed { roots, shapes, .. } =
+        first_order_held(&change, HELD_SEPARATION).expect("roots kept");
     let modes = Modes {
         omega_squared: roots.map(f64::recip),
         shapes: &state.modes.shapes * shapes,
@@ -199,32 +190,78 @@ fn a_root_lost_to_a_mass_is_named() {
 }
 
 #[test]
-fn modes_that_a_change_brings_together_are_named() {
-    // A thousandth of it takes the second oscillator to the first's ω² = 1, and not nearly.
-    for (change, apart) in [(-3000.0, false), (-2999.0, true)] {
+fn modes_that_a_change_brings_together_are_held() {
+    // A hundredth of ω² apart after a thousandth of the share, and a little less or more.
+    for (second, is_held) in [(1.0, true), (1.0 / 0.9899, false), (1.0 / 0.9901, true)] {
         let mut share = DMatrix::zeros(2, 2);
-        share[(1, 1)] = change;
+        let coupling = 1.0;
+        share[(1, 1)] = 1000.0 * (second - 4.0);
+        share[(0, 1)] = coupling;
+        share[(1, 0)] = coupling;
         let problem = oscillators(Share::Stiffness(share));
-        match error_derivatives(&problem, &problem.start_state().unwrap()) {
-            Ok(_) => assert!(apart),
-            Err(Error::CoalescingModes {
-                first,
-                second,
-                separation,
-            }) => {
-                assert!(!apart);
-                assert_eq!((first, second), (1, 0));
-                assert!(separation < 1e-9, "{separation:e}");
-            }
-            other => panic!("{other:?}"),
+        let state = problem.start_state().unwrap();
+        assert_by_definition(&problem, &state);
+        let found = error_derivatives(&problem, &state).unwrap().error_change[0];
+        // Held, the shapes are those of the test, and the error is that of the second frequency.
+        let of_frequency = 1.0 - (second / 4.0).sqrt();
+        if is_held {
+            assert_relative_eq!(found, of_frequency, epsilon = ROUND_OFF);
+        } else {
+            assert!(found > 1.1 * of_frequency, "{found} {of_frequency}");
         }
     }
-    // The same for a mass: 1/ω² of the second becomes one.
-    let mut share = DMatrix::zeros(2, 2);
-    share[(1, 1)] = 3000.0;
-    let problem = oscillators(Share::Mass(share));
-    match error_derivatives(&problem, &problem.start_state().unwrap()) {
-        Err(Error::CoalescingModes { first, second, .. }) => assert_eq!((first, second), (1, 0)),
-        other => panic!("{other:?}"),
+}
+
+/// Two equal oscillators and a third of four times their ω², and shares that see the equal ones.
+fn repeated(share: fn(DMatrix<f64>) -> Share) -> ModalProblem {
+    let of = |entries: &[f64; 3]| DMatrix::from_diagonal(&DVector::from_row_slice(entries));
+    let stiffness = of(&[1.0, 1.0, 4.0]);
+    let mass = DMatrix::identity(3, 3);
+    let test = solve(&of(&[1.1, 1.2, 4.4]), &mass, 3).expect("solved");
+    let model = DynamicModel {
+        shares: vec![share(of(&[1.0, 0.0, 0.0])), share(of(&[1.0, 1.0, 1.0]))],
+        stiffness,
+        mass,
+    };
+    ModalProblem::new(&model, &test, 3).expect("a problem")
+}
+
+#[test]
+fn a_repeated_root_has_derivatives() {
+    for (share, sign) in [
+        (Share::Stiffness as fn(DMatrix<f64>) -> Share, 1.0),
+        (Share::Mass, -1.0),
+    ] {
+        let problem = repeated(share);
+        let state = problem.start_state().unwrap();
+        assert_by_definition(&problem, &state);
+        let found = error_derivatives(&problem, &state).unwrap().error_change;
+        // Shapes stay, so the error is that of the frequencies, with ω² as the share changes it.
+        let error = |factors: [f64; 3]| {
+            let ratios = [1.1, 1.2, 4.4].iter().zip([1.0, 1.0, 4.0]).zip(factors);
+            ratios
+                .map(|((test, start), factor)| ((start * factor / test).sqrt() - 1.0).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
+        let up = 1.0 + DERIVATIVE_STEP;
+        let (one, all) = if sign > 0.0 {
+            ([up, 1.0, 1.0], [up; 3])
+        } else {
+            // A mass of one changes alike in every oscillator; the third's share is its whole mass too.
+            ([1.0 / up, 1.0, 1.0], [1.0 / up; 3])
+        };
+        let all = if sign > 0.0 {
+            [up, up, 1.0 + 0.25 * DERIVATIVE_STEP]
+        } else {
+            all
+        };
+        for (found, factors) in found.iter().zip([one, all]) {
+            assert_relative_eq!(
+                *found,
+                error(factors) - error([1.0; 3]),
+                epsilon = ROUND_OFF
+            );
+        }
     }
 }

@@ -125,6 +125,35 @@ proptest! {
     }
 }
 
+/// What the last order still changed tells how far the roots are from the exact ones.
+#[test]
+fn the_state_says_how_far_its_recursion_had_to_go() {
+    let chain = Chain::uniform(4);
+    let problem = problem(&chain, &[1.2; 4]);
+    let factors = vec![1.3, 0.9, 1.1, 0.8];
+    let state = |rule| problem.state_at(factors.clone(), rule).unwrap();
+    let exact = state(UpdateRule::Eigensolution);
+    assert_eq!(exact.last_change, 0.0);
+    assert_eq!(problem.start_state().unwrap().last_change, 0.0);
+    let mut last = f64::INFINITY;
+    for order in [2, 4, 8, 16] {
+        let found = state(UpdateRule::Recursive1 { order });
+        let ratios = found
+            .modes
+            .omega_squared
+            .component_div(&exact.modes.omega_squared);
+        let error = ratios.add_scalar(-1.0).amax();
+        // The next orders change the roots less, together by no more than twice as much.
+        assert!(error < 2.0 * found.last_change, "{order}: {error:e}");
+        assert!(
+            found.last_change < 0.5 * last,
+            "{order}: {:e}",
+            found.last_change
+        );
+        last = found.last_change;
+    }
+}
+
 #[test]
 fn fewer_analysis_modes_are_the_lowest_ones() {
     let chain = Chain::uniform(5);

@@ -82,3 +82,23 @@ fn shapes_and_mass_must_fit() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn a_zero_shape_has_no_assurance() {
+    let (shapes, mut with_zero) = (DMatrix::identity(3, 2), DMatrix::identity(3, 2));
+    with_zero.column_mut(1).fill(0.0);
+    for (one, other, expected) in [
+        (&with_zero, &shapes, "mode shape 1 (from zero)"),
+        (&shapes, &with_zero, "other mode shape 1 (from zero)"),
+    ] {
+        match modal_assurance(one, other) {
+            Err(Error::NotPositive { what, owner, value }) => {
+                assert_eq!(
+                    (what, owner.as_str(), value),
+                    ("squared length", expected, 0.0)
+                );
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}

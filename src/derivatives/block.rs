@@ -1,9 +1,9 @@
 //! First order for a block of parameters side by side.
 
+use super::HELD_SEPARATION;
 use super::lanes::{LANES, Lanes, ZERO, combinations_into, lanes};
 use crate::error::Error;
 use crate::modal::{ModalProblem, Share};
-use crate::perturbation::SMALLEST_SEPARATION;
 use nalgebra::{DMatrix, DVector};
 use std::cmp::Reverse;
 
@@ -92,8 +92,11 @@ impl Block {
     /// Both halves of a pair of modes follow from one division: with $q = \beta_{ij}/(x_i - x_j)$ they are $p_{ij} = -q$ and
     /// $p_{ji} = q$, and for a mass, with $\alpha$ in place of $\beta$, $p_{ij} = -q/k_{ii}$ and $p_{ji} = q/k_{jj}$.
     ///
+    /// Two modes closer than [`HELD_SEPARATION`] are held to their own shapes, $p_{ij} = p_{ji} = 0$, as in
+    /// [`crate::perturbation::first_order_held`].
+    ///
     /// # Errors
-    /// [`Error::LostRoot`], [`Error::CoalescingModes`].
+    /// [`Error::LostRoot`].
     #[inline(always)]
     pub fn first_order_into(
         &self,
@@ -111,54 +114,44 @@ impl Block {
                 lanes(|l| k[i] + own[l])
             };
         }
+        self.check_roots(x)?;
         let scale = |i: usize| if self.is_mass { 1.0 / k[i] } else { 1.0 };
-        let mut margin = [f64::INFINITY; LANES];
         for j in 0..count {
             shapes[j * count + j] = [1.0; LANES];
             for i in j + 1..count {
                 let (a, b, entry) = (&x[i], &x[j], &change[j * count + i]);
-                let difference = lanes(|l| a[l] - b[l]);
-                margin = lanes(|l| {
-                    let own = difference[l].abs() - SMALLEST_SEPARATION * larger(a[l], b[l]);
-                    if own < margin[l] { own } else { margin[l] }
+                let q = lanes(|l| {
+                    let difference = a[l] - b[l];
+                    let is_held = difference.abs() < HELD_SEPARATION * larger(a[l], b[l]);
+                    let q = entry[l] / difference;
+                    if is_held { 0.0 } else { q }
                 });
-                let q = lanes(|l| entry[l] / difference[l]);
                 shapes[j * count + i] = lanes(|l| -q[l] * scale(i));
                 shapes[i * count + j] = lanes(|l| q[l] * scale(j));
             }
         }
-        if margin.iter().all(|&margin| margin > 0.0) && x.iter().flatten().all(|&x| is_root(x)) {
+        Ok(())
+    }
+
+    /// Refuses roots that a change made negative, or too large for a number.
+    #[inline(always)]
+    fn check_roots(&self, x: &[Lanes]) -> Result<(), Error> {
+        if x.iter().flatten().all(|&x| is_root(x)) {
             Ok(())
         } else {
-            Err(self.unfit(x))
+            Err(self.lost_root(x))
         }
     }
 
-    /// Why first order cannot be carried out: a root that is lost, or two that are too close.
     #[cold]
-    fn unfit(&self, x: &[Lanes]) -> Error {
-        for (mode, values) in x.iter().enumerate() {
-            if let Some(&value) = values.iter().find(|&&value| !is_root(value)) {
-                let value = if self.is_mass { value } else { 1.0 / value };
-                return Error::LostRoot { mode, value };
-            }
-        }
-        let (mut first, mut second, mut separation) = (0, 0, f64::INFINITY);
-        for j in 0..x.len() {
-            for i in j + 1..x.len() {
-                for (&a, &b) in x[i].iter().zip(&x[j]) {
-                    let found = (a - b).abs() / larger(a, b);
-                    if found < separation {
-                        (first, second, separation) = (i, j, found);
-                    }
-                }
-            }
-        }
-        Error::CoalescingModes {
-            first,
-            second,
-            separation,
-        }
+    fn lost_root(&self, x: &[Lanes]) -> Error {
+        let values = x.iter().enumerate();
+        let mut entries = values.flat_map(|(mode, values)| values.map(|value| (mode, value)));
+        let (mode, value) = entries
+            .find(|&(_, value)| !is_root(value))
+            .unwrap_or((0, f64::NAN));
+        let value = if self.is_mass { value } else { 1.0 / value };
+        Error::LostRoot { mode, value }
     }
 }
 
