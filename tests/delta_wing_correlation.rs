@@ -10,6 +10,8 @@ use corfem::delta_wing::correlation::{
 };
 use corfem::error::Error;
 use corfem::inner_loop::Stop;
+use corfem::outer_loop::{Correlation, correlate};
+use corfem::perturbation::UpdateRule;
 use std::sync::LazyLock;
 
 /// The whole scenario, run once for all tests.
@@ -140,6 +142,30 @@ fn history_does_not_hang_on_round_off() {
     let other = correlate_wing(&other, |_, _| {}).expect("it runs");
     for (a, b) in run.groups.iter().zip(&other.groups) {
         assert_relative_eq!(a.factor, b.factor, max_relative = SAME_HISTORY);
+    }
+}
+
+#[test]
+fn blocks_of_close_roots_step_as_an_eigensolution_does() {
+    let run = &*RUN;
+    let model = first_model(&wing()).expect("a model");
+    let mut settings = settings();
+    settings.inner.update = UpdateRule::Eigensolution;
+    let other = correlate(
+        |factors| model.analyze(factors),
+        &run.test,
+        &[None; 21],
+        &settings,
+        |_, _| {},
+    )
+    .expect("it runs");
+    let iterations = |correlation: &Correlation| -> Vec<usize> {
+        let passes = correlation.passes.iter();
+        passes.map(|pass| pass.inner.iterations.len()).collect()
+    };
+    assert_eq!(iterations(&run.correlation), iterations(&other));
+    for (a, b) in run.groups.iter().zip(other.best_factors()) {
+        assert_relative_eq!(a.factor, b, max_relative = SAME_HISTORY);
     }
 }
 
