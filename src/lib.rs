@@ -8,7 +8,8 @@
 //!
 //! # The method, in the order data flows
 //!
-//! 1. [`structure`]: grids, materials, elements; [`torque_box`]: the paper's wing torque box.
+//! 1. [`structure`]: grids, materials, elements; [`torque_box`]: the paper's wing torque box;
+//!    [`delta_wing`]: a larger structure that others have tested and analyzed.
 //! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy, [`analytical`] for what
 //!    it is compared with).
 //! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
@@ -44,6 +45,7 @@
 
 pub mod error;
 
+pub mod delta_wing;
 pub mod structure;
 pub mod torque_box;
 

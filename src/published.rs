@@ -27,7 +27,7 @@ const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
 /// One published table: text cells by row label and column heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedTable {
-    /// Its number in the paper.
+    /// Its number in the paper; zero if it is not of the paper.
     pub number: usize,
     /// Name for messages, such as `paper/tables/table_3.csv`.
     pub name: String,

@@ -49,6 +49,29 @@ fn trapezoid_lumps_more_where_it_is_wider() {
     }
 }
 
+#[test]
+fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_triangles() {
+    // A square of side 6 with one corner raised by 9. Diagonals (6, 6, 0) and (-6, 6, 9): 9 |(6, -6, 8)| / 2 = 9 sqrt(34).
+    let at = Vector3::new;
+    let corners = [
+        at(0.0, 0.0, 0.0),
+        at(6.0, 0.0, 0.0),
+        at(6.0, 6.0, 0.0),
+        at(0.0, 6.0, 9.0),
+    ];
+    let area = 9.0 * 34.0_f64.sqrt();
+    // Corner 4 and its neighbors: sides (0, -6, -9) and (6, 0, -9), half of 18 |(3, -3, 2)|.
+    let (raised, beside) = (9.0 * 22.0_f64.sqrt(), 3.0 * 117.0_f64.sqrt());
+    let expected = [beside, 18.0, beside, raised].map(|corner| (area + corner) / 6.0);
+    for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
+        let volumes = corner_volumes(kind, &corners).expect("four corners");
+        assert_eq!(volumes.len(), 4);
+        for (found, expected) in volumes.iter().zip(expected) {
+            assert_relative_eq!(*found, expected, max_relative = ROUND_OFF);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(crate::common::config())]
 

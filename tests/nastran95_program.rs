@@ -2,10 +2,14 @@
 
 use crate::common::outer_loop::{assert_near, stored};
 use crate::common::tolerances::{
-    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
+    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
+    NASTRAN_SINGLE_PRECISION,
 };
 use corfem::cases::{Case, run_case_with};
 use corfem::deck::{self, BulkData, Task};
+use corfem::delta_wing::DeltaWing;
+use corfem::delta_wing::correlation::{GROUPS, first_model};
+use corfem::modal::DynamicModel;
 use corfem::model::FiniteElementModel;
 use corfem::modes::solve;
 use corfem::nastran95::{NAME, Nastran95, default_folder};
@@ -153,4 +157,37 @@ fn printed_eigenvalues(printed: &str) -> Vec<f64> {
         .map(|fields| fields[2].parse().expect("an eigenvalue"))
         .take(9)
         .collect()
+}
+
+#[test]
+fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
+    let Some(nastran) = program("the delta wing by NASTRAN-95") else {
+        return;
+    };
+    let wing = DeltaWing::embedded().expect("the wing");
+    let model = first_model(&wing).expect("a model");
+    for factors in [
+        [1.0; GROUPS.len()],
+        GROUPS.map(|g| g.first_over_true.recip()),
+    ] {
+        let here = model.analyze(&factors).expect("an analysis");
+        let there = nastran.analyze(&model, &factors).expect("an analysis");
+        for (here, there) in [
+            (&here.stiffness, &there.stiffness),
+            (&here.mass, &there.mass),
+        ] {
+            assert_eq!(there.shape(), (19, 19));
+            assert!((there - here).amax() <= NASTRAN_SINGLE_PRECISION * here.amax());
+        }
+        let frequencies = |model: &DynamicModel| {
+            let modes = solve(&model.stiffness, &model.mass, 19).expect("modes");
+            modes.frequencies_hz()
+        };
+        assert_near(
+            &frequencies(&there),
+            &frequencies(&here),
+            NASTRAN_FREQUENCY,
+            "delta wing",
+        );
+    }
 }

@@ -2,6 +2,7 @@
 
 mod cases;
 mod deck;
+mod delta_wing;
 mod fewer_modes;
 mod matrices;
 mod pictures;
@@ -12,6 +13,7 @@ use corfem::error::Error;
 use corfem::report::Format;
 use corfem::torque_box::Reconstruction;
 use deck::{DeckArguments, ModesArguments};
+use delta_wing::DeltaWingArguments;
 use fewer_modes::FewerModesArguments;
 use matrices::MatricesArguments;
 use std::io::Write;
@@ -49,6 +51,8 @@ enum Command {
     FewerModes(FewerModesArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
+    /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
+    DeltaWing(DeltaWingArguments),
     /// Write every figure as SVG
     Figures(pictures::FiguresArguments),
     /// Write the report as one web page with tables, figures and assumptions
@@ -90,6 +94,7 @@ pub fn run() -> ExitCode {
         Some(Command::Cases(arguments)) => cases::cases(&arguments),
         Some(Command::FewerModes(arguments)) => fewer_modes::fewer_modes(&arguments),
         Some(Command::Matrices(arguments)) => matrices::matrices(&arguments),
+        Some(Command::DeltaWing(arguments)) => delta_wing::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::figures(&arguments),
         Some(Command::Report(arguments)) => pictures::report(&arguments),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),

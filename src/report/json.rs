@@ -10,9 +10,9 @@ use crate::published::PublishedTable;
 use crate::step::Limit;
 use serde::Serialize;
 
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-const UNITS: &str = "inch, pound-force, second, hertz; errors are fractions";
+pub(super) const PROGRAM: &str = env!("CARGO_PKG_NAME");
+pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub(super) const UNITS: &str = "inch, pound-force, second, hertz; errors are fractions";
 
 /// The document: program, cases, fit of the box.
 #[derive(Debug, Serialize)]
@@ -145,7 +145,7 @@ enum Content<'a> {
 }
 
 /// A document as pretty-printed JSON with a final newline.
-fn written(document: &impl Serialize) -> Result<String, Error> {
+pub(super) fn written(document: &impl Serialize) -> Result<String, Error> {
     let mut text = serde_json::to_string_pretty(document).map_err(|error| Error::Table {
         name: "JSON output".into(),
         expected: "finite numbers".into(),

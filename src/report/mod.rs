@@ -2,6 +2,9 @@
 
 pub mod correlation_tables;
 pub mod deck_tables;
+pub mod delta_wing_correlation;
+pub mod delta_wing_json;
+pub mod delta_wing_tables;
 pub mod fewer_modes_tables;
 pub mod json;
 pub mod matrix_tables;

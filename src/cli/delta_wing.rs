@@ -1,0 +1,36 @@
+//! `corfem delta-wing`.
+
+use super::{FormatArgument, put};
+use clap::Args;
+use corfem::delta_wing::DeltaWing;
+use corfem::delta_wing::correlation::correlate_wing;
+use corfem::error::Error;
+use corfem::report::delta_wing_json::delta_wing_json;
+use corfem::report::delta_wing_tables::delta_wing_tables;
+use corfem::report::{Format, render};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct DeltaWingArguments {
+    /// How to write the report
+    #[arg(short, long, value_enum, default_value = "text")]
+    format: FormatArgument,
+    /// Write the report to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
+pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, Error> {
+    let wing = DeltaWing::embedded()?;
+    let run = correlate_wing(&wing, |_, _| {})?;
+    let tables = delta_wing_tables(&wing, &run)?;
+    let report = match arguments.format.into() {
+        Format::Text => render::render_tables(&tables, false),
+        Format::Markdown => render::render_tables(&tables, true),
+        Format::Json => delta_wing_json(&wing, &run)?,
+        Format::Csv => render::csv(&tables)?,
+    };
+    put(arguments.output.as_deref(), &report)?;
+    Ok(run.correlation.converged)
+}
