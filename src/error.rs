@@ -293,6 +293,18 @@ pub enum Error {
         /// Cosine of the angle between its left and right shapes in the measure of the stiffness.
         cosine: f64,
     },
+    /// A recursion that had not reached its tolerance at the most orders allowed.
+    #[error(
+        "perturbation: expected the roots to settle to {largest:.0e} within {orders} orders, found them still changing by {last_change:.1e}"
+    )]
+    UnsettledRoots {
+        /// Largest relative change allowed.
+        largest: f64,
+        /// Most orders.
+        orders: usize,
+        /// Largest relative change of a root in the last of them.
+        last_change: f64,
+    },
     /// An iterative library routine did not converge.
     #[error("{what}: expected the eigenvalue iteration to converge, found that it did not")]
     NoConvergence {

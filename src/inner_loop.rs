@@ -105,8 +105,8 @@ pub struct InnerRun {
 /// # Errors
 /// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
 /// do not match the parameters; those of [`error_derivatives`]. A trial step too far for the perturbation (modes that
-/// coalesce, a lost root) is halved like one that raises $e_S$; [`Error::CoalescingModes`] is returned when modes coalesce
-/// in the first step and in every one of its halvings.
+/// coalesce, a lost root, roots that do not settle) is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
+/// [`Error::UnsettledRoots`] is returned when that is so of the first step and of every one of its halvings.
 pub fn run(
     problem: &ModalProblem,
     base: &[f64],
@@ -177,7 +177,7 @@ enum Trial {
     Lower(usize, Vec<Limit>, ModalState),
     /// None lowers it.
     TooFar,
-    /// Modes coalesce in every one of them; the error of the shortest.
+    /// Modes coalesce, or their roots do not settle, in every one of them; the error of the shortest.
     Refused(Error),
 }
 
@@ -211,7 +211,9 @@ fn lowering_step(
             }
             // Uphill, or too far for the perturbation: a shorter step may do.
             Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
-            Err(error @ Error::CoalescingModes { .. }) => refusal = Some(error),
+            Err(error @ (Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })) => {
+                refusal = Some(error);
+            }
             Err(other) => return Err(other),
         }
     }

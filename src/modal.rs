@@ -130,7 +130,8 @@ impl ModalProblem {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; those of [`perturb`] and
-    /// [`perturb_with_mass`].
+    /// [`perturb_with_mass`]; [`Error::UnsettledRoots`] when a rule with a tolerance stays far from it, as plain
+    /// Recursive 1 does where roots are close.
     pub fn state_at(&self, factors: Vec<f64>, rule: UpdateRule) -> Result<ModalState, Error> {
         check_length("parameter factors", factors.len(), self.parameter_count())?;
         let count = self.start.len();
@@ -157,6 +158,7 @@ impl ModalProblem {
         } else {
             perturb(k, &beta, rule)?
         };
+        rule.check_settled(last_change)?;
         normalize_with_mass(&mut shapes, &alpha)?;
         self.state(factors, &roots.map(f64::recip), shapes, last_change)
     }

@@ -144,3 +144,30 @@ fn the_check_itself_finds_what_is_missing() {
     ));
     assert!(!defines("tests", "equations::numbers", &["#[test]\nfn "]));
 }
+
+/// A file that nobody lists is a test that never runs.
+#[test]
+fn every_file_of_tests_is_part_of_the_test_program() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let listed = fs::read_to_string(folder.join("main.rs")).expect("it reads");
+    let listed: BTreeSet<&str> = listed
+        .lines()
+        .filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'))
+        .collect();
+    let entries = fs::read_dir(&folder).expect("it reads");
+    let found: BTreeSet<String> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
+        .map(|path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .filter(|name| name != "main")
+        .collect();
+    assert_eq!(
+        found.iter().map(String::as_str).collect::<BTreeSet<_>>(),
+        listed
+    );
+}

@@ -7,15 +7,20 @@ use crate::common::loops::{
     chain_problem, given,
 };
 use crate::common::vibrations::chain_and_truth;
+use corfem::error::Error;
 use corfem::inner_loop::{InnerRun, InnerSettings, Stop, run};
 use corfem::modal::ModalProblem;
 use corfem::step::Range;
 use proptest::prelude::*;
 
-fn run_given(given: &Given) -> (ModalProblem, InnerRun) {
+/// A run as given; where roots are so close that no first step settles there is nothing to look at.
+fn run_given(given: &Given) -> Result<(ModalProblem, InnerRun), TestCaseError> {
     let problem = chain_problem(&given.chain, &given.truth);
-    let run = run(&problem, &given.base, &given.total_ranges, &given.settings).unwrap();
-    (problem, run)
+    match run(&problem, &given.base, &given.total_ranges, &given.settings) {
+        Ok(run) => Ok((problem, run)),
+        Err(Error::UnsettledRoots { .. }) => Err(TestCaseError::reject("close roots")),
+        Err(error) => Err(TestCaseError::fail(error.to_string())),
+    }
 }
 
 /// A single step without halvings, its relaxation a thousandth of the usual.
@@ -45,18 +50,18 @@ proptest! {
 
     #[test]
     fn the_error_sum_only_falls(given in given()) {
-        assert_error_sum_only_falls(&run_given(&given).1);
+        assert_error_sum_only_falls(&run_given(&given)?.1);
     }
 
     #[test]
     fn limits_hold_in_every_iteration(given in given()) {
-        let (_, run) = run_given(&given);
+        let (_, run) = run_given(&given)?;
         assert_limits_hold(&run, &given.base, &given.total_ranges, given.settings.factor_range);
     }
 
     #[test]
     fn the_record_is_the_loop(given in given()) {
-        let (problem, run) = run_given(&given);
+        let (problem, run) = run_given(&given)?;
         assert_record_is_the_loop(&problem, &given, &run);
     }
 
@@ -65,7 +70,7 @@ proptest! {
         let count = given.truth.len();
         let free = Given { total_ranges: vec![None; count], ..given.clone() };
         let first = Given { base: vec![1.0; count], ..free.clone() };
-        prop_assert_eq!(run_given(&free).1.last.factors, run_given(&first).1.last.factors);
+        prop_assert_eq!(run_given(&free)?.1.last.factors, run_given(&first)?.1.last.factors);
     }
 }
 

@@ -9,9 +9,9 @@ use corfem::error::Error;
 use corfem::inner_loop::{InnerRun, InnerSettings, Stop, run};
 use corfem::modal::{DynamicModel, ModalProblem, Share};
 use corfem::modes::solve;
-use corfem::perturbation::{CloseRootsSettings, UpdateRule};
+use corfem::perturbation::UpdateRule;
 use corfem::step::{Limit, Range};
-use nalgebra::{DMatrix, dmatrix};
+use nalgebra::dmatrix;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
 fn one_spring() -> ModalProblem {
@@ -248,35 +248,6 @@ fn the_default_settings_are_the_papers() {
     );
     assert_eq!(settings.tolerance, 0.025);
     assert_eq!((settings.halvings, settings.iterations), (5, 100));
-}
-
-/// Two like oscillators side by side, stiffened together: a repeated root from the first to the last iteration.
-#[test]
-fn repeated_roots_are_corrected_by_the_rule_that_holds_them() {
-    let stiffness = DMatrix::identity(2, 2) * 100.0;
-    let model = DynamicModel {
-        shares: vec![Share::Stiffness(stiffness.clone())],
-        mass: DMatrix::identity(2, 2),
-        stiffness,
-    };
-    let test = solve(&(1.3 * &model.stiffness), &model.mass, 2).unwrap();
-    let problem = ModalProblem::new(&model, &test, 2).unwrap();
-    let by = |update| {
-        let settings = InnerSettings {
-            update,
-            tolerance: 1e-3,
-            ..InnerSettings::default()
-        };
-        run(&problem, &[1.0], &[None], &settings)
-    };
-    let corrected = by(UpdateRule::CloseRoots(CloseRootsSettings::default())).unwrap();
-    assert_eq!(corrected.stop, Stop::Tolerance);
-    assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < 2e-3);
-    // The recursions divide by the roots' distance.
-    assert!(matches!(
-        by(UpdateRule::default()),
-        Err(Error::CoalescingModes { .. })
-    ));
 }
 
 #[test]

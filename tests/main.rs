@@ -53,6 +53,7 @@ mod groups;
 mod html_report;
 mod inner_loop;
 mod inner_loop_bad_input;
+mod inner_loop_close_roots;
 mod inner_loop_stops;
 mod linalg;
 mod mass_correlation;

@@ -76,8 +76,8 @@ const Z: usize = 2;
 
 /// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after, and the same in the exact check.
 ///
-/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves close roots in blocks: plain
-/// Recursive 1 does not converge there in its sixty orders, and where a step ends would depend on round-off.
+/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves close roots in blocks: the
+/// roots of plain Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one pass more.
 pub fn settings() -> Settings {
     Settings {
         inner: InnerSettings {

@@ -29,6 +29,12 @@ use serde::Serialize;
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
 
+/// Relative change of a root in the last order allowed above which a recursion with a tolerance has not settled.
+///
+/// Between the tolerance, which is round-off, and this the recursion is slow but what it has left to go is little: a
+/// thousandth of an error sum of some percent.
+pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+
 /// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Perturbed<T = f64> {
@@ -72,6 +78,26 @@ pub enum UpdateRule {
     CloseRoots(CloseRootsSettings),
     /// An eigensolution in the modal coordinates, what the perturbation replaces.
     Eigensolution,
+}
+
+impl UpdateRule {
+    /// Refuses the roots of a rule that goes on until they settle, when they have not.
+    pub(crate) fn check_settled(&self, last_change: f64) -> Result<(), Error> {
+        let (tolerance, orders) = match *self {
+            Self::Recursive1Converged { tolerance, orders } => (tolerance, orders),
+            Self::CloseRoots(settings) => (settings.tolerance, settings.orders),
+            _ => return Ok(()),
+        };
+        let largest = tolerance.max(LARGEST_UNSETTLED_CHANGE);
+        if last_change <= largest {
+            return Ok(());
+        }
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        })
+    }
 }
 
 impl Default for UpdateRule {

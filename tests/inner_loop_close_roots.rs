@@ -1,0 +1,97 @@
+//! The inner loop where roots are close or repeated: which rule can follow them, and what the others say.
+
+use crate::common::tolerances::ROUND_OFF;
+use corfem::error::Error;
+use corfem::inner_loop::{InnerSettings, Stop, run};
+use corfem::modal::{DynamicModel, ModalProblem, Share};
+use corfem::modes::solve;
+use corfem::perturbation::{CloseRootsSettings, LARGEST_UNSETTLED_CHANGE, UpdateRule};
+use nalgebra::{DMatrix, dmatrix};
+
+/// Two like oscillators side by side, stiffened together: a repeated root from the first to the last iteration.
+#[test]
+fn repeated_roots_are_corrected_by_the_rule_that_holds_them() {
+    let stiffness = DMatrix::identity(2, 2) * 100.0;
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(stiffness.clone())],
+        mass: DMatrix::identity(2, 2),
+        stiffness,
+    };
+    let test = solve(&(1.3 * &model.stiffness), &model.mass, 2).unwrap();
+    let problem = ModalProblem::new(&model, &test, 2).unwrap();
+    let by = |update| {
+        let settings = InnerSettings {
+            update,
+            tolerance: 1e-3,
+            ..InnerSettings::default()
+        };
+        run(&problem, &[1.0], &[None], &settings)
+    };
+    let corrected = by(UpdateRule::CloseRoots(CloseRootsSettings::default())).unwrap();
+    assert_eq!(corrected.stop, Stop::Tolerance);
+    assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < 2e-3);
+    // The recursions divide by the roots' distance.
+    assert!(matches!(
+        by(UpdateRule::default()),
+        Err(Error::CoalescingModes { .. })
+    ));
+}
+
+/// Two oscillators of nearly the same stiffness, coupled by much more than their distance: the recursion leaps about.
+#[test]
+fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
+    let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
+    let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
+    let mass = DMatrix::identity(2, 2);
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(coupling.clone())],
+        stiffness: stiffness.clone(),
+        mass: mass.clone(),
+    };
+    let test = solve(&(&stiffness + 20.0 * &coupling), &mass, 2).unwrap();
+    let problem = ModalProblem::new(&model, &test, 2).unwrap();
+    let at = |update| problem.state_at(vec![1.6], update);
+    let exact = at(UpdateRule::Eigensolution).unwrap();
+    for orders in [2, 3] {
+        let rule = UpdateRule::Recursive1Converged {
+            tolerance: 1e-13,
+            orders,
+        };
+        match at(rule) {
+            Err(Error::UnsettledRoots {
+                largest,
+                orders: most,
+                last_change,
+            }) => {
+                assert_eq!((largest, most), (LARGEST_UNSETTLED_CHANGE, orders));
+                assert!(last_change > largest);
+            }
+            other => panic!("{other:?}"),
+        }
+        // To a fixed order, an order is all that was asked for.
+        assert!(at(UpdateRule::Recursive1 { order: orders }).is_ok());
+        // A tolerance of one's own above the limit counts.
+        let coarse = UpdateRule::Recursive1Converged {
+            tolerance: 0.5,
+            orders,
+        };
+        assert!(at(coarse).is_ok());
+    }
+    let held = at(UpdateRule::CloseRoots(CloseRootsSettings::default())).unwrap();
+    assert!((held.errors.sum() - exact.errors.sum()).abs() < ROUND_OFF);
+    // In the loop such a step is halved; when none settles, the first is an error.
+    let by = |orders, halvings| {
+        let settings = InnerSettings {
+            halvings,
+            update: UpdateRule::Recursive1Converged {
+                tolerance: 1e-13,
+                orders,
+            },
+            ..InnerSettings::default()
+        };
+        run(&problem, &[1.0], &[None], &settings)
+    };
+    assert!(matches!(by(2, 0), Err(Error::UnsettledRoots { .. })));
+    let halved = by(6, 5).unwrap();
+    assert!(halved.iterations[0].halvings > 0);
+}
