@@ -152,3 +152,19 @@ fn a_rods_stiffness_is_the_hand_result() {
     });
     assert!(relative_distance(&found, &by_hand) <= ROUND_OFF);
 }
+
+/// Plane stress knows no length: a triangle of a millionth of the size is as stiff, and no degenerate one.
+#[test]
+fn stiffness_of_a_triangle_does_not_depend_on_its_size() {
+    let material = Material::isotropic(1e7, 0.3).unwrap();
+    let corners = [
+        Vector3::new(0.0, 0.0, 0.0),
+        Vector3::new(4.0, 1.0, 0.0),
+        Vector3::new(1.0, 3.0, 2.0),
+    ];
+    let stiffness = triangle(corners, &material).unwrap();
+    for scale in [1e-6, 1e6] {
+        let scaled = triangle(corners.map(|corner| scale * corner), &material).unwrap();
+        assert!(relative_distance(&scaled, &stiffness) <= ELEMENT_ROUND_OFF);
+    }
+}

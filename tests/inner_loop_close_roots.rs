@@ -79,6 +79,15 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     }
     let held = at(UpdateRule::CloseRoots(CloseRootsSettings::default())).unwrap();
     assert!((held.errors.sum() - exact.errors.sum()).abs() < ROUND_OFF);
+    let without_blocks = UpdateRule::CloseRoots(CloseRootsSettings {
+        separation: 0.0,
+        orders: 3,
+        ..CloseRootsSettings::default()
+    });
+    assert!(matches!(
+        at(without_blocks),
+        Err(Error::UnsettledRoots { orders: 3, .. })
+    ));
     // In the loop such a step is halved; when none settles, the first is an error.
     let by = |orders, halvings| {
         let settings = InnerSettings {
@@ -94,4 +103,40 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     assert!(matches!(by(2, 0), Err(Error::UnsettledRoots { .. })));
     let halved = by(6, 5).unwrap();
     assert!(halved.iterations[0].halvings > 0);
+}
+
+/// A long step does not settle and a short one goes uphill: there is a place to stand, and no error.
+#[test]
+fn a_step_uphill_among_unsettled_ones_is_a_local_minimum() {
+    let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
+    let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
+    let mass = DMatrix::identity(2, 2);
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(coupling.clone())],
+        stiffness: stiffness.clone(),
+        mass: mass.clone(),
+    };
+    // A thousandth of the share is missing, and the first step asks for fifty times that.
+    let test = solve(&(&stiffness + 1e-3 * &coupling), &mass, 2).unwrap();
+    let problem = ModalProblem::new(&model, &test, 2).unwrap();
+    let with_halvings = |halvings| {
+        let settings = InnerSettings {
+            first_relaxation: 100.0,
+            halvings,
+            update: UpdateRule::Recursive1Converged {
+                tolerance: 1e-13,
+                orders: 2,
+            },
+            ..InnerSettings::default()
+        };
+        run(&problem, &[1.0], &[None], &settings)
+    };
+    assert!(matches!(
+        with_halvings(2),
+        Err(Error::UnsettledRoots { .. })
+    ));
+    let stopped = with_halvings(3).unwrap();
+    assert!((stopped.first_unlimited_factors[0] - 1.05).abs() < 1e-3);
+    assert_eq!(stopped.stop, Stop::LocalMinimum);
+    assert!(stopped.iterations.is_empty());
 }

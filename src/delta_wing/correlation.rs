@@ -86,9 +86,8 @@ pub fn settings() -> Settings {
             ..InnerSettings::default()
         },
         later_inner_tolerance: 0.005,
+        // Together they bound either error below its own default.
         error_sum_tolerance: 0.005,
-        frequency_tolerance: 0.005,
-        shape_tolerance: 0.005,
         ..Settings::default()
     }
 }
