@@ -70,6 +70,7 @@ mod model_refusals;
 mod modes;
 mod modes_bad_input;
 mod nastran95_analysis;
+mod nastran95_delta_wing;
 mod nastran95_model;
 mod nastran95_outer_loop;
 mod nastran95_output5;

@@ -1,18 +1,21 @@
 //! NASTRAN-95 itself, where it is installed: it answers as stored, and runs the decks as they are written.
 
-use crate::common::outer_loop::{assert_near, stored};
+use crate::common::outer_loop::{assert_near, stored, stored_wing};
 use crate::common::tolerances::{
     NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
-    NASTRAN_SINGLE_PRECISION,
+    NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
 };
 use corfem::cases::{Case, run_case_with};
 use corfem::deck::{self, BulkData, Task};
 use corfem::delta_wing::DeltaWing;
-use corfem::delta_wing::correlation::{GROUPS, first_model};
+use corfem::delta_wing::correlation::{correlate_wing_with, first_model, test_modes};
 use corfem::modal::DynamicModel;
 use corfem::model::FiniteElementModel;
 use corfem::modes::solve;
 use corfem::nastran95::{NAME, Nastran95, default_folder};
+use corfem::outer_loop::check;
+use corfem::report::delta_wing_tables::delta_wing_tables;
+use corfem::report::render::render_tables;
 use corfem::torque_box::{PANEL_COUNT, dynamic_points};
 use nalgebra::DMatrix;
 use std::io::Write;
@@ -164,14 +167,18 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
     let Some(nastran) = program("the delta wing by NASTRAN-95") else {
         return;
     };
+    let stored = stored_wing();
     let wing = DeltaWing::embedded().expect("the wing");
     let model = first_model(&wing).expect("a model");
-    for factors in [
-        [1.0; GROUPS.len()],
-        GROUPS.map(|g| g.first_over_true.recip()),
-    ] {
-        let here = model.analyze(&factors).expect("an analysis");
-        let there = nastran.analyze(&model, &factors).expect("an analysis");
+    let start = nastran
+        .analyze(&model, &stored.initial.factors)
+        .expect("an analysis");
+    let test = test_modes(&wing, &start.mass).expect("test modes");
+    for expected in stored.checks() {
+        let here = model.analyze(&expected.factors).expect("an analysis");
+        let there = nastran
+            .analyze(&model, &expected.factors)
+            .expect("an analysis");
         for (here, there) in [
             (&here.stiffness, &there.stiffness),
             (&here.mass, &there.mass),
@@ -189,5 +196,47 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
             NASTRAN_FREQUENCY,
             "delta wing",
         );
+        let again = check(&there, &test, 19).expect("modes");
+        assert_near(
+            &again.frequencies_hz,
+            &expected.frequencies_hz,
+            NASTRAN_AGAIN,
+            "delta wing, stored",
+        );
     }
+}
+
+#[test]
+fn nastran_corrects_the_delta_wing_as_stored() {
+    let Some(nastran) = program("the delta wing's correlation through NASTRAN-95") else {
+        return;
+    };
+    let run = correlate_wing_with(
+        &DeltaWing::embedded().expect("the wing"),
+        NAME,
+        |model, factors| nastran.analyze(model, factors),
+        |_, _| (),
+    )
+    .expect("a run");
+    let stored = stored_wing();
+    assert_eq!(run.correlation.passes.len(), stored.passes.len());
+    for (pass, expected) in run.correlation.passes.iter().zip(&stored.passes) {
+        assert_eq!(Some(pass.inner.iterations.len()), expected.iterations);
+        assert_near(
+            &pass.factors,
+            &expected.factors,
+            SAME_HISTORY,
+            "factors of the delta wing",
+        );
+    }
+    // The command does the same.
+    let output = assert_cmd::Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(["delta-wing", "--solver", "nastran95"])
+        .output()
+        .expect("it starts");
+    assert_eq!(output.status.code(), Some(0));
+    let tables = delta_wing_tables(&DeltaWing::embedded().expect("the wing"), &run);
+    let text = render_tables(&tables.expect("tables"), false);
+    assert_eq!(String::from_utf8_lossy(&output.stdout), text);
 }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes outer_loop.toml: the paper's cases with NASTRAN-95 as the finite element analysis of the outer loop.
+"""Makes outer_loop.toml and delta_wing.toml: correlations with NASTRAN-95 as the finite element analysis of the outer loop.
 
     python3 golden/nastran95/outer_loop.py [PROGRAM]
 
-It runs `corfem cases --solver nastran95 --format json` (PROGRAM, or what cargo builds of this project) and keeps what the
-tests compare with. NASTRAN-95 is looked for as README.md says. A run takes a few seconds.
+It runs `corfem cases` and `corfem delta-wing` with `--solver nastran95 --format json` (PROGRAM, or what cargo builds of
+this project) and keeps what the tests compare with. NASTRAN-95 is looked for as README.md says. A run takes a few seconds.
 """
 
 import json
@@ -13,35 +13,66 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-ARGUMENTS = ["cases", "--solver", "nastran95", "--format", "json", "--quiet"]
+ARGUMENTS = ["--solver", "nastran95", "--format", "json"]
 
 
 def numbers(values):
     return "[" + ", ".join(repr(value) for value in values) + "]"
 
 
-def main():
+def answer(*command):
     program = sys.argv[1:] or ["cargo", "run", "--quiet", "--release", "--"]
-    done = subprocess.run(program + ARGUMENTS, cwd=HERE.parents[1], check=True, capture_output=True, text=True)
+    done = subprocess.run([*program, *command, *ARGUMENTS], cwd=HERE.parents[1], check=True, capture_output=True, text=True)
+    return json.loads(done.stdout)
+
+
+def check(found):
+    """Frequencies and errors of an exact solution."""
+    return [
+        f"frequencies_hz = {numbers(found['frequencies_hz'])}",
+        f"frequency_rms = {found['frequency_rms']!r}",
+        f"shape_rms = {found['shape_rms']!r}",
+    ]
+
+
+def cases():
     lines = [
         "# The paper's four cases by `corfem cases --solver nastran95`: inner loop in the crate, every finite element analysis,",
         "# that of the test modes too, in NASTRAN-95 (PyPI wheel nastran95 0.3). Written by outer_loop.py; see README.md.",
         "# Hz, in; errors as fractions.",
     ]
-    for case in json.loads(done.stdout)["cases"]:
+    for case in answer("cases", "--quiet")["cases"]:
         lines += ["", "[[case]]", f"number = {case['case']}", f"test_frequencies_hz = {numbers(case['test_frequencies_hz'])}"]
         start = case["initial"]
-        lines += ["", "[case.initial]"]
-        for kept, found in [("initial", start)] + [("passes", found) for found in case["passes"]]:
-            if kept == "passes":
-                lines += ["", "[[case.passes]]", f"iterations = {found['iterations']}"]
-            lines += [
-                f"gages_in = {numbers(found['gages_in'])}",
-                f"frequencies_hz = {numbers(found['frequencies_hz'])}",
-                f"frequency_rms = {found['frequency_rms']!r}",
-                f"shape_rms = {found['shape_rms']!r}",
-            ]
-    (HERE / "outer_loop.toml").write_text("\n".join(lines) + "\n")
+        lines += ["", "[case.initial]", f"gages_in = {numbers(start['gages_in'])}", *check(start)]
+        for done in case["passes"]:
+            lines += ["", "[[case.passes]]", f"iterations = {done['iterations']}"]
+            lines += [f"gages_in = {numbers(done['gages_in'])}", *check(done)]
+    return lines
+
+
+def delta_wing():
+    wing = answer("delta-wing")
+    lines = [
+        "# The delta wing's wrong gages by `corfem delta-wing --solver nastran95`: test modes and inner loop in the crate, every",
+        "# finite element analysis of the model in NASTRAN-95 (PyPI wheel nastran95 0.3). Written by outer_loop.py; see README.md.",
+        "# Hz; factors on the first gages, in the order of the groups; errors as fractions.",
+        "",
+        f"test_frequencies_hz = {numbers(wing['test_frequencies_hz'])}",
+        "",
+        "[initial]",
+        f"factors = {numbers([1.0] * len(wing['groups']))}",
+        *check(wing["initial"]),
+    ]
+    for done in wing["passes"]:
+        lines += ["", "[[passes]]", f"iterations = {done['iterations']}"]
+        lines += [f"factors = {numbers(done['factors'])}", *check(done["exact"])]
+    return lines
+
+
+def main():
+    for name, lines in [("outer_loop.toml", cases()), ("delta_wing.toml", delta_wing())]:
+        (HERE / name).write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
 //! `corfem delta-wing`.
 
+use super::solver::{Solver, SolverArguments};
 use super::{FormatArgument, put};
 use clap::Args;
 use corfem::delta_wing::DeltaWing;
-use corfem::delta_wing::correlation::correlate_wing;
+use corfem::delta_wing::correlation::correlate_wing_with;
 use corfem::error::Error;
+use corfem::model::FiniteElementModel;
 use corfem::report::delta_wing_json::delta_wing_json;
 use corfem::report::delta_wing_tables::delta_wing_tables;
 use corfem::report::{Format, render};
@@ -18,12 +20,16 @@ pub struct DeltaWingArguments {
     /// Write the report to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    solver: SolverArguments,
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, Error> {
     let wing = DeltaWing::embedded()?;
-    let run = correlate_wing(&wing, |_, _| {})?;
+    let solver = Solver::of(&arguments.solver)?;
+    let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
+    let run = correlate_wing_with(&wing, solver.name(), analyze, |_, _| {})?;
     let tables = delta_wing_tables(&wing, &run)?;
     let report = match arguments.format.into() {
         Format::Text => render::render_tables(&tables, false),

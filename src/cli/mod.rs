@@ -6,6 +6,7 @@ mod delta_wing;
 mod fewer_modes;
 mod matrices;
 mod pictures;
+mod solver;
 
 use cases::CasesArguments;
 use clap::{Parser, Subcommand, ValueEnum};

@@ -12,13 +12,16 @@
 //!   of those of the whole wing. Stiffness alone is corrected.
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
+mod run;
+
+pub use run::{Recovered, WingCorrelation, correlate_wing, correlate_wing_with};
+
 use super::DeltaWing;
 use crate::error::Error;
 use crate::inner_loop::InnerSettings;
-use crate::modal::ModalProblem;
 use crate::model::FiniteElementModel;
 use crate::modes::Modes;
-use crate::outer_loop::{Correlation, Pass, Settings, correlate};
+use crate::outer_loop::Settings;
 use crate::parameters::Parameter;
 use crate::perturbation::{CloseRootsSettings, UpdateRule};
 use crate::structure::{Element, Material, Structure};
@@ -157,77 +160,4 @@ pub fn test_modes(wing: &DeltaWing, mass: &DMatrix<f64>) -> Result<Modes, Error>
         &lowest.shapes.select_rows(&rows).select_columns(&modes),
         mass,
     )
-}
-
-/// What became of one group.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Recovered {
-    /// The group.
-    pub group: Group,
-    /// The factor found on its first gage.
-    pub factor: f64,
-    /// Its largest share of a test mode's generalized stiffness, $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$, in the first model: what of it
-    /// the test modes can see.
-    pub share: f64,
-}
-
-impl Recovered {
-    /// The factor that makes the model right.
-    pub fn true_factor(&self) -> f64 {
-        1.0 / self.group.first_over_true
-    }
-
-    /// Relative error of the gage found, a fraction.
-    pub fn error(&self) -> f64 {
-        self.factor / self.true_factor() - 1.0
-    }
-
-    /// Relative error of the first gage, a fraction.
-    pub fn first_error(&self) -> f64 {
-        self.group.first_over_true - 1.0
-    }
-}
-
-/// The scenario run to its end.
-#[derive(Debug, Clone)]
-pub struct WingCorrelation {
-    /// The test modes.
-    pub test: Modes,
-    /// The whole history.
-    pub correlation: Correlation,
-    /// Every group, in the order of [`GROUPS`], with the factors of the best pass.
-    pub groups: Vec<Recovered>,
-}
-
-/// Corrects the model of wrong gages; `progress` is told of every pass.
-///
-/// # Errors
-/// Those of [`first_model`], [`test_modes`], the analysis and the loops.
-pub fn correlate_wing(
-    wing: &DeltaWing,
-    progress: impl FnMut(usize, &Pass),
-) -> Result<WingCorrelation, Error> {
-    let model = first_model(wing)?;
-    let start = model.analyze(&[1.0; GROUPS.len()])?;
-    let test = test_modes(wing, &start.mass)?;
-    let shares = ModalProblem::new(&start, &test, start.mass.nrows())?.test_shares;
-    let correlation = correlate(
-        |factors| model.analyze(factors),
-        &test,
-        &model.factor_ranges()?,
-        &settings(),
-        progress,
-    )?;
-    let factors = correlation.best_factors();
-    let found = GROUPS.iter().zip(factors).zip(shares.column_iter());
-    let groups = found.map(|((group, factor), share)| Recovered {
-        group: *group,
-        factor,
-        share: share.max(),
-    });
-    Ok(WingCorrelation {
-        groups: groups.collect(),
-        test,
-        correlation,
-    })
 }

@@ -3,6 +3,7 @@
 use super::correlation_tables::{PERCENT, RMS_PERCENT, column};
 use super::delta_wing_tables::plain;
 use super::table::{Cell, Digits, Row, Table};
+use crate::cases::BUILT_IN;
 use crate::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::inner_loop::Stop;
 use crate::outer_loop::Check;
@@ -96,8 +97,18 @@ fn test_mode_table(run: &WingCorrelation) -> Table {
             column("End error", "%"),
         ],
         rows,
-        notes: Vec::new(),
+        notes: solver(run).into_iter().collect(),
     }
+}
+
+/// What did the finite element analyses of the model, when it was not the crate itself.
+fn solver(run: &WingCorrelation) -> Option<String> {
+    (run.solver != BUILT_IN).then(|| {
+        format!(
+            "Finite element analyses of the model with wrong gages by {}; test modes and everything else by this program.",
+            run.solver
+        )
+    })
 }
 
 fn pass_table(run: &WingCorrelation) -> Table {

@@ -17,6 +17,7 @@ struct Document {
     trailing_edge_load_deflections_in: Vec<f64>,
     leading_edge_load_deflections_in: Vec<f64>,
     frequencies_hz: Vec<f64>,
+    solver: &'static str,
     groups: Vec<GroupDocument>,
     test_modes: [usize; TEST_MODES.len()],
     test_frequencies_hz: Vec<f64>,
@@ -51,7 +52,7 @@ struct PassDocument {
 }
 
 /// The wing's answers and the whole correlation as pretty-printed JSON: deflections along z in inches, errors as fractions,
-/// factors on the first gages in the order of the groups.
+/// factors on the first gages in the order of the groups; `solver` did the finite element analyses of the correlation.
 ///
 /// # Errors
 /// Those of the wing's analyses; [`Error::Table`] if a number were not finite.
@@ -65,6 +66,7 @@ pub fn delta_wing_json(wing: &DeltaWing, run: &WingCorrelation) -> Result<String
         trailing_edge_load_deflections_in: wing.deflections(TipLoad::TrailingEdge)?,
         leading_edge_load_deflections_in: wing.deflections(TipLoad::LeadingEdge)?,
         frequencies_hz: wing.modes()?.modes.frequencies_hz(),
+        solver: run.solver,
         groups: run.groups.iter().map(group_document).collect(),
         test_modes: TEST_MODES,
         test_frequencies_hz: run.test.frequencies_hz(),

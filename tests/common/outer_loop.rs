@@ -28,6 +28,37 @@ pub struct StoredCheck {
     pub shape_rms: f64,
 }
 
+/// The delta wing's correlation, `golden/nastran95/delta_wing.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredWing {
+    pub test_frequencies_hz: Vec<f64>,
+    pub initial: StoredWingCheck,
+    pub passes: Vec<StoredWingCheck>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredWingCheck {
+    pub iterations: Option<usize>,
+    pub factors: Vec<f64>,
+    pub frequencies_hz: Vec<f64>,
+    pub frequency_rms: f64,
+    pub shape_rms: f64,
+}
+
+impl StoredWing {
+    /// The exact solutions: the initial one, and that after every pass.
+    pub fn checks(&self) -> impl Iterator<Item = &StoredWingCheck> {
+        std::iter::once(&self.initial).chain(&self.passes)
+    }
+}
+
+pub fn stored_wing() -> StoredWing {
+    let text = include_str!("../../golden/nastran95/delta_wing.toml");
+    toml::from_str(text).expect("the golden reads")
+}
+
 pub fn stored() -> Vec<StoredCase> {
     let text = include_str!("../../golden/nastran95/outer_loop.toml");
     let stored: Stored = toml::from_str(text).expect("the golden reads");
