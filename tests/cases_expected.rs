@@ -207,6 +207,13 @@ fn an_anomaly_lies_far_beyond_either_bound() {
         .map(|anomaly| (anomaly.parameter.as_str(), anomaly.factor))
         .collect();
     assert_eq!(found, [("C", factors[2]), ("A", factors[0])]);
+    // Numbers without round-off: twenty widths are not yet beyond twenty widths.
+    let range = Range {
+        lower: 0.5,
+        upper: 1.5,
+    };
+    assert!(anomalies(&names, &[21.5, -19.5], range).is_empty());
+    assert_eq!(anomalies(&names, &[21.75, -19.75], range).len(), 2);
 }
 
 /// Case 4 as the paper ran it is done when its one iteration names an element; run on, it has to correlate, as every

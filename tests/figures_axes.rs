@@ -3,7 +3,7 @@
 use crate::figures::results;
 use corfem::cases::Case;
 use corfem::figures::cover_gages::cover_gages;
-use corfem::figures::error_history::error_history;
+use corfem::figures::error_history::{ErrorHistory, error_history};
 use corfem::figures::unlimited_factors::unlimited_factors;
 
 /// Everything written in a drawing, in its order.
@@ -30,25 +30,34 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
 
 #[test]
 fn error_axis_ends_at_the_ticks_around_the_errors() {
-    let mut history = error_history(&results()[0]);
-    let ticks = |history: &corfem::figures::error_history::ErrorHistory| -> Vec<f64> {
+    let history = error_history(&results()[0]);
+    let ticks = |history: &ErrorHistory| -> Vec<f64> {
         let words = words(&history.draw().expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
         let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
         numbers
-            .filter(|number| [0.1, 0.2, 0.5, 50.0, 100.0].contains(number))
+            .filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number))
             .collect()
     };
-    assert!(ticks(&history).contains(&100.0));
-    for pass in &mut history.passes {
-        for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
-            moment.errors.frequency *= 0.2;
-            moment.errors.shape *= 0.2;
+    let moments = |history: &ErrorHistory| -> Vec<f64> {
+        let passes = history.passes.iter();
+        let moments = passes.flat_map(|pass| pass.inner.iter().chain([&pass.check]));
+        moments.map(|moment| moment.errors.sum()).collect()
+    };
+    let largest = moments(&history).into_iter().fold(0.0, f64::max);
+    // A tenth of room is left above the largest: with 45 % at 50, and 46 % at 100.
+    for (wanted, last) in [(0.46, 100.0), (0.45, 50.0), (0.05, 10.0)] {
+        let mut scaled = history.clone();
+        for pass in &mut scaled.passes {
+            for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
+                moment.errors.frequency *= wanted / largest;
+                moment.errors.shape *= wanted / largest;
+            }
         }
+        let found = ticks(&scaled);
+        let highest = found.iter().copied().fold(0.0, f64::max);
+        assert_eq!(highest, last, "{found:?}");
     }
-    let found = ticks(&history);
-    assert!(!found.contains(&100.0), "{found:?}");
-    assert!(found.contains(&0.5), "{found:?}");
 }
 
 #[test]
@@ -71,4 +80,23 @@ fn factor_axis_leaves_room_for_the_numbers() {
     assert_eq!(lowest(&figure), -20.0);
     figure.factors[0].computed = -5.0;
     assert_eq!(lowest(&figure), -10.0);
+}
+
+/// What the legend shows is the color of the panels it speaks of.
+#[test]
+fn legend_of_the_gages_has_the_panels_colors() {
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
+    let svg = cover_gages(&cases).draw().expect("drawn");
+    // The fill of the last polygon before a word.
+    let fill = |word: &str| {
+        let before = &svg[..svg.find(word).expect("written")];
+        let polygon = &before[before.rfind("<polygon").expect("drawn")..];
+        polygon.split("fill=\"").nth(1).expect("a fill")[..7].to_owned()
+    };
+    assert_eq!(fill("thinner than in the test"), fill("0.0001"));
+    assert_eq!(fill("thicker than in the test"), fill("0.015"));
+    assert_eq!(fill("as in the test"), fill("0.010"));
+    assert_ne!(fill("0.0001"), fill("0.015"));
 }

@@ -105,10 +105,23 @@ fn predictions_are_drawn_for_errors_of_any_size_and_for_no_others() {
     let ticks: Vec<&str> = words
         .iter()
         .map(String::as_str)
-        .filter(|word| word.contains('.') && word.len() == 3)
+        .filter(|word| word.replace('−', "-").parse::<f64>().is_ok() && word.contains('.'))
         .collect();
     assert_eq!(ticks, ["0.0", "0.5", "1.0", "1.5", "2.0"].repeat(2));
     assert!(!words.iter().any(|word| word == "not shown to any model"));
+    // As far down as up, and no line beyond the bars.
+    for prediction in &mut small.predictions {
+        prediction.as_tested.fill(-0.02);
+    }
+    let drawn = predictions(&small).draw().expect("drawn");
+    let words = crate::common::drawings::written(&drawn);
+    let ticks: Vec<&str> = words
+        .iter()
+        .map(|word| word.text.as_str())
+        .filter(|word| word.contains('−') || *word == "0")
+        .collect();
+    assert_eq!(ticks, ["−2", "−1", "0"].repeat(2));
+    assert!(!words.iter().any(|word| word.text == "10"));
     // Errors of zero still have an axis.
     for prediction in &mut small.predictions {
         prediction.as_tested.fill(0.0);

@@ -96,8 +96,8 @@ pub fn run() -> ExitCode {
         Some(Command::FewerModes(arguments)) => fewer_modes::fewer_modes(&arguments),
         Some(Command::Matrices(arguments)) => matrices::matrices(&arguments),
         Some(Command::DeltaWing(arguments)) => delta_wing::delta_wing(&arguments),
-        Some(Command::Figures(arguments)) => pictures::figures(&arguments),
-        Some(Command::Report(arguments)) => pictures::report(&arguments),
+        Some(Command::Figures(arguments)) => pictures::figures(&arguments).map(|()| true),
+        Some(Command::Report(arguments)) => pictures::report(&arguments).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
     };
