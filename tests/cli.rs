@@ -217,3 +217,18 @@ fn too_few_iterations_is_exit_status_3_with_the_best_still_printed() {
     assert_eq!(output.status.code(), Some(3));
     assert!(text(&output.stdout).contains("Pass 2"));
 }
+
+#[test]
+fn substructures_are_groups_in_the_report() {
+    let report = text(&corfem(&["cases", "4", "--groups", "--quiet"]).stdout);
+    for group in ["covers", "spars", "ribs"] {
+        assert!(report.contains(group), "{group}");
+    }
+    let output = corfem(&["cases", "2", "--groups", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0));
+    let run = parsed(&["cases", "2", "--groups", "--format", "json", "--quiet"]);
+    let passes = run["cases"][0]["passes"].as_array().expect("passes");
+    let plain = parsed(&["cases", "2", "--format", "json", "--quiet"]);
+    assert_ne!(&plain["cases"][0]["passes"], &run["cases"][0]["passes"]);
+    assert!(!passes.is_empty());
+}

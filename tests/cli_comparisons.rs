@@ -66,6 +66,10 @@ fn matrices_of_a_case_and_a_number_of_modes() {
         plain.stdout,
         corfem(&["matrices", "2", "--test-modes", "5"]).stdout
     );
+    let csv = text(&corfem(&["matrices", "--format", "csv"]).stdout);
+    assert!(csv.starts_with("table,"), "{csv:.80}");
+    let markdown = text(&corfem(&["matrices", "--format", "markdown"]).stdout);
+    assert!(markdown.starts_with("#") && markdown.contains("\n|"));
     let json = corfem(&["matrices", "3", "--test-modes", "7", "--format", "json"]).stdout;
     let json: Value = serde_json::from_slice(&json).expect("JSON");
     let comparison = &json["comparison"];

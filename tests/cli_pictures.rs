@@ -50,9 +50,15 @@ fn figures_command_writes_svg_and_png_and_leaves_other_files_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     std::fs::write(folder.path().join("notes.txt"), "mine").expect("written");
-    let run = corfem(&["figures", "--out", out, "--png", "--quiet"]);
+    let run = corfem(&["figures", "--out", out, "--png"]);
     assert_eq!(run.status.code(), Some(0));
-    assert!(run.stdout.is_empty() && run.stderr.is_empty());
+    assert!(run.stdout.is_empty());
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    let count = 2 * figures().len();
+    assert_eq!(
+        said.lines().last(),
+        Some(format!("{count} files in {out}").as_str())
+    );
     let names = names_in(folder.path());
     assert_eq!(names.len(), 2 * figures().len() + 1);
     for figure in figures() {

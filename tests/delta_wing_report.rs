@@ -6,10 +6,11 @@ use approx::assert_relative_eq;
 use assert_cmd::Command;
 use corfem::delta_wing::correlation::{TEST_MODES, WingCorrelation, correlate_wing};
 use corfem::delta_wing::{DeltaWing, TipLoad};
+use corfem::inner_loop::Stop;
 use corfem::outer_loop::Check;
 use corfem::report::delta_wing_tables::delta_wing_tables;
 use corfem::report::render::{csv, render_tables};
-use corfem::report::table::Table;
+use corfem::report::table::{Cell, Table};
 use serde_json::Value;
 use std::sync::LazyLock;
 
@@ -157,4 +158,28 @@ fn assert_check(document: &Value, check: &Check) {
     let rms = ["frequency_rms", "shape_rms"].map(|key| document[key].clone());
     let expected = [check.errors.frequency_rms(), check.errors.shape_rms()];
     assert_numbers(&Value::from(rms.to_vec()), &expected);
+}
+
+#[test]
+fn why_a_pass_stopped_is_said_in_words() {
+    let mut run = RUN.clone();
+    run.correlation.passes[0].inner.stop = Stop::LocalMinimum;
+    run.correlation.passes[1].inner.stop = Stop::Iterations;
+    let tables = delta_wing_tables(&wing(), &run).expect("tables");
+    let passes = tables.iter().find(|table| table.name.contains("passes"));
+    let said: Vec<&Cell> = passes
+        .expect("a table of passes")
+        .rows
+        .iter()
+        .map(|row| &row.cells[1])
+        .collect();
+    let word = |word: &str| Cell::Text(word.to_owned());
+    assert_eq!(
+        said,
+        [
+            &word("local minimum"),
+            &word("iterations"),
+            &word("tolerance")
+        ]
+    );
 }

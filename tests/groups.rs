@@ -1,6 +1,7 @@
 //! Groups: the paper's substructures, all elements of one scaled together.
 
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
+use corfem::error::Error;
 use corfem::parameters::Scaled;
 use corfem::torque_box::TEST_GAGE;
 
@@ -115,5 +116,21 @@ fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
         assert_eq!(range.lower, gages.lower / gages.upper);
         assert_eq!(range.upper, gages.upper / gages.lower);
         assert!(range.lower < 1.0 && 1.0 < range.upper);
+    }
+}
+
+#[test]
+fn there_is_a_gage_for_every_panel() {
+    let case = Case::new(1).expect("a case");
+    for count in [14, 16] {
+        match case.model_with(&vec![TEST_GAGE; count]) {
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                rows,
+                ..
+            }) => assert_eq!((what, expected_rows, rows), ("panel gages", 15, count)),
+            other => panic!("{other:?}"),
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::common::tolerances::{
 };
 use corfem::cases::{CASES, Case, Grouping, run_case};
 use corfem::fit::fit;
-use corfem::report::render::{csv, render};
+use corfem::report::render::{csv, render, render_tables};
 use corfem::report::root_errors::root_error_table;
 use corfem::report::run_tables::all_tables;
 use corfem::report::table::Table;
@@ -102,5 +102,12 @@ fn root_errors_of_table_1() {
     };
     let table = root_error_table().expect("separate roots");
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
+    // Errors over many decades: a reader sees a digit and a power of ten.
+    let text = render_tables(std::slice::from_ref(&table), false);
+    let cells = text.split_whitespace().filter(|word| {
+        let parts = word.split_once("e-");
+        parts.is_some_and(|(digits, _)| digits.trim_start_matches('-').len() == 3)
+    });
+    assert!(cells.count() > 24 * 7, "{text}");
     assert_golden("table_1", &csv(&[table]).expect("written"), numbers);
 }

@@ -3,7 +3,7 @@
 use crate::common::tolerances::ROUND_OFF;
 use corfem::cases::Case;
 use corfem::error::Error;
-use corfem::torque_box::{Reconstruction, load_distribution, structure};
+use corfem::torque_box::{Reconstruction, dynamic_points, load_distribution, structure};
 use nalgebra::{DMatrix, DVector};
 
 const TEXT: &str = include_str!("../paper/reconstruction.toml");
@@ -165,4 +165,15 @@ fn numbers_that_cannot_be_are_refused_where_they_are_used() {
         matches!(&refused, Error::NotPositive { what: "area", owner, .. } if owner == "element 16"),
         "{refused:?}"
     );
+}
+
+#[test]
+fn dynamic_points_lie_between_grids_that_are_there() {
+    let mut data = Reconstruction::embedded().unwrap();
+    assert_eq!(dynamic_points(&data).unwrap().len(), 9);
+    data.grids.remove(&7);
+    match dynamic_points(&data) {
+        Err(Error::MissingGrid { grid, count }) => assert_eq!((grid, count), (7, 16)),
+        other => panic!("{other:?}"),
+    }
 }
