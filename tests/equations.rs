@@ -25,7 +25,7 @@ fn entries() -> Vec<Table> {
         .collect()
 }
 
-fn strings(entry: &Table, key: &str) -> Vec<String> {
+pub fn strings(entry: &Table, key: &str) -> Vec<String> {
     let list = entry
         .get(key)
         .and_then(Value::as_array)
@@ -44,7 +44,7 @@ fn source(folder: &str, module: &str) -> Option<String> {
 }
 
 /// Whether `folder` defines a function (or type) `module::name`.
-fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
+pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
     let Some((module, name)) = full_name.rsplit_once("::") else {
         return false;
     };

@@ -88,6 +88,7 @@ mod perturbation_rows;
 mod perturbation_two_dof;
 mod quadrature;
 mod rank_one_terms;
+mod routes;
 mod singular_structures;
 mod snapshots;
 mod sorting;

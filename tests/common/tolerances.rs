@@ -1,4 +1,5 @@
 //! The one ledger of tolerances. Each line says why it is what it is; no test has a tolerance of its own.
+//! Which two routes every number has is in `tests/routes.toml`.
 
 /// A few roundings of numbers of order one.
 pub const ROUND_OFF: f64 = 1e-13;
