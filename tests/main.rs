@@ -10,6 +10,7 @@ mod appendix_c_clusters;
 mod appendix_c_complex;
 mod appendix_c_general;
 mod appendix_c_general_errors;
+mod appendix_c_general_limits;
 mod appendix_c_inner_loop;
 mod appendix_c_orders;
 mod appendix_c_table_1;
