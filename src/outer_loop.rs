@@ -118,7 +118,8 @@ impl Correlation {
 /// `progress` is told of every pass as it is finished.
 ///
 /// # Errors
-/// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range.
+/// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
+/// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
 pub fn correlate(
     mut analyze: impl FnMut(&[f64]) -> Result<DynamicModel, Error>,
     test: &Modes,
@@ -138,7 +139,16 @@ pub fn correlate(
         && (passes.len() < settings.least_passes || !converged)
     {
         let problem = ModalProblem::new(&model, test, mode_count)?;
-        let inner = run(&problem, &factors, total_ranges, &inner_settings)?;
+        let inner = match run(&problem, &factors, total_ranges, &inner_settings) {
+            Ok(inner) => inner,
+            // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
+            Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })
+                if !passes.is_empty() =>
+            {
+                break;
+            }
+            Err(error) => return Err(error),
+        };
         for (factor, step) in factors.iter_mut().zip(&inner.last.factors) {
             *factor *= step;
         }

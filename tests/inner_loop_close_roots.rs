@@ -5,6 +5,7 @@ use corfem::error::Error;
 use corfem::inner_loop::{InnerSettings, Stop, run};
 use corfem::modal::{DynamicModel, ModalProblem, Share};
 use corfem::modes::solve;
+use corfem::outer_loop::{Settings, correlate};
 use corfem::perturbation::{CloseRootsSettings, LARGEST_UNSETTLED_CHANGE, UpdateRule};
 use nalgebra::{DMatrix, dmatrix};
 
@@ -139,4 +140,36 @@ fn a_step_uphill_among_unsettled_ones_is_a_local_minimum() {
     assert!((stopped.first_unlimited_factors[0] - 1.05).abs() < 1e-3);
     assert_eq!(stopped.stop, Stop::LocalMinimum);
     assert!(stopped.iterations.is_empty());
+}
+
+/// A model whose modes fall together is an error at the start, and later the end of a correlation that keeps its passes.
+#[test]
+fn modes_that_fall_together_end_a_correlation_begun() {
+    let of = |first: f64, second: f64| {
+        let stiffness = dmatrix![first, 0.0; 0.0, second];
+        DynamicModel {
+            shares: vec![Share::Stiffness(stiffness.clone())],
+            mass: DMatrix::identity(2, 2),
+            stiffness,
+        }
+    };
+    let (apart, together) = (of(100.0, 400.0), of(100.0, 100.0));
+    let test = solve(&(1.3 * &apart.stiffness), &apart.mass, 2).unwrap();
+    let run = |models: [&DynamicModel; 2]| {
+        let mut analyses = 0;
+        let analyze = |_: &[f64]| {
+            analyses += 1;
+            Ok(models[usize::from(analyses > 1)].clone())
+        };
+        correlate(analyze, &test, &[None], &Settings::default(), |_, _| {})
+    };
+    assert!(matches!(
+        run([&together, &apart]),
+        Err(Error::CoalescingModes { .. })
+    ));
+    let found = run([&apart, &together]).unwrap();
+    assert_eq!(found.passes.len(), 1);
+    assert!((found.passes[0].factors[0] / 1.3 - 1.0).abs() < 0.05);
+    assert!(!found.converged);
+    assert_eq!(run([&apart, &apart]).unwrap().passes.len(), 10);
 }

@@ -3,6 +3,7 @@
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
+use corfem::error::Error;
 use corfem::inner_loop::{InnerSettings, run};
 use corfem::modal::ModalProblem;
 use corfem::outer_loop::{Check, Settings, check, correlate};
@@ -161,9 +162,10 @@ proptest! {
             &ranges,
             &settings,
             |_, _| {},
-        )
-        .unwrap();
-        for pass in found.passes {
+        );
+        // Where roots are so close that no first step settles there is no pass to look at.
+        prop_assume!(!matches!(found, Err(Error::UnsettledRoots { .. })));
+        for pass in found.unwrap().passes {
             for (factor, (lower, upper)) in pass.factors.iter().zip(&bounds) {
                 prop_assert!(*factor >= lower * (1.0 - ROUND_OFF));
                 prop_assert!(*factor <= upper * (1.0 + ROUND_OFF));
