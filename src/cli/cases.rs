@@ -1,14 +1,15 @@
 //! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
 
+use super::reconstruction;
+use super::report::ReportArguments;
 use super::solver::{Solver, SolverArguments};
-use super::{FormatArgument, put, reconstruction};
 use clap::Args;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
 use corfem::error::Error;
-use corfem::fit::{Fit, fit};
+use corfem::fit::fit;
 use corfem::model::FiniteElementModel;
 use corfem::report::run_tables::all_tables;
-use corfem::report::{Format, json, render};
+use corfem::report::{json, render};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -16,12 +17,8 @@ pub struct CasesArguments {
     /// Which cases to run; all four if none is named
     #[arg(value_name = "CASE")]
     cases: Vec<usize>,
-    /// How to write the report
-    #[arg(short, long, value_enum, default_value = "text")]
-    format: FormatArgument,
-    /// Write the report to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArguments,
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
@@ -69,17 +66,9 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         })?);
     }
     let fit = fit(&reconstruction)?;
-    let report = write_report(&results, &fit, arguments.format.into())?;
-    put(arguments.output.as_deref(), &report)?;
+    let tables = all_tables(&results, &fit)?;
+    arguments
+        .report
+        .write(&tables, render::render, || json::json(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
-}
-
-fn write_report(results: &[CaseResult], fit: &Fit, format: Format) -> Result<String, Error> {
-    let tables = all_tables(results, fit)?;
-    match format {
-        Format::Text => Ok(render::render(&tables, false)),
-        Format::Markdown => Ok(render::render(&tables, true)),
-        Format::Json => json::json(results, fit),
-        Format::Csv => render::csv(&tables),
-    }
 }

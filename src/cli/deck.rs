@@ -1,12 +1,13 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::{FormatArgument, put, read, reconstruction};
+use super::report::ReportArguments;
+use super::{put, read, reconstruction};
 use clap::Args;
 use corfem::cases::{Case, run_case};
 use corfem::deck::{self, BulkData, Task};
 use corfem::error::Error;
 use corfem::report::deck_tables::{deck_json, deck_tables, not_read};
-use corfem::report::{Format, render};
+use corfem::report::render;
 use corfem::torque_box::dynamic_points;
 use std::path::PathBuf;
 
@@ -34,15 +35,11 @@ pub struct ModesArguments {
     /// The deck: bulk data, with or without executive and case control
     #[arg(value_name = "DECK")]
     deck: PathBuf,
-    /// How to write the modes
-    #[arg(short, long, value_enum, default_value = "text")]
-    format: FormatArgument,
+    #[command(flatten)]
+    report: ReportArguments,
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
     count: Option<usize>,
-    /// Write the modes to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
 }
 
 /// Writes the deck of a case.
@@ -101,11 +98,7 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
         });
     }
     let tables = deck_tables(&deck, &modes, count);
-    let text = match arguments.format.into() {
-        Format::Text => render::render_tables(&tables, false),
-        Format::Markdown => render::render_tables(&tables, true),
-        Format::Json => deck_json(&deck, &modes, count)?,
-        Format::Csv => render::csv(&tables)?,
-    };
-    put(arguments.output.as_deref(), &text)
+    arguments.report.write(&tables, render::render_tables, || {
+        deck_json(&deck, &modes, count)
+    })
 }

@@ -6,6 +6,7 @@ mod delta_wing;
 mod fewer_modes;
 mod matrices;
 mod pictures;
+mod report;
 mod solver;
 
 use cases::CasesArguments;
@@ -93,8 +94,8 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => cases::cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases::cases(&arguments),
-        Some(Command::FewerModes(arguments)) => fewer_modes::fewer_modes(&arguments),
-        Some(Command::Matrices(arguments)) => matrices::matrices(&arguments),
+        Some(Command::FewerModes(arguments)) => fewer_modes::fewer_modes(&arguments).map(|()| true),
+        Some(Command::Matrices(arguments)) => matrices::matrices(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => delta_wing::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::figures(&arguments).map(|()| true),
         Some(Command::Report(arguments)) => pictures::report(&arguments).map(|()| true),

@@ -1,5 +1,6 @@
 //! The modes of a deck as tables and as JSON.
 
+use super::json::written;
 use super::table::{Cell, Column, Digits, Row, Table};
 use crate::deck::{Deck, DeckModes, Reason, Unread};
 use crate::error::Error;
@@ -104,13 +105,7 @@ pub fn deck_json(deck: &Deck, modes: &DeckModes, count: usize) -> Result<String,
         shapes: scaled.shapes,
         not_read: deck.unread.iter().map(not_read).collect(),
     };
-    serde_json::to_string_pretty(&document)
-        .map(|text| text + "\n")
-        .map_err(|error| Error::Table {
-            name: "JSON output".into(),
-            expected: "finite numbers".into(),
-            found: error.to_string(),
-        })
+    written(&document)
 }
 
 #[derive(Debug, Serialize)]
