@@ -18,40 +18,24 @@ use nalgebra::{DMatrix, DVector};
 pub fn first_order_held(change: &ModalChange<f64>, separation: f64) -> Result<Perturbed, Error> {
     change.check()?;
     let size = change.len();
-    let mut perturbed = Perturbed {
-        roots: DVector::zeros(size),
-        shapes: DMatrix::zeros(size, size),
-        order: 1,
-        last_change: f64::INFINITY,
-    };
-    first_order_held_into(
-        change,
-        separation,
-        &mut perturbed.roots,
-        &mut perturbed.shapes,
-    )?;
-    Ok(perturbed)
-}
-
-/// [`first_order_held`] into storage that is already there, for a change already checked.
-pub(crate) fn first_order_held_into(
-    change: &ModalChange<f64>,
-    separation: f64,
-    roots: &mut DVector<f64>,
-    shapes: &mut DMatrix<f64>,
-) -> Result<(), Error> {
-    for i in 0..change.len() {
+    let mut roots = DVector::zeros(size);
+    for i in 0..size {
         roots[i] = change.first_order_root(i);
         check_root(i, roots[i])?;
     }
-    shapes.fill_with_identity();
-    for j in 0..change.len() {
-        for i in (0..change.len()).filter(|&i| i != j) {
+    let mut shapes = DMatrix::identity(size, size);
+    for j in 0..size {
+        for i in (0..size).filter(|&i| i != j) {
             if (roots[i] - roots[j]).abs() >= separation * roots[i].max(roots[j]) {
                 shapes[(i, j)] = (change.alpha[(i, j)] - change.beta[(i, j)] * roots[j])
                     / change.denominator(roots[j], i, j)?;
             }
         }
     }
-    Ok(())
+    Ok(Perturbed {
+        roots,
+        shapes,
+        order: 1,
+        last_change: f64::INFINITY,
+    })
 }

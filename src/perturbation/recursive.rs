@@ -24,29 +24,8 @@ pub fn first_order(
 ) -> Result<Perturbed, Error> {
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
-    let mut perturbed = Perturbed {
-        roots: DVector::zeros(size),
-        shapes: DMatrix::zeros(size, size),
-        order: 1,
-        last_change: f64::INFINITY,
-    };
-    first_order_into(
-        generalized_stiffness,
-        beta,
-        &mut perturbed.roots,
-        &mut perturbed.shapes,
-    )?;
-    Ok(perturbed)
-}
-
-/// [`first_order`] into storage that is already there, for the derivative loop.
-pub(crate) fn first_order_into(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    roots: &mut DVector<f64>,
-    shapes: &mut DMatrix<f64>,
-) -> Result<(), Error> {
-    let size = k.len();
+    let k = generalized_stiffness;
+    let (mut roots, mut shapes) = (DVector::zeros(size), DMatrix::zeros(size, size));
     for i in 0..size {
         roots[i] = 1.0 / (k[i] + beta[(i, i)]);
         check_root(i, roots[i])?;
@@ -60,7 +39,12 @@ pub(crate) fn first_order_into(
             };
         }
     }
-    Ok(())
+    Ok(Perturbed {
+        roots,
+        shapes,
+        order: 1,
+        last_change: f64::INFINITY,
+    })
 }
 
 /// Recursive 1 (7, 8, C.22) to a given order, from first order on; with $\rho = r - 1$:
