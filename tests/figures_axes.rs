@@ -1,19 +1,15 @@
 //! Axes and numbers of the figures on other data than the four cases': what holds them, and how they are written.
 
+use crate::common::drawings::written;
 use crate::figures::results;
 use corfem::cases::Case;
 use corfem::figures::cover_gages::cover_gages;
 use corfem::figures::error_history::{ErrorHistory, error_history};
 use corfem::figures::unlimited_factors::unlimited_factors;
 
-/// Everything written in a drawing, in its order.
+/// The words of a drawing, in its order.
 fn words(svg: &str) -> Vec<String> {
-    let document = svg.split("<text").skip(1).map(|text| {
-        let text = text.split_once('>').expect("a start tag").1;
-        let text = text.split_once("</text>").expect("its end").0;
-        text.trim().to_owned()
-    });
-    document.collect()
+    written(svg).into_iter().map(|word| word.text).collect()
 }
 
 #[test]

@@ -38,19 +38,24 @@ fn repeated_roots_are_corrected_by_the_rule_that_holds_them() {
     ));
 }
 
-/// Two oscillators of nearly the same stiffness, coupled by much more than their distance: the recursion leaps about.
-#[test]
-fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
+/// Two oscillators of nearly the same stiffness, and a share that couples them; of it the test structure has `missing` more.
+fn coupled(missing: f64) -> ModalProblem {
     let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
     let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
     let mass = DMatrix::identity(2, 2);
+    let test = solve(&(&stiffness + missing * &coupling), &mass, 2).unwrap();
     let model = DynamicModel {
-        shares: vec![Share::Stiffness(coupling.clone())],
-        stiffness: stiffness.clone(),
-        mass: mass.clone(),
+        shares: vec![Share::Stiffness(coupling)],
+        stiffness,
+        mass,
     };
-    let test = solve(&(&stiffness + 20.0 * &coupling), &mass, 2).unwrap();
-    let problem = ModalProblem::new(&model, &test, 2).unwrap();
+    ModalProblem::new(&model, &test, 2).unwrap()
+}
+
+/// Coupled by much more than their distance: the recursion leaps about.
+#[test]
+fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
+    let problem = coupled(20.0);
     let at = |update| problem.state_at(vec![1.6], update);
     let exact = at(UpdateRule::Eigensolution).unwrap();
     for orders in [2, 3] {
@@ -109,17 +114,8 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
 /// A long step does not settle and a short one goes uphill: there is a place to stand, and no error.
 #[test]
 fn a_step_uphill_among_unsettled_ones_is_a_local_minimum() {
-    let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
-    let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
-    let mass = DMatrix::identity(2, 2);
-    let model = DynamicModel {
-        shares: vec![Share::Stiffness(coupling.clone())],
-        stiffness: stiffness.clone(),
-        mass: mass.clone(),
-    };
     // A thousandth of the share is missing, and the first step asks for fifty times that.
-    let test = solve(&(&stiffness + 1e-3 * &coupling), &mass, 2).unwrap();
-    let problem = ModalProblem::new(&model, &test, 2).unwrap();
+    let problem = coupled(1e-3);
     let with_halvings = |halvings| {
         let settings = InnerSettings {
             first_relaxation: 100.0,

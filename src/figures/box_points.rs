@@ -114,13 +114,7 @@ impl BoxPoints {
                 let lead = [(x, y), (x + 3.0, y - 27.0)];
                 line(area, &lead, Pen::solid(VERMILION, 0.8))?;
             }
-            mark(
-                area,
-                (x, y),
-                DYNAMIC,
-                Some(VERMILION),
-                Pen::solid(VERMILION, 1.2),
-            )?;
+            mark_dynamic(area, (x, y))?;
             let letters = Letters::new(SMALL, side).color(VERMILION);
             write(area, &format!("D{}", row + 1), place, letters)?;
         }
@@ -166,13 +160,7 @@ impl BoxPoints {
             write(area, text, (x + 12.0, y), words)?;
             y += 20.0;
         }
-        mark(
-            area,
-            (x, y),
-            DYNAMIC,
-            Some(VERMILION),
-            Pen::solid(VERMILION, 1.2),
-        )?;
+        mark_dynamic(area, (x, y))?;
         write(
             area,
             "dynamic point at mid-depth: z motion",
@@ -209,4 +197,14 @@ pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
         write(area, name, (x + shift.0, y + shift.1), letters)?;
     }
     Ok(())
+}
+
+fn mark_dynamic(area: &Area, at: (f64, f64)) -> Drawn {
+    mark(
+        area,
+        at,
+        DYNAMIC,
+        Some(VERMILION),
+        Pen::solid(VERMILION, 1.2),
+    )
 }
