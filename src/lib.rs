@@ -43,52 +43,16 @@
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
-pub mod error;
+pub mod method;
 
-pub mod delta_wing;
-pub mod structure;
-pub mod torque_box;
-
-pub mod analytical;
-pub mod elements;
-pub mod quadrature;
-
-pub mod assembly;
-pub mod condensation;
-pub mod linalg;
-pub mod model;
-pub mod parameters;
-
-pub mod complex_modes;
-pub mod modes;
-pub mod spring_chain;
-pub mod test_modes;
-
-pub mod objective;
-pub mod sorting;
-
-pub mod derivatives;
-pub mod perturbation;
-pub mod step;
-pub mod table_1;
-pub mod two_dof;
-
-pub mod inner_loop;
-pub mod modal;
-pub mod outer_loop;
-
-pub mod deck;
-pub mod nastran95;
+pub mod closed_forms;
 
 pub mod cases;
-pub mod fewer_modes;
-pub mod figures;
-pub mod fit;
-pub mod html_report;
-pub mod matrix_comparison;
-pub mod matrix_correction;
-pub mod published;
-pub mod report;
+pub mod studies;
+
+pub mod files;
+
+pub mod present;
 
 /// The README's code, compiled and run with the documentation tests.
 #[cfg(doctest)]

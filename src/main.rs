@@ -1,9 +1,9 @@
 //! The command line program: `corfem --help`.
 
-mod cli;
+mod program;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::run()
+    program::run()
 }

@@ -6,11 +6,11 @@ mod rivals;
 mod summary;
 
 use corfem::cases::run_case;
-use corfem::derivatives::{Workspace, error_changes_into};
-use corfem::inner_loop::run;
-use corfem::modal::ModalProblem;
-use corfem::outer_loop::check;
-use corfem::perturbation::perturb;
+use corfem::method::appendix_c::perturb;
+use corfem::method::derivatives::{Workspace, error_changes_into};
+use corfem::method::inner_loop::run;
+use corfem::method::modal::ModalProblem;
+use corfem::method::outer_loop::check;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
 use problem::{NINE, PassSetting, Setting, passes};

@@ -1,12 +1,12 @@
 //! What is timed: the paper's nine-mode problem, and the passes of its cases.
 
 use corfem::cases::{CASES, Case, run_case};
-use corfem::derivatives::DERIVATIVE_STEP;
-use corfem::inner_loop::InnerSettings;
-use corfem::modal::{DynamicModel, ModalProblem, ModalState};
-use corfem::model::FiniteElementModel;
-use corfem::modes::Modes;
-use corfem::step::Range;
+use corfem::method::derivatives::DERIVATIVE_STEP;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::modal::{DynamicModel, ModalProblem, ModalState};
+use corfem::method::model::FiniteElementModel;
+use corfem::method::modes::Modes;
+use corfem::method::step::Range;
 use nalgebra::{DMatrix, DVector};
 
 /// Modes, and dynamic degrees of freedom, of the paper's box.

@@ -1,7 +1,7 @@
 //! The ratios at the end of a run, from the times that criterion wrote.
 
 use crate::problem::PassSetting;
-use corfem::perturbation::UpdateRule;
+use corfem::method::appendix_c::UpdateRule;
 use std::path::Path;
 
 pub const DERIVATIVES: &str = "15 element derivatives";

@@ -1,22 +1,27 @@
 //! The paper's four cases on its wing torque box.
 
+pub mod fewer_modes;
+pub mod fit;
+pub mod published;
 mod run;
+pub mod table_1;
+pub mod torque_box;
 
 pub use run::{Anomaly, BUILT_IN, CaseResult, anomalies, run_case, run_case_with};
 
-use crate::error::Error;
-use crate::inner_loop::InnerSettings;
-use crate::modal::DynamicModel;
-use crate::model::FiniteElementModel;
-use crate::modes::Modes;
-use crate::outer_loop::Settings;
-use crate::parameters::Parameter;
-use crate::published::PublishedTable;
-use crate::step::Range;
-use crate::structure::ElementKind;
-use crate::torque_box::{
+use crate::cases::published::PublishedTable;
+use crate::cases::torque_box::{
     PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
 };
+use crate::method::error::Error;
+use crate::method::inner_loop::InnerSettings;
+use crate::method::modal::DynamicModel;
+use crate::method::model::FiniteElementModel;
+use crate::method::modes::Modes;
+use crate::method::outer_loop::Settings;
+use crate::method::parameters::Parameter;
+use crate::method::step::Range;
+use crate::method::structure::ElementKind;
 
 /// Numbers of the paper's cases.
 pub const CASES: [usize; 4] = [1, 2, 3, 4];
@@ -204,7 +209,7 @@ impl Case {
     ) -> Result<Modes, Error> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
         let dynamic = analyze(&model, &vec![1.0; model.parameters().len()])?;
-        crate::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
+        crate::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
     }
 }
 

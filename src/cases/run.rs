@@ -1,13 +1,13 @@
 //! A case from its first gages to its last exact check.
 
 use super::Case;
-use crate::error::Error;
-use crate::modal::DynamicModel;
-use crate::model::FiniteElementModel;
-use crate::modes::Modes;
-use crate::outer_loop::{Correlation, Pass, correlate};
-use crate::step::Range;
-use crate::torque_box::PANEL_COUNT;
+use crate::cases::torque_box::PANEL_COUNT;
+use crate::method::error::Error;
+use crate::method::modal::DynamicModel;
+use crate::method::model::FiniteElementModel;
+use crate::method::modes::Modes;
+use crate::method::outer_loop::{Correlation, Pass, correlate};
+use crate::method::step::Range;
 
 /// How many widths of the factor bounds beyond them an unlimited factor must lie to be reported as an anomaly.
 ///

@@ -1,6 +1,6 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::perturbation::{ModalChange, Perturbed};
+use corfem::method::appendix_c::{ModalChange, Perturbed};
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 

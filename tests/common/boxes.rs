@@ -1,8 +1,8 @@
 //! The torque box as the loops see it, and boxes like it with other gages.
 
 use corfem::cases::Case;
-use corfem::modal::ModalProblem;
-use corfem::torque_box::PANEL_COUNT;
+use corfem::cases::torque_box::PANEL_COUNT;
+use corfem::method::modal::ModalProblem;
 use proptest::prelude::*;
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.

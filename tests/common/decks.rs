@@ -1,7 +1,7 @@
 //! Strategies of models that a deck can hold, and of decks that say the same in another way.
 
-use corfem::deck::{BulkData, PointMass, Tie};
-use corfem::structure::{Element, ElementKind, Grid, Material, StructuralDof};
+use corfem::files::deck::{BulkData, PointMass, Tie};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof};
 use proptest::prelude::*;
 
 /// Columns of a field of the small and of the large format.

@@ -2,12 +2,12 @@
 
 use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
-use corfem::derivatives::error_derivatives;
-use corfem::inner_loop::{InnerRun, InnerSettings, Stop};
-use corfem::modal::{ModalProblem, ModalState};
-use corfem::outer_loop::{Correlation, Settings, correlate};
-use corfem::perturbation::UpdateRule;
-use corfem::step::{Limit, Range, StepRule, unlimited_factors};
+use corfem::method::appendix_c::UpdateRule;
+use corfem::method::derivatives::error_derivatives;
+use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
+use corfem::method::modal::{ModalProblem, ModalState};
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::method::step::{Limit, Range, StepRule, unlimited_factors};
 use proptest::prelude::*;
 
 /// The problem of a chain towards the truth, with all its modes.

@@ -1,8 +1,8 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
-use corfem::elements::rod::rod;
-use corfem::modes::Modes;
-use corfem::test_modes::DynamicDof;
+use corfem::method::appendix_b::DynamicDof;
+use corfem::method::elements::rod::rod;
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::PI;

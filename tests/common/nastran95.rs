@@ -1,7 +1,7 @@
 //! The stored answers of NASTRAN-95 (`golden/nastran95/README.md`), read as they are.
 
-use corfem::elements::unit_stiffness;
-use corfem::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::method::elements::unit_stiffness;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, Vector3};
 use serde::Deserialize;
 
@@ -147,14 +147,14 @@ pub fn boxes() -> StoredBoxes {
 /// The factor NASTRAN-95 puts on a shear panel's stiffness: its own energy, with sides taken for parallel when the
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
-    use corfem::analytical::{
+    use corfem::closed_forms::analytical::{
         no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
         sides_14_23_parallel_energy,
     };
     let [a, b, c, d] = corners[..] else {
         panic!("four corners")
     };
-    let plane = corfem::elements::panel::mean_plane(&[a, b, c, d]).unwrap();
+    let plane = corfem::method::elements::panel::mean_plane(&[a, b, c, d]).unwrap();
     let [_, c2, c3, c4] = plane.corners;
     let tangent = 0.01;
     let parallel_12_34 = (c3.y - c4.y).abs() < tangent * (c3.x - c4.x).abs();
@@ -166,5 +166,5 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         (false, true) => sides_14_23_parallel_energy,
         (false, false) => no_sides_parallel_energy,
     };
-    corfem::elements::shear::energy_coefficient(&plane, material) / energy(&plane, material)
+    corfem::method::elements::shear::energy_coefficient(&plane, material) / energy(&plane, material)
 }

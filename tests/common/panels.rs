@@ -1,8 +1,8 @@
 //! Strategies of elements: materials, convex panels flat and warped, anywhere in space.
 
 use super::strategies::{point, rotation};
-use corfem::elements::unit_stiffness;
-use corfem::structure::{ElementKind, Material};
+use corfem::method::elements::unit_stiffness;
+use corfem::method::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use proptest::prelude::*;
 

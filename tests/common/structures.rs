@@ -1,11 +1,13 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
-use corfem::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
-use corfem::error::Error;
-use corfem::model::FiniteElementModel;
-use corfem::parameters::Parameter;
-use corfem::step::Range;
-use corfem::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
+use corfem::method::assembly::{
+    ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices,
+};
+use corfem::method::error::Error;
+use corfem::method::model::FiniteElementModel;
+use corfem::method::parameters::Parameter;
+use corfem::method::step::Range;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 

@@ -1,10 +1,10 @@
 //! The paper's torque box as a subject of properties.
 
-use corfem::assembly::{FactorizedStiffness, dense_stiffness};
 use corfem::cases::Case;
-use corfem::model::FiniteElementModel;
-use corfem::parameters::Parameter;
-use corfem::torque_box::{Reconstruction, load_distribution, structure};
+use corfem::cases::torque_box::{Reconstruction, load_distribution, structure};
+use corfem::method::assembly::{FactorizedStiffness, dense_stiffness};
+use corfem::method::model::FiniteElementModel;
+use corfem::method::parameters::Parameter;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;

@@ -3,9 +3,9 @@
 
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
-use corfem::modal::{DynamicModel, Share};
-use corfem::modes::Modes;
-use corfem::spring_chain::spring_stiffness;
+use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::method::modal::{DynamicModel, Share};
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -137,7 +137,7 @@ impl Chain {
     /// All exact modes with its springs multiplied by factors.
     pub fn modes(&self, factors: &[f64]) -> Modes {
         let model = self.model(factors);
-        corfem::modes::solve(&model.stiffness, &model.mass, self.masses.len())
+        corfem::method::modes::solve(&model.stiffness, &model.mass, self.masses.len())
             .expect("a chain vibrates")
     }
 }

@@ -1,0 +1,113 @@
+//! How well the reconstructed box reproduces the published frequencies.
+
+use crate::cases::Case;
+use crate::cases::published::PublishedTable;
+use crate::cases::torque_box::{PANEL_COUNT, Reconstruction};
+use crate::method::error::Error;
+use crate::method::outer_loop::check;
+use serde::Serialize;
+
+/// The published columns: case, table of frequencies, table of gages, column prefix.
+///
+/// Case 3's test column is Case 2's, so it is not counted again.
+const COLUMNS: [(usize, usize, usize, &str); 12] = [
+    (1, 3, 4, "gvt"),
+    (1, 3, 4, "initial"),
+    (1, 3, 4, "pass_1"),
+    (1, 3, 4, "pass_2"),
+    (2, 5, 6, "gvt"),
+    (2, 5, 6, "initial"),
+    (2, 5, 6, "pass_1"),
+    (2, 5, 6, "pass_2"),
+    (3, 7, 8, "initial"),
+    (3, 7, 8, "pass_1"),
+    (3, 7, 8, "pass_2"),
+    (3, 7, 8, "pass_3"),
+];
+
+/// Exact solution of the box at one published set of gages, beside the published frequencies.
+#[derive(Debug, Clone, Serialize)]
+pub struct FitColumn {
+    /// Case number.
+    pub case: usize,
+    /// Column of the published table: `gvt`, `initial`, `pass_1`, …
+    pub column: String,
+    /// Computed frequencies, ascending, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Published frequencies, Hz.
+    pub published_hz: Vec<f64>,
+    /// Computed RMS frequency error against the box's own test modes, a fraction.
+    pub frequency_rms: f64,
+    /// Computed RMS shape error against the box's own test modes, a fraction.
+    pub shape_rms: f64,
+}
+
+impl FitColumn {
+    /// Relative differences of the computed frequencies from the published.
+    pub fn differences(&self) -> impl Iterator<Item = f64> + '_ {
+        self.frequencies_hz
+            .iter()
+            .zip(&self.published_hz)
+            .map(|(computed, published)| computed / published - 1.0)
+    }
+}
+
+/// The fit over all published frequencies at published gages.
+#[derive(Debug, Clone, Serialize)]
+pub struct Fit {
+    /// The twelve columns of nine frequencies.
+    pub columns: Vec<FitColumn>,
+    /// Root mean square of the relative differences.
+    pub rms: f64,
+    /// Largest relative difference, in magnitude.
+    pub largest: f64,
+    /// Case, column and mode of the largest.
+    pub largest_at: (usize, String, usize),
+}
+
+/// Solves the box exactly at each published set of gages and compares the frequencies.
+///
+/// # Errors
+/// Those of the model and its analysis; [`Error::Table`] for damaged tables.
+pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, Error> {
+    let mut columns = Vec::new();
+    for (case_number, frequency_table, gage_table, prefix) in COLUMNS {
+        let frequencies = PublishedTable::number(frequency_table)?;
+        let gages = PublishedTable::number(gage_table)?;
+        let case = Case::on(case_number, reconstruction.clone())?;
+        let gages = (1..=PANEL_COUNT)
+            .map(|element| gages.required(&element.to_string(), &format!("{prefix}_in")))
+            .collect::<Result<Vec<_>, _>>()?;
+        let test = case.test_modes()?;
+        let model = case.model_with(&gages)?.analyze(&[1.0; PANEL_COUNT])?;
+        let solution = check(&model, &test, test.len())?;
+        columns.push(FitColumn {
+            case: case_number,
+            column: prefix.to_owned(),
+            frequencies_hz: solution.modes.frequencies_hz(),
+            published_hz: (1..=test.len())
+                .map(|mode| frequencies.required(&mode.to_string(), &format!("{prefix}_hz")))
+                .collect::<Result<_, _>>()?,
+            frequency_rms: solution.errors.frequency_rms(),
+            shape_rms: solution.errors.shape_rms(),
+        });
+    }
+    let (mut sum, mut count) = (0.0, 0.0);
+    let (mut largest, mut largest_at) = (0.0_f64, (0, String::new(), 0));
+    for column in &columns {
+        for (mode, difference) in column.differences().enumerate() {
+            sum += difference * difference;
+            count += 1.0;
+            if difference.abs() > largest {
+                largest = difference.abs();
+                largest_at = (column.case, column.column.clone(), mode + 1);
+            }
+        }
+    }
+    Ok(Fit {
+        columns,
+        rms: (sum / f64::max(count, 1.0)).sqrt(),
+        largest,
+        largest_at,
+    })
+}

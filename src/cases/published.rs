@@ -1,0 +1,129 @@
+//! The paper's own tables, as printed, from `paper/tables/`.
+//!
+//! They stand beside the computed numbers in reports and are what tests compare with. Nothing is computed from
+//! them except the definitions of the cases (Table 2).
+
+use crate::method::error::Error;
+use std::collections::HashMap;
+
+const TABLES: [(usize, &str); 12] = [
+    (2, include_str!("../../paper/tables/table_2.csv")),
+    (3, include_str!("../../paper/tables/table_3.csv")),
+    (4, include_str!("../../paper/tables/table_4.csv")),
+    (5, include_str!("../../paper/tables/table_5.csv")),
+    (6, include_str!("../../paper/tables/table_6.csv")),
+    (7, include_str!("../../paper/tables/table_7.csv")),
+    (8, include_str!("../../paper/tables/table_8.csv")),
+    (9, include_str!("../../paper/tables/table_9.csv")),
+    (10, include_str!("../../paper/tables/table_10.csv")),
+    (11, include_str!("../../paper/tables/table_11.csv")),
+    (12, include_str!("../../paper/tables/table_12.csv")),
+    (13, include_str!("../../paper/tables/table_13.csv")),
+];
+
+/// How comments begin that say what is wrong with the print.
+const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
+
+/// One published table: text cells by row label and column heading.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedTable {
+    /// Its number in the paper; zero if it is not of the paper.
+    pub number: usize,
+    /// Name for messages, such as `paper/tables/table_3.csv`.
+    pub name: String,
+    /// Column headings after the first.
+    pub headings: Vec<String>,
+    /// Row labels, in the order printed.
+    pub labels: Vec<String>,
+    /// What is wrong with the print, one sentence each: its misprints and inconsistencies.
+    pub remarks: Vec<String>,
+    cells: HashMap<(String, String), String>,
+}
+
+impl PublishedTable {
+    /// The published table of a number from 2 to 13.
+    ///
+    /// # Errors
+    /// [`Error::Table`] for another number (Table 1's numbers are lost in the scan) or damaged data.
+    pub fn number(number: usize) -> Result<Self, Error> {
+        let name = format!("paper/tables/table_{number}.csv");
+        match TABLES.iter().find(|(known, _)| *known == number) {
+            Some((_, text)) => Self::parse(number, &name, text),
+            None => Err(Error::Table {
+                name,
+                expected: "a table from 2 to 13".into(),
+                found: number.to_string(),
+            }),
+        }
+    }
+
+    /// Reads a table from CSV text with a heading line; lines that start with `#` are comments.
+    ///
+    /// # Errors
+    /// [`Error::Table`] for rows of unequal length.
+    pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, Error> {
+        let malformed = |error: csv::Error| Error::Table {
+            name: name.to_owned(),
+            expected: "rows of equal length under a heading".into(),
+            found: error.to_string(),
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let headings: Vec<String> = reader
+            .headers()
+            .map_err(malformed)?
+            .iter()
+            .skip(1)
+            .map(str::to_owned)
+            .collect();
+        let (mut labels, mut cells) = (Vec::new(), HashMap::new());
+        for record in reader.records() {
+            let record = record.map_err(malformed)?;
+            let label = record.get(0).unwrap_or_default().to_owned();
+            for (heading, cell) in headings.iter().zip(record.iter().skip(1)) {
+                cells.insert((label.clone(), heading.clone()), cell.to_owned());
+            }
+            labels.push(label);
+        }
+        let remarks = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("# "))
+            .filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)))
+            .map(str::to_owned)
+            .collect();
+        Ok(Self {
+            number,
+            remarks,
+            name: name.to_owned(),
+            headings,
+            labels,
+            cells,
+        })
+    }
+
+    /// A cell's text; `None` where the paper prints nothing or has no such row or column.
+    pub fn text(&self, label: &str, heading: &str) -> Option<&str> {
+        self.cells
+            .get(&(label.to_owned(), heading.to_owned()))
+            .map(String::as_str)
+            .filter(|cell| !cell.is_empty())
+    }
+
+    /// A cell's number; `None` where there is none.
+    pub fn value(&self, label: &str, heading: &str) -> Option<f64> {
+        self.text(label, heading)?.parse().ok()
+    }
+
+    /// A cell's number where there must be one.
+    ///
+    /// # Errors
+    /// [`Error::Table`] naming the cell.
+    pub fn required(&self, label: &str, heading: &str) -> Result<f64, Error> {
+        self.value(label, heading).ok_or_else(|| Error::Table {
+            name: self.name.clone(),
+            expected: format!("a number in row {label}, column {heading}"),
+            found: self.text(label, heading).unwrap_or("nothing").to_owned(),
+        })
+    }
+}

@@ -1,0 +1,125 @@
+//! Table 1: how fast the roots of two-degree-of-freedom problems converge by the original formulae, by Recursive 1
+//! and by Recursive 2.
+//!
+//! The numbers of the paper's own Table 1, and the problems behind them, are lost in the scan. The problems here are
+//! two unit masses on equal springs to the ground, joined by a coupling spring, one ground spring being changed: the
+//! modes before the change and the roots after it are known in closed form.
+
+use crate::method::appendix_c::{UpdateRule, perturb};
+use crate::method::error::Error;
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use serde::Serialize;
+
+/// Two unit masses, each on a unit spring to the ground, joined by a coupling spring; the first ground spring is
+/// changed. Dimensionless.
+///
+/// $$ K = \begin{bmatrix} 1 + \kappa & -\kappa \newline -\kappa & 1 + \kappa \end{bmatrix}, \qquad
+///    \Delta K = \begin{bmatrix} \varepsilon & 0 \newline 0 & 0 \end{bmatrix}, \qquad M = I $$
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TwoMasses {
+    /// Coupling spring $\kappa$ relative to a ground spring, positive. The weaker, the closer the two roots.
+    pub coupling: f64,
+    /// Change $\varepsilon$ of the first ground spring relative to itself, above −1.
+    pub change: f64,
+}
+
+impl TwoMasses {
+    /// Generalized stiffness before the change, $k = (1,\ 1 + 2\kappa)$: the masses move together, then against each
+    /// other.
+    pub fn generalized_stiffness(&self) -> DVector<f64> {
+        dvector![1.0, 1.0 + 2.0 * self.coupling]
+    }
+
+    /// $\beta = V^t \Delta K V$ (2 × 2), every entry $\varepsilon/2$: both modes move the changed spring alike.
+    pub fn beta(&self) -> DMatrix<f64> {
+        let half = 0.5 * self.change;
+        dmatrix![half, half; half, half]
+    }
+
+    /// Exact roots $1/\omega^2$ after the change, the larger first:
+    ///
+    /// $$ \omega_2^2 = 1 + \kappa + \frac{\varepsilon}{2} + \sqrt{\kappa^2 + \frac{\varepsilon^2}{4}}, \qquad
+    ///    \omega_1^2 \omega_2^2 = 1 + \varepsilon + \kappa(2 + \varepsilon). $$
+    pub fn exact_roots(&self) -> [f64; 2] {
+        let Self { coupling, change } = self;
+        let upper = 1.0 + coupling + 0.5 * change + coupling.hypot(0.5 * change);
+        // The product and not the difference gives the lower one, so that nothing cancels.
+        let product = 1.0 + change + coupling * (2.0 + change);
+        [upper / product, 1.0 / upper]
+    }
+
+    /// Relative error $\gamma/\gamma_{exact} - 1$ of both roots by one rule.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for springs that are not positive; those of [`perturb`].
+    pub fn root_errors(&self, rule: UpdateRule) -> Result<[f64; 2], Error> {
+        for (name, value, lowest, expected) in [
+            ("coupling", self.coupling, 0.0, "a positive finite number"),
+            ("change", self.change, -1.0, "a finite number above -1"),
+        ] {
+            if !(value > lowest && value.is_finite()) {
+                return Err(Error::Setting {
+                    name,
+                    expected,
+                    found: value,
+                });
+            }
+        }
+        let exact = self.exact_roots();
+        let perturbed = perturb(&self.generalized_stiffness(), &self.beta(), rule)?;
+        Ok([0, 1].map(|i| perturbed.roots[i] / exact[i] - 1.0))
+    }
+}
+
+/// One problem of the table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// The problem.
+    pub problem: TwoMasses,
+    /// Its exact roots, the larger first.
+    pub exact_roots: [f64; 2],
+    /// Relative error of both roots by each rule, as fractions, in the order of [`Table1::rules`].
+    pub root_errors: Vec<[f64; 2]>,
+}
+
+/// Root errors of original and recursive methods by order.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Table1 {
+    /// The columns: first order, the original formulae (roots of second order), then Recursive 1 and Recursive 2 from
+    /// second order on.
+    pub rules: Vec<UpdateRule>,
+    /// The problems.
+    pub rows: Vec<Row>,
+}
+
+/// The table for any problems, to order `orders`.
+///
+/// # Errors
+/// Those of [`TwoMasses::root_errors`].
+pub fn table_1(problems: &[TwoMasses], orders: usize) -> Result<Table1, Error> {
+    let mut rules = vec![UpdateRule::FirstOrder, UpdateRule::Original];
+    rules.extend((2..=orders).map(|order| UpdateRule::Recursive1 { order }));
+    rules.extend((2..=orders).map(|order| UpdateRule::Recursive2 { order }));
+    let rows = problems
+        .iter()
+        .map(|&problem| {
+            let root_errors = rules.iter().map(|&rule| problem.root_errors(rule));
+            Ok(Row {
+                problem,
+                exact_roots: problem.exact_roots(),
+                root_errors: root_errors.collect::<Result<_, Error>>()?,
+            })
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(Table1 { rules, rows })
+}
+
+/// The problems of the printed table: couplings from a quarter to twice a ground spring, changes from −50 to +100 %.
+pub fn problems() -> Vec<TwoMasses> {
+    let couplings = [0.25, 0.5, 1.0, 2.0];
+    let changes = [-0.5, -0.2, 0.1, 0.2, 0.5, 1.0];
+    couplings
+        .into_iter()
+        .flat_map(|coupling| changes.map(|change| TwoMasses { coupling, change }))
+        .collect()
+}

@@ -1,0 +1,192 @@
+//! Cards of elements, properties, materials and masses.
+
+use super::card::Card;
+use super::model::PointMass;
+use super::number::held_by_field;
+use super::numbered::{Kept, Numbered};
+use crate::method::error::Error;
+use crate::method::structure::{Element, ElementKind, Material};
+
+/// Connection card, property card and kind of the elements that have a property of their own.
+pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
+    ("CROD", "PROD", ElementKind::Rod),
+    ("CSHEAR", "PSHEAR", ElementKind::ShearPanel),
+    ("CQDMEM", "PQDMEM", ElementKind::Membrane),
+    ("CTRMEM", "PTRMEM", ElementKind::Triangle),
+];
+/// Cards that may hold two entries, the second from field 6 on.
+const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
+
+/// What the cards say of elements before they are put together.
+#[derive(Debug)]
+pub(super) struct ElementCards {
+    connections: Numbered<(ElementKind, Size)>,
+    properties: [Numbered<f64>; 4],
+    materials: Numbered<Material>,
+}
+
+/// Where an element's size and material are found.
+#[derive(Debug)]
+enum Size {
+    /// On a property card of the kind with this place in [`ELEMENT_CARDS`].
+    Property(usize),
+    /// On the element's own card (CONROD).
+    Own(f64),
+}
+
+impl ElementCards {
+    /// None yet.
+    pub fn new() -> Self {
+        Self {
+            connections: Numbered::new(),
+            properties: std::array::from_fn(|_| Numbered::new()),
+            materials: Numbered::new(),
+        }
+    }
+
+    /// Takes a card if it is one of an element, a property or a material; whether it was.
+    ///
+    /// # Errors
+    /// [`Error::DeckField`].
+    pub fn take(&mut self, card: &Card) -> Result<bool, Error> {
+        let starts: &[usize] =
+            if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
+                &[2, 6]
+            } else {
+                &[2]
+            };
+        for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
+            if card.name == connection {
+                for &start in starts {
+                    self.connections
+                        .insert(card, start, (kind, Size::Property(row)))?;
+                }
+                return Ok(true);
+            }
+            if card.name == property {
+                for &start in starts {
+                    let size = card.positive(start + 2)?;
+                    let mass = if kind == ElementKind::Rod {
+                        card.absent(start + 3, "torsion of rods")?;
+                        start + 5
+                    } else {
+                        start + 3
+                    };
+                    card.absent(mass, "nonstructural mass")?;
+                    self.properties[row].insert(card, start, size)?;
+                }
+                return Ok(true);
+            }
+        }
+        match card.name.as_str() {
+            "CONROD" => {
+                let size = card.positive(6)?;
+                card.absent(7, "torsion of rods")?;
+                card.absent(9, "nonstructural mass")?;
+                let rod = (ElementKind::Rod, Size::Own(size));
+                self.connections.insert(card, 2, rod)?;
+            }
+            "MAT1" => self.materials.insert(card, 2, material(card)?)?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// The elements by number; `grid` checks the grid named in a field of a card.
+    ///
+    /// # Errors
+    /// [`Error::DeckField`] for a property, a material or a grid that does not exist.
+    pub fn elements(
+        &self,
+        grid: impl Fn(&Card, usize) -> Result<usize, Error>,
+    ) -> Result<Vec<Element>, Error> {
+        let put_together = |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
+            let Kept { card, start, .. } = kept;
+            let (kind, size) = &kept.value;
+            let (size, material, first_grid) = match size {
+                Size::Own(size) => {
+                    let material = self.materials.referred(card, 5, "MAT1")?;
+                    (*size, material.value, 3)
+                }
+                Size::Property(row) => {
+                    let name = ELEMENT_CARDS[*row].1;
+                    let property = self.properties[*row].referred(card, start + 1, name)?;
+                    let material =
+                        self.materials
+                            .referred(&property.card, property.start + 1, "MAT1")?;
+                    (property.value, material.value, start + 2)
+                }
+            };
+            Ok(Element {
+                label,
+                kind: *kind,
+                grids: (first_grid..first_grid + kind.corner_count())
+                    .map(|field| grid(card, field))
+                    .collect::<Result<_, Error>>()?,
+                size,
+                material,
+            })
+        };
+        self.connections.iter().map(put_together).collect()
+    }
+}
+
+/// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are.
+fn material(card: &Card) -> Result<Material, Error> {
+    let (e, g, nu) = (
+        card.optional_real(3)?,
+        card.optional_real(4)?,
+        card.optional_real(5)?,
+    );
+    // A number that is worked out is rounded to what a deck can hold, so that writing it loses nothing.
+    let (e, nu) = match (e, g, nu) {
+        (Some(e), _, Some(nu)) => (e, nu),
+        (Some(e), Some(g), None) => (e, held_by_field(e / (2.0 * g) - 1.0)),
+        (None, Some(g), Some(nu)) => (held_by_field(2.0 * g * (1.0 + nu)), nu),
+        _ => return Err(card.error(3, "two of E, G and NU")),
+    };
+    let derived = Material::isotropic(e, nu).map_err(|error| match error {
+        Error::PoissonsRatio { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
+        _ => card.error(3, "a positive Young's modulus"),
+    })?;
+    let shear_modulus = match g {
+        Some(_) => card.positive(4)?,
+        None => derived.shear_modulus,
+    };
+    let density = card.real(6)?;
+    if density < 0.0 {
+        return Err(card.error(6, "a density that is not negative"));
+    }
+    Ok(Material {
+        shear_modulus,
+        density,
+        ..derived
+    })
+}
+
+/// CMASS2 on one direction of a grid, or CONM2 on all three.
+pub(super) fn point_mass(card: &Card) -> Result<PointMass, Error> {
+    let label = card.label(2)?;
+    if card.name == "CMASS2" {
+        card.absent(6, "masses between two degrees of freedom")?;
+        return Ok(PointMass {
+            label,
+            grid: card.label(4)?,
+            direction: Some(card.direction(5)?),
+            mass: card.positive(3)?,
+        });
+    }
+    card.absent(4, "coordinate systems but the basic one")?;
+    for field in 6..=8 {
+        card.absent(field, "offsets of masses")?;
+    }
+    for field in 12..=17 {
+        card.absent(field, "rotary inertia")?;
+    }
+    Ok(PointMass {
+        label,
+        grid: card.label(3)?,
+        direction: None,
+        mass: card.positive(5)?,
+    })
+}

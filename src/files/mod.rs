@@ -1,0 +1,4 @@
+//! Files of other programs, and the programs themselves.
+
+pub mod deck;
+pub mod nastran95;

@@ -1,0 +1,168 @@
+//! From a model to the deck of one analysis, and from NASTRAN's matrices back to the model's.
+
+use super::Matrices;
+use crate::files::deck::BulkData;
+use crate::files::deck::model::first_free_label;
+use crate::method::assembly::dense_stiffness;
+use crate::method::error::Error;
+use crate::method::model::FiniteElementModel;
+use crate::method::structure::{Element, Grid, Structure};
+use nalgebra::DMatrix;
+use std::collections::HashMap;
+
+/// DOF of a grid in KGG: translations, then rotations.
+const GRID_DOF: usize = 6;
+/// KAA and the sum of the element matrices are the same numbers added in another order.
+const LARGEST_STIFFNESS_DIFFERENCE: f64 = 1e-9;
+/// NASTRAN-95 holds masses in single precision.
+const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
+
+/// The model with every element a second time, alone, on fixed grids of its own after all others.
+pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
+    let mut all = bulk.clone();
+    let labels = bulk.grids.iter().map(|grid| grid.label);
+    let labels = labels.chain(bulk.elements.iter().map(|element| element.label));
+    let labels = labels.chain(bulk.masses.iter().map(|mass| mass.label));
+    let base = first_free_label(labels.max().unwrap_or(0));
+    let position: HashMap<usize, _> = bulk
+        .grids
+        .iter()
+        .map(|grid| (grid.label, grid.position))
+        .collect();
+    for (row, element) in bulk.elements.iter().enumerate() {
+        let mut grids = Vec::with_capacity(element.grids.len());
+        for corner in element.grids.iter().filter_map(|grid| position.get(grid)) {
+            let label = base + all.grids.len() - bulk.grids.len();
+            grids.push(label);
+            all.grids.push(Grid {
+                label,
+                position: *corner,
+                held: [true; 3],
+            });
+        }
+        all.elements.push(Element {
+            label: base + row,
+            grids,
+            ..element.clone()
+        });
+    }
+    all
+}
+
+/// Unit stiffness of every element at its free DOF, in the order of the model's structure, from the blocks of KGG.
+///
+/// # Errors
+/// [`Error::SolverAnswer`] for a KGG that does not fit the deck.
+pub(super) fn unit_stiffness(
+    model: &FiniteElementModel,
+    bulk: &BulkData,
+    answer: &Matrices,
+) -> Result<Vec<DMatrix<f64>>, Error> {
+    let corners: usize = bulk
+        .elements
+        .iter()
+        .map(|element| element.grids.len())
+        .sum();
+    let size = GRID_DOF * (bulk.grids.len() + corners);
+    let kgg = matrix(answer, "KGG", size)?;
+    let mut block_of = HashMap::new();
+    let mut start = GRID_DOF * bulk.grids.len();
+    for element in &bulk.elements {
+        block_of.insert(element.label, (start, element.size));
+        start += GRID_DOF * element.grids.len();
+    }
+    let structure = model.structure();
+    structure
+        .elements()
+        .iter()
+        .map(|element| {
+            let &(start, size) = block_of.get(&element.label).ok_or(Error::UnknownElement {
+                parameter: "the deck".into(),
+                element: element.label,
+            })?;
+            let rows = free_rows(structure, element, start);
+            Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
+        })
+        .collect()
+}
+
+/// Rows of KGG of an element's free DOF, its own grids beginning at `start`.
+fn free_rows(structure: &Structure, element: &Element, start: usize) -> Vec<usize> {
+    let mut rows = Vec::new();
+    for (corner, &grid) in element.grids.iter().enumerate() {
+        for direction in 0..3 {
+            if structure.free_dof_index(grid, direction).is_some() {
+                rows.push(start + GRID_DOF * corner + direction);
+            }
+        }
+    }
+    rows
+}
+
+/// Refuses an answer whose assembled matrices are not those of the model it was asked about.
+///
+/// Elements are told apart by their place in KGG alone; this check is what makes that safe.
+///
+/// # Errors
+/// [`Error::SolverAnswer`].
+pub(super) fn check_assembled(
+    model: &FiniteElementModel,
+    factors: &[f64],
+    answer: &Matrices,
+) -> Result<(), Error> {
+    let free = model.structure().free_dof();
+    let sizes = model.sizes(factors)?;
+    let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
+    let t = model.load_distribution();
+    let mut mass = t * model.mass() * t.transpose();
+    for (element, size) in model.element_matrices().iter().zip(&sizes) {
+        for (&row, unit) in element.dof.iter().zip(element.unit_mass.iter()) {
+            mass[(row, row)] += size * unit;
+        }
+    }
+    // NASTRAN's order is that of the grids' numbers.
+    let mut order: Vec<usize> = (0..free.len()).collect();
+    order.sort_by_key(|&row| (free[row].grid, free[row].direction));
+    for (name, expected, here, limit) in [
+        (
+            "KAA",
+            "the sum of its element matrices",
+            stiffness,
+            LARGEST_STIFFNESS_DIFFERENCE,
+        ),
+        (
+            "MAA",
+            "the masses the MPC equations distribute",
+            mass,
+            LARGEST_MASS_DIFFERENCE,
+        ),
+    ] {
+        let there = matrix(answer, name, free.len())?;
+        let here = here.select_rows(&order).select_columns(&order);
+        let difference = (there - &here).amax() / here.amax();
+        if difference.is_nan() || difference > limit {
+            return Err(Error::SolverAnswer {
+                expected: format!(
+                    "{name} to be {expected} within {limit:.0e} of its largest entry"
+                ),
+                found: format!("them {difference:.1e} apart"),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, Error> {
+    let expected = || format!("a matrix {name} of {size} rows and columns");
+    match answer.get(name) {
+        Some(matrix) if matrix.shape() == (size, size) => Ok(matrix),
+        Some(matrix) => Err(Error::SolverAnswer {
+            expected: expected(),
+            found: format!("{} x {}", matrix.nrows(), matrix.ncols()),
+        }),
+        None => Err(Error::SolverAnswer {
+            expected: expected(),
+            found: "none".into(),
+        }),
+    }
+}

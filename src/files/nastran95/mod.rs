@@ -1,0 +1,138 @@
+//! The finite element analysis by NASTRAN-95 instead of the crate's own elements: the paper's arrangement, with the
+//! inner loop here and the finite elements there.
+//!
+//! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
+//! a second time, alone, on grids of its own that are all fixed: its matrix is then a block of KGG, while KAA and MAA are
+//! the structure's and nothing else. What is taken over is
+//!
+//! - each element's stiffness, from its block of KGG; their sum is $K_S$, which must be NASTRAN's own assembled KAA;
+//! - nothing of the mass, but MAA must be $T M T^t$ as NASTRAN's elimination of the MPC equations makes it.
+//!
+//! Appendix A, the eigensolution of the nine dynamic DOF and everything else is computed here from these matrices: $M_S$ is
+//! singular, and NASTRAN's own eigenvalues are good to five or six digits only.
+//!
+//! NASTRAN-95 holds coordinates, gages and material in single precision: its matrices differ from the crate's by up to
+//! 1.5e-7 of the largest entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
+
+mod matrices;
+mod output5;
+mod process;
+
+use crate::files::deck::{BulkData, Task, write};
+use crate::method::error::Error;
+use crate::method::modal::DynamicModel;
+use crate::method::model::FiniteElementModel;
+use nalgebra::Vector3;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+pub use output5::{Matrices, read_output5};
+
+/// The program's name in reports.
+pub const NAME: &str = "NASTRAN-95";
+
+/// How long a run may take unless told otherwise; the box takes half a second.
+pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(60);
+
+/// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
+pub fn default_folder() -> PathBuf {
+    let home = std::env::home_dir().unwrap_or_default();
+    home.join(".cache/nastran95/nastran95/_data")
+}
+
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// The printed output.
+    pub printed: String,
+    /// What was written on Fortran unit 15, if anything.
+    pub unit_15: Option<String>,
+}
+
+/// An installed NASTRAN-95.
+#[derive(Debug, Clone)]
+pub struct Nastran95 {
+    home: PathBuf,
+    /// When a run counts as hanging and is stopped.
+    pub time_limit: Duration,
+    /// Set from outside, for example by a signal, it stops the run and removes its files.
+    pub stop: Arc<AtomicBool>,
+}
+
+impl Nastran95 {
+    /// The program in a folder that holds `bin/nastrn` and `rf/`, the rigid formats.
+    ///
+    /// # Errors
+    /// [`Error::SolverMissing`] if the folder does not hold them.
+    pub fn in_folder(home: &Path) -> Result<Self, Error> {
+        let missing = || Error::SolverMissing {
+            path: home.to_owned(),
+        };
+        // A relative path would mean another folder once the program runs in its scratch folder.
+        let home = home.canonicalize().map_err(|_| missing())?;
+        if !home.join(process::PROGRAM).is_file() || !home.join(process::RIGID_FORMATS).is_dir() {
+            return Err(missing());
+        }
+        Ok(Self {
+            home,
+            time_limit: DEFAULT_TIME_LIMIT,
+            stop: Arc::default(),
+        })
+    }
+
+    /// Runs a deck.
+    ///
+    /// All files of the run are in a temporary folder that is removed, however the run ends.
+    ///
+    /// # Errors
+    /// [`Error::SolverTimeLimit`], [`Error::SolverInterrupted`], [`Error::SolverCrashed`], [`Error::SolverFatal`] with
+    /// NASTRAN's own message; [`Error::File`].
+    pub fn run(&self, deck: &str) -> Result<Answer, Error> {
+        process::run(self, &self.home, deck)
+    }
+
+    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`]; [`Error::SolverAnswer`] when it writes nothing or something else.
+    pub fn matrices(&self, deck: &str) -> Result<Matrices, Error> {
+        let answer = self.run(deck)?;
+        match answer.unit_15 {
+            Some(text) => read_output5(&text),
+            None => Err(Error::SolverAnswer {
+                expected: "matrices on Fortran unit 15".into(),
+                found: format!(
+                    "none; printed last: {}",
+                    process::last_lines(&answer.printed)
+                ),
+            }),
+        }
+    }
+
+    /// The finite element analysis at the given parameter factors, as [`FiniteElementModel::analyze`] with NASTRAN's elements.
+    ///
+    /// # Errors
+    /// Those of [`Self::matrices`], [`BulkData::of`] and [`FiniteElementModel::analyze`]; [`Error::SolverAnswer`] when
+    /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
+    pub fn analyze(
+        &self,
+        model: &FiniteElementModel,
+        factors: &[f64],
+    ) -> Result<DynamicModel, Error> {
+        // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
+        let points = vec![Vector3::zeros(); model.mass().nrows()];
+        let bulk = BulkData::of(model, factors, &points)?;
+        let deck = write(
+            &matrices::with_single_elements(&bulk),
+            "ANALYSIS",
+            &Task::Matrices,
+        )?;
+        let answer = self.matrices(&deck)?;
+        let units = matrices::unit_stiffness(model, &bulk, &answer)?;
+        let model = model.with_unit_stiffness(units)?;
+        matrices::check_assembled(&model, factors, &answer)?;
+        model.analyze(factors)
+    }
+}

@@ -1,0 +1,78 @@
+//! Appendix A: from structural to dynamic degrees of freedom.
+
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{cholesky, solve_lower};
+use nalgebra::DMatrix;
+
+/// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
+const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
+
+/// The stiffness at the dynamic DOF and the transformation that brought it there.
+#[derive(Debug, Clone)]
+pub struct Condensed {
+    /// $K_D$, lbf/in (d × d).
+    pub stiffness: DMatrix<f64>,
+    /// $B^t = K_S^{-1} T K_D$: structural deflections for unit dynamic ones (free SDOF × d).
+    pub transformation: DMatrix<f64>,
+}
+
+/// Dynamic stiffness and transformation for a load distribution $T$ (A.3, free SDOF × d).
+///
+/// $$ K_D^{-1} = T^t K_S^{-1} T, \qquad B^t = K_S^{-1} T K_D, \qquad q_S = B^t q_D $$
+///
+/// $T$ distributes dynamic loads to structural ones, $Q_S = T Q_D$; by equal work $q_D = T^t q_S$. When $T$
+/// only selects DOF this is static (Guyan) condensation. The paper's (1), (2), (A.5), (A.7), (A.8), where the print
+/// of $B$ has $T^t$ for $T$: see `paper/errata.md`.
+///
+/// # Errors
+/// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
+/// [`Error::DependentDynamicDof`] when a dynamic DOF is a combination of those before it.
+pub fn condense(
+    structural: &FactorizedStiffness,
+    load_distribution: &DMatrix<f64>,
+) -> Result<Condensed, Error> {
+    let t = load_distribution;
+    if t.ncols() == 0 {
+        return Err(Error::Empty {
+            what: "dynamic degrees of freedom",
+        });
+    }
+    let deflections = structural.solve(t)?;
+    let flexibility = crate::method::linear_algebra::symmetric_part(&t.tr_mul(&deflections));
+    let lower = cholesky(
+        "dynamic flexibility",
+        &flexibility,
+        SMALLEST_FLEXIBILITY_PIVOT,
+    )
+    .map_err(|error| match error {
+        Error::NotPositiveDefinite { dof, .. } => Error::DependentDynamicDof { dof },
+        other => other,
+    })?;
+    let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
+    solve_lower(&lower, &mut inverse_factor);
+    let stiffness = inverse_factor.tr_mul(&inverse_factor);
+    Ok(Condensed {
+        transformation: deflections * &stiffness,
+        stiffness,
+    })
+}
+
+/// Unit-size share of an element in the dynamic stiffness, $B K_e B^t$ (A.9), lbf/in per unit size (d × d).
+///
+/// Only the rows of $B^t$ at the element's own DOF enter. With one $B$ for all elements the shares, times the
+/// sizes, sum to $K_D$ exactly.
+pub fn unit_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+    let rows = transformation.select_rows(&element.dof);
+    crate::method::linear_algebra::symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
+}
+
+/// Unit-size share of an element in the dynamic mass, $B M_e B^t$ (A.9) with the lumped $M_e$, lbf·s²/in (d × d).
+pub fn unit_mass_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+    let rows = transformation.select_rows(&element.dof);
+    let mut weighted = rows.clone();
+    for (mut row, &mass) in weighted.row_iter_mut().zip(element.unit_mass.iter()) {
+        row *= mass;
+    }
+    crate::method::linear_algebra::symmetric_part(&rows.tr_mul(&weighted))
+}

@@ -1,0 +1,140 @@
+//! Balance of forces and moments in each test mode (B.1 to B.4).
+
+use super::checked_generalized_masses;
+use crate::method::error::Error;
+use crate::method::linear_algebra::{
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
+    symmetric_eigen, symmetric_part,
+};
+use crate::method::modes::Modes;
+use nalgebra::{DMatrix, DVector};
+
+/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported.
+///
+/// It is the square of a suspension frequency over the mode's: 0.04 asks for suspension modes below a fifth of
+/// every test frequency, about what a test on soft suspension is set up for. A supported structure's lowest mode has a
+/// ratio of at least one, because no motion has a smaller ratio of stiffness to mass than that mode.
+pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
+
+/// Part of a rigid-body vector that is independent of those before it, as a fraction of its generalized mass, below
+/// which it counts as dependent. Round-off leaves about 1e-15; a reference axis a thousand lengths away leaves 1e-7.
+const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
+
+/// Test shapes whose forces and moments balance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balanced {
+    /// Balanced shapes $v_i + \Phi r_i$ (d × n), at the scale of the raw ones.
+    pub shapes: DMatrix<f64>,
+    /// Coefficients $r$ of the rigid-body vectors (m × n): a translation has the shape's unit, a rotation that per inch.
+    pub coefficients: DMatrix<f64>,
+    /// Size of each change relative to its shape, in the mass norm:
+    /// $\sqrt{(\Phi r_i)^t M \Phi r_i}\,/\sqrt{v_i^t M v_i}$.
+    pub change: Vec<f64>,
+}
+
+/// Adds to every test shape the rigid-body motion that balances its forces and moments.
+///
+/// With $R_i = \omega_i^2 M - K$ and the rigid-body vectors in the columns of $\Phi$, the coefficients solve
+///
+/// $$ \Phi^t R_i\, (v_i + \Phi r_i) = 0, $$
+///
+/// which for the symmetric case, $\Phi = (\{1\}, \{x\})$, is (B.3) and (B.4). On a free structure $K\Phi = 0$ and the
+/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion, so the change is at most
+/// one. The equations are solved in the suspension modes, the mass-orthonormal combinations
+/// $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$) on which $K$ is diagonal:
+///
+/// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
+///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
+///
+/// `stiffness` in lbf/in and `mass` in lbf·s²/in (d × d); `rigid_body` $= \Phi$ (d × m), see
+/// [`super::rigid_body_vectors`]. Suspension springs belong in the stiffness.
+///
+/// # Errors
+/// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
+/// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::DependentRigidBody`] when the balance
+/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds
+/// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode
+/// on the suspension and no test mode.
+pub fn balance(
+    raw: &Modes,
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    rigid_body: &DMatrix<f64>,
+) -> Result<Balanced, Error> {
+    let generalized_masses = checked_generalized_masses(raw, mass)?;
+    let dof_count = mass.nrows();
+    check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
+    check_symmetric("dynamic stiffness", stiffness)?;
+    let to_suspension = suspension_modes(stiffness, mass, rigid_body)?;
+    let Suspension {
+        squared,
+        modes: from_suspension,
+    } = &to_suspension;
+    let stiffest = squared.amax();
+    let limit = LARGEST_SUSPENSION_RATIO;
+    if let Some(mode) = raw
+        .omega_squared
+        .iter()
+        .position(|omega| stiffest > limit * omega)
+    {
+        return Err(Error::Supported {
+            mode,
+            ratio: stiffest / raw.omega_squared[mode],
+            limit,
+        });
+    }
+    let motions = rigid_body * from_suspension;
+    let inertia = motions.tr_mul(&(mass * &raw.shapes));
+    let elastic = motions.tr_mul(&(stiffness * &raw.shapes));
+    let amplitudes = DMatrix::from_fn(squared.len(), raw.len(), |k, i| {
+        let omega_squared = raw.omega_squared[i];
+        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - squared[k])
+    });
+    Ok(Balanced {
+        shapes: &raw.shapes + motions * &amplitudes,
+        change: amplitudes
+            .column_iter()
+            .zip(generalized_masses.iter())
+            .map(|(amplitude, generalized_mass)| amplitude.norm() / generalized_mass.sqrt())
+            .collect(),
+        coefficients: from_suspension * amplitudes,
+    })
+}
+
+/// Rigid-body modes on the suspension.
+struct Suspension {
+    /// Squared circular frequencies $\mu$, rad²/s²; zero on a free structure.
+    squared: DVector<f64>,
+    /// Mass-orthonormal modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
+    modes: DMatrix<f64>,
+}
+
+fn suspension_modes(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    rigid_body: &DMatrix<f64>,
+) -> Result<Suspension, Error> {
+    let count = rigid_body.ncols();
+    if count == 0 {
+        return Err(Error::Empty {
+            what: "rigid-body vectors",
+        });
+    }
+    check_shape("rigid-body vectors", rigid_body, mass.nrows(), count)?;
+    check_finite("rigid-body vectors", rigid_body)?;
+    let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
+    let lower =
+        cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART).map_err(|error| {
+            match error {
+                Error::NotPositiveDefinite { dof, .. } => Error::DependentRigidBody { vector: dof },
+                other => other,
+            }
+        })?;
+    let mut reduced = rigid_body.tr_mul(&(stiffness * rigid_body));
+    solve_lower(&lower, &mut reduced);
+    reduced.transpose_mut();
+    solve_lower(&lower, &mut reduced);
+    let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &symmetric_part(&reduced))?;
+    solve_lower_transposed(&lower, &mut modes);
+    Ok(Suspension { squared, modes })
+}

@@ -1,0 +1,114 @@
+//! Orthogonal test modes from nearly orthogonal ones (B.5 to B.7).
+
+use super::checked_generalized_masses;
+use crate::method::error::Error;
+use crate::method::linear_algebra::{cholesky, symmetric_part};
+use crate::method::modes::{Modes, solve};
+use crate::method::pairing::{matched, pair_modes};
+use nalgebra::DMatrix;
+
+/// Part of a unit shape that is independent of those before it, squared, below which it counts as dependent: an
+/// angle of 1e-6 between the shape and what the others span, far below any measurement.
+const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
+
+/// Overlap of unit shapes below which it is the round-off of a product over some hundreds of DOF and counts as none.
+/// Without it two modes of one frequency, orthogonal but for round-off, would be turned by any angle.
+const OVERLAP_ROUND_OFF: f64 = 1e-12;
+
+/// How far orthogonalization moved a mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Movement {
+    /// Change of frequency relative to the raw one, $(f - f_G)/f_G$.
+    pub frequency: f64,
+    /// Mass norm of the change of shape, $\sqrt{(w - v)^t M (w - v)}$ with both scaled to unit generalized mass and
+    /// signed alike.
+    ///
+    /// It is $2\sin(\theta/2)$ for an angle $\theta$ between the shapes, so about the fraction of other modes mixed
+    /// in; the modal assurance criterion in the mass product is $(1 - c^2/2)^2$ of it.
+    pub shape: f64,
+}
+
+/// Orthogonal test modes and how far each one moved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orthogonalized {
+    /// The modes, $V^t M V = I$, in the order and with the signs of the raw ones.
+    pub modes: Modes,
+    /// Overlaps of the raw shapes: $m_1$ (B.6) with every shape scaled to unit generalized mass (n × n).
+    pub overlap: DMatrix<f64>,
+    /// Each mode's movement.
+    pub movement: Vec<Movement>,
+}
+
+/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale.
+///
+/// Its off-diagonal entries are the integrals of (B.5) over the mass; they vanish for orthogonal modes.
+pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
+    shapes.tr_mul(&(mass * shapes))
+}
+
+/// The combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
+///
+/// The raw shapes are scaled to unit generalized mass, and the equations of motion in them, with the test
+/// frequencies $\omega_{Gi}$ on the diagonal, are the symmetric-definite eigenproblem
+///
+/// $$ \mathrm{diag}(\omega_{Gi}^2\, m_{1,ii})\, q = \omega^2\, m_1\, q, \qquad q^t m_1 q = 1. $$
+///
+/// The new shapes $V q$ are orthonormal in mass. Each is paired with a raw one by their cross-orthogonality, and takes
+/// its place and sign. When $m_1$ is diagonal every frequency and shape stays as it is; an overlap $e$ of two
+/// modes moves the shapes by the order of $e$ and the frequencies by that of $e^2$, and is charged mostly to the
+/// higher mode, by $\omega_j^2$ against $\omega_i^2$. The sum of $1/\omega^2$ never changes.
+///
+/// `mass` in lbf·s²/in (d × d).
+///
+/// # Errors
+/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
+/// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::DependentTestShape`] for a shape that
+/// is a combination of those before it.
+pub fn orthogonalize(raw: &Modes, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
+    let generalized_masses = checked_generalized_masses(raw, mass)?;
+    let mut unit = raw.shapes.clone();
+    for (mut shape, generalized_mass) in unit.column_iter_mut().zip(generalized_masses.iter()) {
+        shape /= generalized_mass.sqrt();
+    }
+    let overlap = symmetric_part(&generalized_mass(&unit, mass));
+    let overlap = overlap.map(|entry| {
+        if entry.abs() < OVERLAP_ROUND_OFF {
+            0.0
+        } else {
+            entry
+        }
+    });
+    cholesky(
+        "overlap of the test shapes",
+        &overlap,
+        SMALLEST_INDEPENDENT_PART,
+    )
+    .map_err(|error| match error {
+        Error::NotPositiveDefinite { dof, .. } => Error::DependentTestShape { mode: dof },
+        other => other,
+    })?;
+    let combined = solve(
+        &DMatrix::from_diagonal(&raw.omega_squared),
+        &overlap,
+        raw.len(),
+    )?;
+    let pairing = pair_modes(&combined.shapes.tr_mul(&overlap))?;
+    let combined = matched(&combined, &pairing);
+    let modes = Modes {
+        shapes: &unit * combined.shapes,
+        omega_squared: combined.omega_squared,
+    };
+    let difference = &modes.shapes - unit;
+    let weighted = mass * &difference;
+    let movement = (0..raw.len())
+        .map(|mode| Movement {
+            frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
+            shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
+        })
+        .collect();
+    Ok(Orthogonalized {
+        modes,
+        overlap,
+        movement,
+    })
+}

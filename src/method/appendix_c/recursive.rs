@@ -1,0 +1,280 @@
+//! First order (C.20, C.21), Recursive 1 (C.22), Recursive 2 (C.24) and the original formulae, for a change of
+//! stiffness alone and real mass-orthonormal modes.
+//!
+//! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$; both are given in rad²/s².
+
+use super::{Perturbed, SMALLEST_SEPARATION};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_finite, check_shape};
+use nalgebra::{DMatrix, DVector};
+
+/// First order (C.20, C.21):
+///
+/// $$ \Delta\lambda_i = -\frac{\lambda_i \beta_{ii}}{k_{ii} + \beta_{ii}}, \qquad
+///    p_{ij} = -\frac{\beta_{ij}}{k_{ii} + \beta_{ii} - 1/\gamma_j} $$
+///
+/// so that $\gamma_i = \lambda_i + \Delta\lambda_i = 1/(k_{ii} + \beta_{ii})$: Rayleigh's quotient on the old shape.
+///
+/// # Errors
+/// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
+/// [`Error::CoalescingModes`] when a denominator vanishes.
+pub fn first_order(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
+    check_input(generalized_stiffness, beta)?;
+    let size = generalized_stiffness.len();
+    let k = generalized_stiffness;
+    let (mut roots, mut shapes) = (DVector::zeros(size), DMatrix::zeros(size, size));
+    for i in 0..size {
+        roots[i] = 1.0 / (k[i] + beta[(i, i)]);
+        check_root(i, roots[i])?;
+    }
+    for j in 0..size {
+        for i in 0..size {
+            shapes[(i, j)] = if i == j {
+                1.0
+            } else {
+                -beta[(i, j)] / denominator(k, beta, roots[j], i, j)?
+            };
+        }
+    }
+    Ok(Perturbed {
+        roots,
+        shapes,
+        order: 1,
+        last_change: f64::INFINITY,
+    })
+}
+
+/// Recursive 1 (7, 8, C.22) to a given order, from first order on; with $\rho = r - 1$:
+///
+/// $$ (\Delta\lambda_i)_r = -\frac{\beta_{ii}\lambda_i + (\gamma_i)_\rho \sum_{j\ne i}\beta_{ij}(p_{ji})_\rho}{k_{ii}+\beta_{ii}}, \qquad
+///    (p_{ij})_r = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}(p_{sj})_\rho}{k_{ii}+\beta_{ii} - 1/(\gamma_j)_\rho} $$
+///
+/// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and $\lambda_i$ where the changed root of the previous
+/// order belongs (`paper/errata.md`).
+///
+/// # Errors
+/// As [`first_order`], and [`Error::Setting`] for order zero.
+pub fn recursive_1(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    order: usize,
+) -> Result<Perturbed, Error> {
+    check_order(order)?;
+    // No change is below a negative tolerance, so every order asked for is carried out.
+    recursive_1_converged(generalized_stiffness, beta, -1.0, order)
+}
+
+/// [`recursive_1`] until no root changes by more than `tolerance` (relative), at most to order `orders`.
+///
+/// Whether it converged is seen by comparing `last_change` with `tolerance`.
+///
+/// # Errors
+/// As [`recursive_1`].
+pub fn recursive_1_converged(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    tolerance: f64,
+    orders: usize,
+) -> Result<Perturbed, Error> {
+    check_order(orders)?;
+    let k = generalized_stiffness;
+    let mut now = first_order(k, beta)?;
+    let size = k.len();
+    let mut coupling = beta.clone();
+    coupling.fill_diagonal(0.0);
+    let mut sums = DMatrix::zeros(size, size);
+    for order in 2..=orders {
+        // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
+        // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
+        coupling.mul_to(&now.shapes, &mut sums);
+        let mut change = 0.0_f64;
+        for j in 0..size {
+            let gamma = now.roots[j];
+            for i in 0..size {
+                if i != j {
+                    now.shapes[(i, j)] = -sums[(i, j)] / denominator(k, beta, gamma, i, j)?;
+                }
+            }
+            let lambda = 1.0 / k[j];
+            let root =
+                lambda - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+            check_root(j, root)?;
+            change = change.max((root / gamma - 1.0).abs());
+            now.roots[j] = root;
+        }
+        now.order = order;
+        now.last_change = change;
+        if change < tolerance {
+            break;
+        }
+    }
+    Ok(now)
+}
+
+/// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.
+///
+/// $$ (\Delta\lambda_i)_r = -\frac{\lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}(p_{ji})_\rho
+///    \quad (j = i \text{ included}) $$
+/// $$ \Big(k_{ii} + \beta_{ii} - \frac{1}{(\gamma_j)_r}\Big)(p_{ij})_r + \sum_{s \ne i,j}\beta_{is}(p_{sj})_r = -\beta_{ij},
+///    \qquad i \ne j $$
+///
+/// # Errors
+/// As [`first_order`], [`Error::Setting`] for order zero, and [`Error::CoalescingModes`] when the linear system of
+/// a mode is singular.
+pub fn recursive_2(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    order: usize,
+) -> Result<Perturbed, Error> {
+    check_order(order)?;
+    let k = generalized_stiffness;
+    let mut now = first_order(k, beta)?;
+    for order in 2..=order {
+        let roots = explicit_roots(k, beta, &now.shapes)?;
+        now.last_change = largest_change(&roots, &now.roots);
+        now.shapes = shapes_by_linear_solution(k, beta, &roots)?;
+        now.roots = roots;
+        now.order = order;
+    }
+    Ok(now)
+}
+
+/// The original formulae of 1947: first-order roots and shapes, then the root once more from those shapes (C.24).
+///
+/// # Errors
+/// As [`first_order`].
+///
+/// Source: Van de Vooren, Report V.1366, National Aeronautical Research Institute, Amsterdam (1947).
+pub fn original(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
+    let mut now = first_order(generalized_stiffness, beta)?;
+    let roots = explicit_roots(generalized_stiffness, beta, &now.shapes)?;
+    now.last_change = largest_change(&roots, &now.roots);
+    now.roots = roots;
+    now.order = 2;
+    Ok(now)
+}
+
+/// Largest relative change from one order's roots to the next.
+fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
+    new.iter()
+        .zip(old.iter())
+        .map(|(new, old)| (new / old - 1.0).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Roots from given shapes, $\gamma_i = \lambda_i - \lambda_i S_i/(k_{ii}+S_i)$ (C.24).
+fn explicit_roots(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    shapes: &DMatrix<f64>,
+) -> Result<DVector<f64>, Error> {
+    let mut roots = DVector::zeros(k.len());
+    for i in 0..k.len() {
+        let sum = (beta.row(i) * shapes.column(i))[0];
+        let lambda = 1.0 / k[i];
+        roots[i] = lambda - lambda * sum / (k[i] + sum);
+        check_root(i, roots[i])?;
+    }
+    Ok(roots)
+}
+
+/// Shapes that satisfy all rows but their own for given roots, one (n−1) × (n−1) solution per mode.
+fn shapes_by_linear_solution(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    roots: &DVector<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    let size = k.len();
+    let mut shapes = DMatrix::identity(size, size);
+    if size == 1 {
+        // One mode has no others, and the library's solution of an empty system panics.
+        return Ok(shapes);
+    }
+    for j in 0..size {
+        let others: Vec<usize> = (0..size).filter(|&i| i != j).collect();
+        let mut system = beta.select_rows(&others).select_columns(&others);
+        for (row, &i) in others.iter().enumerate() {
+            system[(row, row)] += k[i] - 1.0 / roots[j];
+        }
+        let right = -beta.column(j).select_rows(&others);
+        let solution = system
+            .lu()
+            .solve(&right)
+            .filter(|solution| solution.iter().all(|value| value.is_finite()))
+            .ok_or(Error::CoalescingModes {
+                first: j,
+                second: j,
+                separation: 0.0,
+            })?;
+        for (&i, &value) in others.iter().zip(solution.iter()) {
+            shapes[(i, j)] = value;
+        }
+    }
+    Ok(shapes)
+}
+
+/// $k_{ii} + \beta_{ii} - 1/\gamma_j$, refused when it vanishes.
+fn denominator(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    root: f64,
+    i: usize,
+    j: usize,
+) -> Result<f64, Error> {
+    let own = k[i] + beta[(i, i)];
+    let difference = own - 1.0 / root;
+    if difference.abs() > SMALLEST_SEPARATION * own {
+        Ok(difference)
+    } else {
+        Err(Error::CoalescingModes {
+            first: i,
+            second: j,
+            separation: (difference / own).abs(),
+        })
+    }
+}
+
+/// Refuses a perturbed root that is not positive and finite.
+pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::LostRoot { mode, value })
+    }
+}
+
+pub(crate) fn check_order(order: usize) -> Result<(), Error> {
+    if order > 0 {
+        return Ok(());
+    }
+    Err(Error::Setting {
+        name: "order",
+        expected: "at least 1",
+        found: 0.0,
+    })
+}
+
+/// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.
+pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
+    if k.is_empty() {
+        return Err(Error::Empty { what: "modes" });
+    }
+    check_shape("generalized stiffness change", beta, k.len(), k.len())?;
+    check_finite("generalized stiffness change", beta)?;
+    match k
+        .iter()
+        .position(|&value| value <= 0.0 || !value.is_finite())
+    {
+        None => Ok(()),
+        Some(mode) => Err(Error::NotAVibration {
+            mode,
+            value: k[mode],
+        }),
+    }
+}

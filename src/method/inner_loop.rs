@@ -1,0 +1,249 @@
+//! The inner loop: steps by perturbation alone, from one exact solution to the next.
+
+use crate::method::appendix_c::UpdateRule;
+use crate::method::derivatives::{Derivatives, error_derivatives};
+use crate::method::error::Error;
+use crate::method::error_sum::Errors;
+use crate::method::linear_algebra::check_length;
+use crate::method::modal::{ModalProblem, ModalState};
+use crate::method::step::{Limit, Range, StepRule, limited_factor, unlimited_factors};
+use serde::Serialize;
+
+/// How the inner loop steps and when it stops.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InnerSettings {
+    /// Relaxation $R$ of the first iteration of a pass.
+    pub first_relaxation: f64,
+    /// Relaxation $R$ of the others.
+    pub relaxation: f64,
+    /// Bounds of one iteration's factor.
+    pub factor_range: Range,
+    /// Tolerance TOLI on the error sum $e_S$.
+    pub tolerance: f64,
+    /// How often a step that does not lower $e_S$ is halved before the place counts as a local minimum; zero stops
+    /// at the first rise.
+    pub halvings: usize,
+    /// Most iterations (accepted steps).
+    pub iterations: usize,
+    /// How derivatives become factors.
+    pub step: StepRule,
+    /// How modes follow the factors.
+    pub update: UpdateRule,
+}
+
+impl Default for InnerSettings {
+    /// The paper's: $R$ = 0.8 then 1.0, factors from 0.55 to 1.50, TOLI 2.5 %; five halvings, 100 iterations.
+    fn default() -> Self {
+        Self {
+            first_relaxation: 0.8,
+            relaxation: 1.0,
+            factor_range: Range {
+                lower: 0.55,
+                upper: 1.50,
+            },
+            tolerance: 0.025,
+            halvings: 5,
+            iterations: 100,
+            step: StepRule::default(),
+            update: UpdateRule::default(),
+        }
+    }
+}
+
+/// Why an inner loop stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// The error sum fell below its tolerance.
+    Tolerance,
+    /// Neither the step nor any of its halvings lowered the error sum.
+    LocalMinimum,
+    /// The number of iterations allowed was used up.
+    Iterations,
+}
+
+/// One accepted step.
+#[derive(Debug, Clone)]
+pub struct Iteration {
+    /// Derivatives at the place the step was taken from.
+    pub derivatives: Derivatives,
+    /// Factors of (13) before any bound.
+    pub unlimited_factors: Vec<f64>,
+    /// How often the step was halved.
+    pub halvings: usize,
+    /// Total factor of each parameter since the last exact solution, after the step.
+    pub factors: Vec<f64>,
+    /// What held each parameter's factor.
+    pub limits: Vec<Limit>,
+    /// Errors after the step.
+    pub errors: Errors,
+}
+
+/// The history of one inner loop.
+#[derive(Debug, Clone)]
+pub struct InnerRun {
+    /// Errors of the last exact solution, where the loop began.
+    pub start: Errors,
+    /// Accepted steps.
+    pub iterations: Vec<Iteration>,
+    /// Where the loop ended.
+    pub last: ModalState,
+    /// Unlimited factors at the start: what the first iteration asked for, taken or not.
+    pub first_unlimited_factors: Vec<f64>,
+    /// Why it stopped.
+    pub stop: Stop,
+}
+
+/// Runs the inner loop from the last exact modes.
+///
+/// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product,
+/// both with one entry per parameter.
+///
+/// At least one step is tried even when the start is within tolerance: the tolerance is a reason to stop
+/// stepping, and the outer loop decides whether to begin.
+///
+/// # Errors
+/// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
+/// do not match the parameters; those of [`error_derivatives`]. A trial step too far for the perturbation (modes that
+/// coalesce, a lost root, roots that do not settle) is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
+/// [`Error::UnsettledRoots`] is returned when that is so of the first step and of every one of its halvings.
+pub fn run(
+    problem: &ModalProblem,
+    base: &[f64],
+    total_ranges: &[Option<Range>],
+    settings: &InnerSettings,
+) -> Result<InnerRun, Error> {
+    check_settings(settings)?;
+    check_length("parameter factors", base.len(), problem.parameter_count())?;
+    check_length(
+        "parameter limits",
+        total_ranges.len(),
+        problem.parameter_count(),
+    )?;
+    for range in total_ranges.iter().flatten() {
+        Range::positive("parameter limits", range.lower, range.upper)?;
+    }
+    let mut state = problem.start_state()?;
+    let start = state.errors;
+    let mut iterations: Vec<Iteration> = Vec::new();
+    let mut first_unlimited_factors = Vec::new();
+    let stop = loop {
+        if iterations.len() == settings.iterations {
+            break Stop::Iterations;
+        }
+        let derivatives = error_derivatives(problem, &state)?;
+        let relaxation = if iterations.is_empty() {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        };
+        let unlimited =
+            unlimited_factors(&derivatives, state.errors.sum(), relaxation, settings.step);
+        if iterations.is_empty() {
+            first_unlimited_factors.clone_from(&unlimited);
+        }
+        let tried = lowering_step(problem, &state, &unlimited, base, total_ranges, settings);
+        let (halvings, limits, next) = match tried? {
+            Trial::Lower(halvings, limits, next) => (halvings, limits, next),
+            // No step at all: the modes that stand in the way are worth more than a loop that did nothing.
+            Trial::Refused(error) if iterations.is_empty() => return Err(error),
+            Trial::Refused(_) | Trial::TooFar => break Stop::LocalMinimum,
+        };
+        state = next;
+        iterations.push(Iteration {
+            derivatives,
+            unlimited_factors: unlimited,
+            halvings,
+            factors: state.factors.clone(),
+            limits,
+            errors: state.errors,
+        });
+        if state.errors.sum() < settings.tolerance {
+            break Stop::Tolerance;
+        }
+    };
+    Ok(InnerRun {
+        start,
+        iterations,
+        last: state,
+        first_unlimited_factors,
+        stop,
+    })
+}
+
+/// What became of a step and its halvings.
+enum Trial {
+    /// The longest that lowers the error sum: how often it was halved, what held it, where it leads.
+    Lower(usize, Vec<Limit>, ModalState),
+    /// None lowers it.
+    TooFar,
+    /// Modes coalesce, or their roots do not settle, in every one of them; the error of the shortest.
+    Refused(Error),
+}
+
+/// The longest of the step and its halvings that lowers the error sum.
+fn lowering_step(
+    problem: &ModalProblem,
+    state: &ModalState,
+    unlimited: &[f64],
+    base: &[f64],
+    total_ranges: &[Option<Range>],
+    settings: &InnerSettings,
+) -> Result<Trial, Error> {
+    let (mut is_too_far, mut refusal) = (false, None);
+    for halvings in 0..=settings.halvings {
+        let fraction = 0.5_f64.powi(halvings as i32);
+        let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
+            .map(|e| {
+                let step = 1.0 + fraction * (unlimited[e] - 1.0);
+                limited_factor(
+                    state.factors[e],
+                    base[e],
+                    step,
+                    settings.factor_range,
+                    total_ranges[e],
+                )
+            })
+            .unzip();
+        match problem.state_at(factors, settings.update) {
+            Ok(next) if next.errors.sum() < state.errors.sum() => {
+                return Ok(Trial::Lower(halvings, limits, next));
+            }
+            // Uphill, or too far for the perturbation: a shorter step may do.
+            Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
+            Err(error @ (Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })) => {
+                refusal = Some(error);
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(match refusal {
+        Some(error) if !is_too_far => Trial::Refused(error),
+        _ => Trial::TooFar,
+    })
+}
+
+fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
+    let InnerSettings {
+        first_relaxation,
+        relaxation,
+        tolerance,
+        factor_range,
+        ..
+    } = settings;
+    for (name, value) in [
+        ("first_relaxation", first_relaxation),
+        ("relaxation", relaxation),
+        ("tolerance", tolerance),
+    ] {
+        if !(*value > 0.0 && value.is_finite()) {
+            return Err(Error::Setting {
+                name,
+                expected: "a positive finite number",
+                found: *value,
+            });
+        }
+    }
+    Range::positive("factor limits", factor_range.lower, factor_range.upper)?;
+    Ok(())
+}

@@ -1,0 +1,237 @@
+//! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
+
+use crate::method::error::Error;
+use faer::{Mat, Side};
+use nalgebra::{ComplexField, DMatrix, DVector};
+
+/// Asymmetry, relative to the largest entry, above which a matrix is refused.
+///
+/// Congruence transformations leave asymmetry of about 1e-14; 1e-8 is a mistake in the data.
+const LARGEST_ASYMMETRY: f64 = 1e-8;
+
+/// What counts as zero when a matrix is taken apart into rank-one terms, relative to its size times its largest entry:
+/// a few roundings, so that the rank comes out as that of the element and not of its round-off.
+const RANK_ROUND_OFF: f64 = 1e-15;
+
+/// Refuses matrices, real or complex, with NaN or infinite entries.
+///
+/// # Errors
+/// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
+pub fn check_finite<T>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error>
+where
+    T: ComplexField<RealField = f64> + Copy,
+{
+    match matrix.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => {
+            let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
+            Err(Error::NotFinite {
+                what,
+                row: index % matrix.nrows(),
+                column: index / matrix.nrows(),
+                value: if real.is_finite() { imaginary } else { real },
+            })
+        }
+    }
+}
+
+/// Refuses matrices, real or complex, of another shape.
+///
+/// # Errors
+/// [`Error::WrongShape`] with both shapes.
+pub fn check_shape<T>(
+    what: &'static str,
+    matrix: &DMatrix<T>,
+    expected_rows: usize,
+    expected_columns: usize,
+) -> Result<(), Error> {
+    let (rows, columns) = matrix.shape();
+    if (rows, columns) == (expected_rows, expected_columns) {
+        Ok(())
+    } else {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        })
+    }
+}
+
+/// Refuses lists of another length.
+///
+/// # Errors
+/// [`Error::WrongShape`] with both lengths as rows of one column.
+pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::WrongShape {
+        what,
+        expected_rows: expected,
+        expected_columns: 1,
+        rows: found,
+        columns: 1,
+    })
+}
+
+/// Refuses matrices that are not square, finite and symmetric to working precision.
+///
+/// # Errors
+/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`].
+pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
+    check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
+    check_finite(what, matrix)?;
+    let largest = matrix.amax();
+    let mut worst = (0, 0, 0.0);
+    for column in 0..matrix.ncols() {
+        for row in column + 1..matrix.nrows() {
+            let difference = (matrix[(row, column)] - matrix[(column, row)]).abs();
+            if difference > worst.2 {
+                worst = (row, column, difference);
+            }
+        }
+    }
+    if worst.2 <= LARGEST_ASYMMETRY * largest {
+        return Ok(());
+    }
+    Err(Error::NotSymmetric {
+        what,
+        row: worst.0,
+        column: worst.1,
+        difference: worst.2 / largest,
+    })
+}
+
+/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation.
+pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    0.5 * (matrix + matrix.transpose())
+}
+
+/// Lower Cholesky factor $L$ of a symmetric positive definite matrix, $A = L L^t$.
+///
+/// A pivot below `smallest_pivot` times its diagonal entry counts as not positive.
+///
+/// # Errors
+/// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
+pub fn cholesky(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    smallest_pivot: f64,
+) -> Result<DMatrix<f64>, Error> {
+    check_symmetric(what, matrix)?;
+    let size = matrix.nrows();
+    let lower = match to_faer(matrix).llt(Side::Lower) {
+        Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
+        Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
+            // A pivot before it may have been too small already.
+            cholesky(
+                what,
+                &matrix.view((0, 0), (index, index)).into_owned(),
+                smallest_pivot,
+            )?;
+            return Err(Error::NotPositiveDefinite { what, dof: index });
+        }
+    };
+    match (0..size).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]) {
+        Some(dof) => Err(Error::NotPositiveDefinite { what, dof }),
+        None => Ok(lower),
+    }
+}
+
+/// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.
+pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+    lower.solve_lower_triangular_unchecked_mut(right);
+}
+
+/// Solves $L^t X = R$ in place for a lower triangular $L$ with nonzero diagonal.
+pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+    lower.tr_solve_lower_triangular_unchecked_mut(right);
+}
+
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
+///
+/// $$ A\, Y = Y\, \mathrm{diag}(\mu), \qquad Y^t Y = I $$
+///
+/// # Errors
+/// Those of [`check_symmetric`]; [`Error::NoConvergence`].
+pub fn symmetric_eigen(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+    check_symmetric(what, matrix)?;
+    let size = matrix.nrows();
+    let eigen = to_faer(matrix)
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::NoConvergence { what })?;
+    let values = DVector::from_fn(size, |i, _| eigen.S()[i]);
+    let vectors = DMatrix::from_fn(size, size, |row, column| eigen.U()[(row, column)]);
+    Ok((values, vectors))
+}
+
+/// A symmetric matrix as a sum of rank-one terms, as few as its rank: $A = \sum_t s_t f_t f_t^t$ with $s_t = \pm 1$.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankOneTerms {
+    /// The vectors $f_t$, one per column (n × rank).
+    pub vectors: DMatrix<f64>,
+    /// The signs $s_t$.
+    pub signs: Vec<f64>,
+}
+
+/// Rank-one terms of a symmetric matrix; what is left of it is within round-off of its largest entry.
+///
+/// A semidefinite matrix, as every element's share is, is taken apart by Cholesky's factorization with the largest
+/// diagonal entry as pivot, $f = a_p/\sqrt{a_{pp}}$, which ends when its rank is reached. Any other is taken apart by its
+/// eigenvectors, $f_t = \sqrt{|\mu_t|}\, y_t$.
+///
+/// # Errors
+/// Those of [`symmetric_eigen`].
+pub fn rank_one_terms(what: &'static str, matrix: &DMatrix<f64>) -> Result<RankOneTerms, Error> {
+    check_symmetric(what, matrix)?;
+    let smallest = RANK_ROUND_OFF * matrix.nrows() as f64 * matrix.amax();
+    let mut rest = matrix.clone();
+    let mut vectors: Vec<DVector<f64>> = Vec::new();
+    while rest.amax() > smallest {
+        let pivot = rest.diagonal().imax();
+        let largest = rest[(pivot, pivot)];
+        // No entry of a semidefinite matrix exceeds its largest diagonal entry.
+        if vectors.len() == matrix.nrows() || rest.amax() > largest + smallest {
+            return spectral_terms(what, matrix, smallest);
+        }
+        let vector = rest.column(pivot) / largest.sqrt();
+        rest.ger(-1.0, &vector, &vector, 1.0);
+        vectors.push(vector);
+    }
+    Ok(RankOneTerms {
+        signs: vec![1.0; vectors.len()],
+        vectors: DMatrix::from_fn(matrix.nrows(), vectors.len(), |row, term| {
+            vectors[term][row]
+        }),
+    })
+}
+
+fn spectral_terms(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    smallest: f64,
+) -> Result<RankOneTerms, Error> {
+    let (values, mut vectors) = symmetric_eigen(what, matrix)?;
+    let kept: Vec<usize> = (0..values.len())
+        .filter(|&t| values[t].abs() > smallest)
+        .collect();
+    for (mut vector, value) in vectors.column_iter_mut().zip(values.iter()) {
+        vector *= value.abs().sqrt();
+    }
+    Ok(RankOneTerms {
+        signs: kept.iter().map(|&t| values[t].signum()).collect(),
+        vectors: vectors.select_columns(&kept),
+    })
+}
+
+/// The same matrix, real or complex, for faer.
+pub(crate) fn to_faer<T: Copy>(matrix: &DMatrix<T>) -> Mat<T> {
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+        matrix[(row, column)]
+    })
+}

@@ -1,0 +1,273 @@
+//! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
+
+use crate::method::appendix_a::{Condensed, condense, unit_mass_share, unit_share};
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky};
+use crate::method::modal::{DynamicModel, Share};
+use crate::method::parameters::{MemberKind, Members, Parameter, resolve};
+use crate::method::step::Range;
+use crate::method::structure::Structure;
+use nalgebra::DMatrix;
+
+/// A structure with its dynamic degrees of freedom, mass, and parameters.
+#[derive(Debug, Clone)]
+pub struct FiniteElementModel {
+    structure: Structure,
+    element_matrices: Vec<ElementMatrix>,
+    load_distribution: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    parameters: Vec<Parameter>,
+    members: Vec<Members>,
+}
+
+impl FiniteElementModel {
+    /// Puts a model together and forms every unit element matrix, once.
+    ///
+    /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in) beside what elements
+    /// with a density add to it.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::NotPositiveDefinite`] naming the DOF of a
+    /// zero or negative mass; [`Error::Empty`] without parameters or for a parameter without elements;
+    /// [`Error::UnknownElement`], [`Error::UnknownDynamicDof`], [`Error::SharedElement`], [`Error::CoupledMass`] for a bad
+    /// parameter; the geometry errors of the elements.
+    pub fn new(
+        structure: Structure,
+        load_distribution: DMatrix<f64>,
+        mass: DMatrix<f64>,
+        parameters: Vec<Parameter>,
+    ) -> Result<Self, Error> {
+        let dof_count = load_distribution.ncols();
+        check_shape(
+            "load distribution",
+            &load_distribution,
+            structure.free_dof().len(),
+            dof_count,
+        )?;
+        check_finite("load distribution", &load_distribution)?;
+        check_shape("dynamic mass", &mass, dof_count, dof_count)?;
+        check_symmetric("dynamic mass", &mass)?;
+        if structure
+            .elements()
+            .iter()
+            .all(|element| element.material.density == 0.0)
+        {
+            cholesky("dynamic mass", &mass, 0.0)?;
+        }
+        let members = resolve(&structure, dof_count, &parameters)?;
+        for point in members
+            .iter()
+            .filter(|members| members.kind == MemberKind::PointMass)
+        {
+            for &dof in &point.rows {
+                // The diagonal entry alone is scaled, so it must be the whole of the mass.
+                if (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0) {
+                    return Err(Error::CoupledMass { dof });
+                }
+            }
+        }
+        Ok(Self {
+            element_matrices: element_matrices(&structure)?,
+            structure,
+            load_distribution,
+            mass,
+            parameters,
+            members,
+        })
+    }
+
+    /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
+    /// element's free DOF, lbf/in, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for another number of matrices or one that does not fit its element; [`Error::NotFinite`] and
+    /// [`Error::NotSymmetric`].
+    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
+        crate::method::linear_algebra::check_length(
+            "element matrices",
+            units.len(),
+            self.element_matrices.len(),
+        )?;
+        let mut model = self.clone();
+        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
+            let dof_count = element.dof.len();
+            check_shape("element stiffness", &unit, dof_count, dof_count)?;
+            check_symmetric("element stiffness", &unit)?;
+            element.unit = unit;
+        }
+        Ok(model)
+    }
+
+    /// The structure with its first sizes.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Unit matrices of the elements at the free DOF.
+    pub fn element_matrices(&self) -> &[ElementMatrix] {
+        &self.element_matrices
+    }
+
+    /// The load distribution $T$ (free SDOF × d).
+    pub fn load_distribution(&self) -> &DMatrix<f64> {
+        &self.load_distribution
+    }
+
+    /// The dynamic mass $M$, lbf·s²/in (d × d).
+    pub fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    /// What may change.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
+    ///
+    /// # Errors
+    /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
+    pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
+        let bounds = |(parameter, members): (&Parameter, &Members)| {
+            if parameter.size_range.is_none() && parameter.factor_range.is_none() {
+                return Ok(None);
+            }
+            let own = parameter.factor_range;
+            let (mut lower, mut upper) =
+                own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
+            if let Some(range) = parameter.size_range {
+                for &row in &members.rows {
+                    let size = self.structure.elements()[row].size;
+                    lower = lower.max(range.lower / size);
+                    upper = upper.min(range.upper / size);
+                }
+            }
+            let what = format!("factor of parameter {}", parameter.name);
+            let factors = Range::positive(&what, lower, upper)?;
+            if factors.contains(1.0) {
+                Ok(Some(factors))
+            } else {
+                Err(Error::Limits { what, lower, upper })
+            }
+        };
+        self.parameters
+            .iter()
+            .zip(&self.members)
+            .map(bounds)
+            .collect()
+    }
+
+    /// Gage or area of every element at the given parameter factors, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
+    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        let first = self
+            .structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect();
+        self.scaled(first, MemberKind::Stiffness, factors)
+    }
+
+    /// `values` of one kind times the factors of the parameters that scale them.
+    fn scaled(
+        &self,
+        mut values: Vec<f64>,
+        kind: MemberKind,
+        factors: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        let given = DMatrix::from_column_slice(factors.len(), 1, factors);
+        check_shape("parameter factors", &given, self.parameters.len(), 1)?;
+        for ((members, &factor), parameter) in
+            self.members.iter().zip(factors).zip(&self.parameters)
+        {
+            let owner = || format!("parameter {}", parameter.name);
+            crate::method::structure::positive("factor", owner, factor)?;
+            if members.kind == kind {
+                for &row in &members.rows {
+                    values[row] *= factor;
+                }
+            }
+        }
+        Ok(values)
+    }
+
+    /// The finite element analysis at the given parameter factors: $K_S$ anew, a new $B$, and with it $K_D$, $M$ and each
+    /// parameter's present share of them.
+    ///
+    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e s_e B M_e B^t $$
+    ///
+    /// # Errors
+    /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
+    pub fn analyze(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
+        let sizes = self.sizes(factors)?;
+        let structural =
+            FactorizedStiffness::new(&self.element_matrices, &sizes, self.structure.free_dof())?;
+        let condensed = condense(&structural, &self.load_distribution)?;
+        // An element's mass is that of its first size: stiffness and mass are scaled by parameters of their own.
+        let first = self
+            .structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect();
+        let mass_sizes = self.scaled(first, MemberKind::ElementMass, factors)?;
+        let point_factors =
+            self.scaled(vec![1.0; self.mass.nrows()], MemberKind::PointMass, factors)?;
+        let mut mass = self.mass.clone();
+        for (dof, factor) in point_factors.iter().enumerate() {
+            mass[(dof, dof)] *= factor;
+        }
+        for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
+            if element.unit_mass.amax() > 0.0 {
+                mass += size * unit_mass_share(&condensed.transformation, element);
+            }
+        }
+        let shares = self
+            .members
+            .iter()
+            .map(|members| self.share(members, &condensed, &sizes, &mass_sizes, &point_factors))
+            .collect();
+        Ok(DynamicModel {
+            stiffness: condensed.stiffness,
+            mass,
+            shares,
+        })
+    }
+
+    /// What a parameter holds of $K_D$ or $M$ at present.
+    fn share(
+        &self,
+        members: &Members,
+        condensed: &Condensed,
+        sizes: &[f64],
+        mass_sizes: &[f64],
+        point_factors: &[f64],
+    ) -> Share {
+        let dof_count = self.mass.nrows();
+        let mut share = DMatrix::zeros(dof_count, dof_count);
+        for &row in &members.rows {
+            match members.kind {
+                MemberKind::Stiffness => {
+                    let unit = unit_share(&condensed.transformation, &self.element_matrices[row]);
+                    share += sizes[row] * unit;
+                }
+                MemberKind::ElementMass => {
+                    let unit =
+                        unit_mass_share(&condensed.transformation, &self.element_matrices[row]);
+                    share += mass_sizes[row] * unit;
+                }
+                MemberKind::PointMass => {
+                    share[(row, row)] += self.mass[(row, row)] * point_factors[row]
+                }
+            }
+        }
+        match members.kind {
+            MemberKind::Stiffness => Share::Stiffness(share),
+            MemberKind::ElementMass | MemberKind::PointMass => Share::Mass(share),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Mode sorting (4): which analysis mode answers which test mode.
+
+use crate::method::error::Error;
+use crate::method::linear_algebra::check_shape;
+use crate::method::modes::Modes;
+use nalgebra::DMatrix;
+
+/// The analysis mode paired with every test mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pairing {
+    /// For each test mode, the index of its analysis mode.
+    pub analysis_mode: Vec<usize>,
+    /// For each test mode, +1 or −1: the sign that turns the analysis shape its way.
+    pub sign: Vec<f64>,
+}
+
+/// Cross-orthogonality $m = V_F^t M V_G$ (4), analysis modes by test modes (n × g).
+///
+/// With mass-orthonormal shapes every entry lies between −1 and 1.
+///
+/// # Errors
+/// [`Error::WrongShape`] when shapes and mass do not fit.
+pub fn cross_orthogonality(
+    analysis: &Modes,
+    test: &Modes,
+    mass: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    let dof_count = mass.nrows();
+    check_shape("dynamic mass", mass, dof_count, dof_count)?;
+    check_shape(
+        "analysis mode shapes",
+        &analysis.shapes,
+        dof_count,
+        analysis.len(),
+    )?;
+    check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
+    Ok(analysis.shapes.tr_mul(&(mass * &test.shapes)))
+}
+
+/// Modal assurance criterion between two sets of shapes (columns), n × g:
+///
+/// $$ \mathrm{MAC}_{ij} = \frac{(v_i^t w_j)^2}{(v_i^t v_i)(w_j^t w_j)} $$
+///
+/// # Errors
+/// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero.
+///
+/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
+pub fn modal_assurance(
+    shapes: &DMatrix<f64>,
+    others: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
+    for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
+        for (mode, shape) in shapes.column_iter().enumerate() {
+            let owner = || format!("{of} {mode} (from zero)");
+            crate::method::structure::positive("squared length", owner, shape.norm_squared())?;
+        }
+    }
+    let cross = shapes.tr_mul(others);
+    Ok(DMatrix::from_fn(cross.nrows(), cross.ncols(), |i, j| {
+        cross[(i, j)].powi(2) / (shapes.column(i).norm_squared() * others.column(j).norm_squared())
+    }))
+}
+
+/// Pairs every test mode with an analysis mode by the cross-orthogonality $m$ (n × g, g ≤ n).
+///
+/// The pair whose $|m_{ij}|$ is closest to one is made first, then the closest of what is left, and so on: on
+/// a conflict the closest keeps its mode and the other takes its next best. A tie goes to the lower test mode, then
+/// to the lower analysis mode. The sign of a pair is that of its $m_{ij}$.
+///
+/// # Errors
+/// [`Error::Empty`] without test modes; [`Error::TooMany`] with more test modes than analysis modes;
+/// [`Error::NotFinite`].
+pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+    let (analysis_count, test_count) = cross.shape();
+    if test_count == 0 {
+        return Err(Error::Empty { what: "test modes" });
+    }
+    if test_count > analysis_count {
+        return Err(Error::TooMany {
+            what: "test modes",
+            available: analysis_count,
+            requested: test_count,
+        });
+    }
+    crate::method::linear_algebra::check_finite("cross-orthogonality", cross)?;
+    let mut analysis_mode = vec![usize::MAX; test_count];
+    let mut taken = vec![false; analysis_count];
+    for _ in 0..test_count {
+        let (mut best, mut distance) = ((0, 0), f64::INFINITY);
+        for j in (0..test_count).filter(|&j| analysis_mode[j] == usize::MAX) {
+            for i in (0..analysis_count).filter(|&i| !taken[i]) {
+                let from_one = (1.0 - cross[(i, j)].abs()).abs();
+                if from_one < distance {
+                    (best, distance) = ((i, j), from_one);
+                }
+            }
+        }
+        let (i, j) = best;
+        analysis_mode[j] = i;
+        taken[i] = true;
+    }
+    let sign = (0..test_count)
+        .map(|j| {
+            if cross[(analysis_mode[j], j)] < 0.0 {
+                -1.0
+            } else {
+                1.0
+            }
+        })
+        .collect();
+    Ok(Pairing {
+        analysis_mode,
+        sign,
+    })
+}
+
+/// The paired analysis modes, in the order and with the signs of the test modes.
+pub fn matched(analysis: &Modes, pairing: &Pairing) -> Modes {
+    let mut shapes = analysis.shapes.select_columns(&pairing.analysis_mode);
+    for (mut shape, &sign) in shapes.column_iter_mut().zip(&pairing.sign) {
+        shape *= sign;
+    }
+    Modes {
+        omega_squared: analysis.omega_squared.select_rows(&pairing.analysis_mode),
+        shapes,
+    }
+}

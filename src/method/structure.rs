@@ -1,0 +1,273 @@
+//! The structure: grid points, materials, elements, and which motions are held.
+
+use crate::method::error::Error;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use std::collections::{HashMap, HashSet};
+
+/// Names of the three directions of a grid point's motion, in the order of its DOF.
+pub const DIRECTIONS: [char; 3] = ['x', 'y', 'z'];
+
+/// A point of the structure with three translations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Its number.
+    pub label: usize,
+    /// Position, in.
+    pub position: Vector3<f64>,
+    /// Which of x, y, z are fixed to ground.
+    pub held: [bool; 3],
+}
+
+/// A linear elastic isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus $E$, lbf/in².
+    pub youngs_modulus: f64,
+    /// Poisson's ratio $\nu$.
+    pub poissons_ratio: f64,
+    /// Shear modulus $G$, lbf/in².
+    pub shear_modulus: f64,
+    /// Mass density $\rho$, lbf·s²/in⁴; zero for elements without mass of their own.
+    pub density: f64,
+}
+
+impl Material {
+    /// An isotropic material without mass, $G = E/\big(2(1+\nu)\big)$.
+    ///
+    /// `youngs_modulus` in lbf/in².
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless $E > 0$; [`Error::PoissonsRatio`] unless $-1 < \nu \le 1/2$.
+    pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
+        positive("Young's modulus", || "the material".into(), youngs_modulus)?;
+        check_poissons_ratio(poissons_ratio)?;
+        Ok(Self {
+            youngs_modulus,
+            poissons_ratio,
+            shear_modulus: youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
+            density: 0.0,
+        })
+    }
+
+    /// The same material with a mass density, lbf·s²/in⁴.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless the density is positive.
+    pub fn with_density(self, density: f64) -> Result<Self, Error> {
+        positive("density", || "the material".into(), density)?;
+        Ok(Self { density, ..self })
+    }
+}
+
+/// What an element is made of and what it resists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ElementKind {
+    /// Axial member between two grids; its size is a cross section, in².
+    Rod,
+    /// Garvey shear panel between four grids; its size is a gage (thickness), in.
+    ShearPanel,
+    /// Membrane panel of four overlapping triangles between four grids; its size is a gage, in.
+    Membrane,
+    /// Constant-strain triangle between three grids; its size is a gage, in.
+    Triangle,
+}
+
+impl ElementKind {
+    /// How many grid points the element joins.
+    pub fn corner_count(self) -> usize {
+        match self {
+            Self::Rod => 2,
+            Self::Triangle => 3,
+            Self::ShearPanel | Self::Membrane => 4,
+        }
+    }
+
+    /// What its size is called.
+    pub fn size_name(self) -> &'static str {
+        match self {
+            Self::Rod => "area",
+            Self::ShearPanel | Self::Membrane | Self::Triangle => "gage",
+        }
+    }
+}
+
+/// One finite element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// Its number.
+    pub label: usize,
+    /// Its kind.
+    pub kind: ElementKind,
+    /// Labels of its grids, round the perimeter for a panel.
+    pub grids: Vec<usize>,
+    /// Gage in inches or area in square inches; stiffness is proportional to it.
+    pub size: f64,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// A structural DOF: one direction of one grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StructuralDof {
+    /// The grid's label.
+    pub grid: usize,
+    /// 0, 1, 2 for x, y, z.
+    pub direction: usize,
+}
+
+/// A checked structure: grids and elements that refer to each other correctly.
+///
+/// Its free structural DOF (SDOF) are the directions that are not held, grid by grid in the order given,
+/// x before y before z. Every matrix over SDOF in this crate has its rows in that order.
+#[derive(Debug, Clone)]
+pub struct Structure {
+    grids: Vec<Grid>,
+    elements: Vec<Element>,
+    index_of_grid: HashMap<usize, usize>,
+    free: Vec<StructuralDof>,
+    free_index: Vec<[Option<usize>; 3]>,
+}
+
+impl Structure {
+    /// Checks grids and elements and numbers the free DOF.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without elements; [`Error::DuplicateGrid`], [`Error::DuplicateElement`],
+    /// [`Error::UnknownGrid`], [`Error::WrongCornerCount`], [`Error::NotFinite`] (a coordinate),
+    /// [`Error::NotPositive`] (a size or modulus) and [`Error::PoissonsRatio`] for what their names say.
+    pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
+        if elements.is_empty() {
+            return Err(Error::Empty { what: "elements" });
+        }
+        let mut index_of_grid = HashMap::new();
+        let mut free = Vec::new();
+        let mut free_index = Vec::with_capacity(grids.len());
+        for (row, grid) in grids.iter().enumerate() {
+            if index_of_grid.insert(grid.label, row).is_some() {
+                return Err(Error::DuplicateGrid { grid: grid.label });
+            }
+            let mut index = [None; 3];
+            for (direction, index) in index.iter_mut().enumerate() {
+                let value = grid.position[direction];
+                if !value.is_finite() {
+                    return Err(Error::NotFinite {
+                        what: "grid coordinates",
+                        row,
+                        column: direction,
+                        value,
+                    });
+                }
+                if !grid.held[direction] {
+                    *index = Some(free.len());
+                    free.push(StructuralDof {
+                        grid: grid.label,
+                        direction,
+                    });
+                }
+            }
+            free_index.push(index);
+        }
+        let mut seen = HashSet::new();
+        for element in &elements {
+            if !seen.insert(element.label) {
+                return Err(Error::DuplicateElement {
+                    element: element.label,
+                });
+            }
+            check_element(element, &index_of_grid)?;
+        }
+        Ok(Self {
+            grids,
+            elements,
+            index_of_grid,
+            free,
+            free_index,
+        })
+    }
+
+    /// The grids, in the order given.
+    pub fn grids(&self) -> &[Grid] {
+        &self.grids
+    }
+
+    /// The elements, in the order given.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The free structural DOF, in the order of every SDOF matrix.
+    pub fn free_dof(&self) -> &[StructuralDof] {
+        &self.free
+    }
+
+    /// Row of a grid's direction among the free DOF; `None` if it is held or the grid does not exist.
+    pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
+        let row = *self.index_of_grid.get(&grid)?;
+        *self.free_index[row].get(direction)?
+    }
+
+    /// Positions of an element's grids, in.
+    pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
+        element
+            .grids
+            .iter()
+            .filter_map(|grid| self.index_of_grid.get(grid))
+            .map(|&row| self.grids[row].position)
+            .collect()
+    }
+}
+
+fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Result<(), Error> {
+    let expected = element.kind.corner_count();
+    if element.grids.len() != expected {
+        return Err(Error::WrongCornerCount {
+            expected,
+            found: element.grids.len(),
+        }
+        .in_element(element.label));
+    }
+    for &grid in &element.grids {
+        if !index_of_grid.contains_key(&grid) {
+            return Err(Error::UnknownGrid {
+                element: element.label,
+                grid,
+            });
+        }
+    }
+    let owner = || format!("element {}", element.label);
+    let material = &element.material;
+    positive("Young's modulus", owner, material.youngs_modulus)?;
+    positive("shear modulus", owner, material.shear_modulus)?;
+    if material.density != 0.0 {
+        positive("density", owner, material.density)?;
+    }
+    check_poissons_ratio(material.poissons_ratio)
+        .map_err(|error| error.in_element(element.label))?;
+    positive(element.kind.size_name(), owner, element.size)
+}
+
+fn check_poissons_ratio(value: f64) -> Result<(), Error> {
+    if value > -1.0 && value <= 0.5 {
+        Ok(())
+    } else {
+        Err(Error::PoissonsRatio { value })
+    }
+}
+
+/// Accepts a positive finite number.
+pub(crate) fn positive(
+    what: &'static str,
+    owner: impl Fn() -> String,
+    value: f64,
+) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::NotPositive {
+            what,
+            owner: owner(),
+            value,
+        })
+    }
+}

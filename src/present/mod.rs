@@ -1,0 +1,5 @@
+//! Tables, figures and the page.
+
+pub mod figures;
+pub mod page;
+pub mod report;

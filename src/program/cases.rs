@@ -1,0 +1,74 @@
+//! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
+
+use super::reconstruction;
+use super::report::ReportArguments;
+use super::solver::{Solver, SolverArguments};
+use clap::Args;
+use corfem::cases::fit::fit;
+use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
+use corfem::method::error::Error;
+use corfem::method::model::FiniteElementModel;
+use corfem::present::report::run_tables::all_tables;
+use corfem::present::report::{json, render};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct CasesArguments {
+    /// Which cases to run; all four if none is named
+    #[arg(value_name = "CASE")]
+    cases: Vec<usize>,
+    #[command(flatten)]
+    report: ReportArguments,
+    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    #[arg(long = "box", value_name = "FILE")]
+    box_file: Option<PathBuf>,
+    /// Limit every pass to this many inner iterations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    iterations: Option<u32>,
+    /// Scale covers, spars and ribs as groups instead of every panel on its own
+    #[arg(long)]
+    groups: bool,
+    #[command(flatten)]
+    solver: SolverArguments,
+    /// Do not report progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs the cases asked for and writes the report; whether all of them succeeded.
+pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
+    let reconstruction = reconstruction(arguments.box_file.as_deref())?;
+    let solver = Solver::of(&arguments.solver)?;
+    let numbers = if arguments.cases.is_empty() {
+        CASES.to_vec()
+    } else {
+        arguments.cases.clone()
+    };
+    let mut results = Vec::new();
+    for number in numbers {
+        let mut case = Case::on(number, reconstruction.clone())?;
+        if let Some(most) = arguments.iterations {
+            case.settings.inner.iterations = case.settings.inner.iterations.min(most as usize);
+        }
+        if arguments.groups {
+            case.grouping = Grouping::Substructures;
+        }
+        let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
+        results.push(run_case_with(&case, solver.name(), analyze, |pass, done| {
+            if !arguments.quiet {
+                eprintln!(
+                    "case {number}, pass {pass}: {} iterations, error sum {:.4} by perturbation, {:.4} exact",
+                    done.inner.iterations.len(),
+                    done.inner.last.errors.sum(),
+                    done.check.errors.sum(),
+                );
+            }
+        })?);
+    }
+    let fit = fit(&reconstruction)?;
+    let tables = all_tables(&results, &fit)?;
+    arguments
+        .report
+        .write(&tables, render::render, || json::json(&results, &fit))?;
+    Ok(results.iter().all(CaseResult::succeeded))
+}

@@ -1,0 +1,105 @@
+//! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
+
+use super::report::ReportArguments;
+use super::{put, read, reconstruction};
+use clap::Args;
+use corfem::cases::torque_box::dynamic_points;
+use corfem::cases::{Case, run_case};
+use corfem::files::deck::{self, BulkData, Task};
+use corfem::method::error::Error;
+use corfem::present::report::deck_tables::{deck_json, deck_tables, not_read};
+use corfem::present::report::render;
+use std::path::PathBuf;
+
+/// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
+const RANGE: [f64; 2] = [0.9, 1.1];
+
+#[derive(Debug, Args)]
+pub struct DeckArguments {
+    /// Which case
+    #[arg(value_name = "CASE")]
+    case: usize,
+    /// The gages after this pass of its correlation instead of the first ones
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pass: usize,
+    /// Write the deck to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    #[arg(long = "box", value_name = "FILE")]
+    box_file: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct ModesArguments {
+    /// The deck: bulk data, with or without executive and case control
+    #[arg(value_name = "DECK")]
+    deck: PathBuf,
+    #[command(flatten)]
+    report: ReportArguments,
+    /// How many modes, from the lowest; all with a finite frequency if not given
+    #[arg(short, long, value_name = "N")]
+    count: Option<usize>,
+}
+
+/// Writes the deck of a case.
+pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
+    let case = Case::on(
+        arguments.case,
+        reconstruction(arguments.box_file.as_deref())?,
+    )?;
+    let model = case.model()?;
+    let mut factors = vec![1.0; model.parameters().len()];
+    if arguments.pass > 0 {
+        let passes = run_case(&case, |_, _| ())?.correlation.passes;
+        factors = match passes.get(arguments.pass - 1) {
+            Some(pass) => pass.factors.clone(),
+            None => {
+                return Err(Error::TooMany {
+                    what: "pass",
+                    available: passes.len(),
+                    requested: arguments.pass,
+                });
+            }
+        };
+    }
+    let dynamic = model.analyze(&factors)?;
+    let modes =
+        corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
+    let frequencies = modes.frequencies_hz();
+    let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
+    let task = Task::Modes {
+        count: modes.len(),
+        // A deck is easier to read with round numbers.
+        range_hz: [(RANGE[0] * lowest).floor(), (RANGE[1] * highest).ceil()],
+    };
+    let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
+    let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
+    put(
+        arguments.output.as_deref(),
+        &deck::write(&bulk, &title, &task)?,
+    )
+}
+
+/// Prints the modes of a deck.
+pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
+    let name = arguments.deck.display().to_string();
+    let deck = deck::read(&name, &read(&arguments.deck)?)?;
+    for card in &deck.unread {
+        eprintln!("corfem: {name}: {}", not_read(card));
+    }
+    let modes = deck::modes(&deck.model)?;
+    let found = modes.modes.len();
+    let count = arguments.count.unwrap_or(found);
+    if count > found {
+        return Err(Error::TooMany {
+            what: "modes of finite frequency",
+            available: found,
+            requested: count,
+        });
+    }
+    let tables = deck_tables(&deck, &modes, count);
+    arguments.report.write(&tables, render::render_tables, || {
+        deck_json(&deck, &modes, count)
+    })
+}

@@ -1,0 +1,78 @@
+//! The program that does the finite element analyses of the outer loop.
+
+use clap::{Args, ValueEnum};
+use corfem::cases::BUILT_IN;
+use corfem::files::nastran95::{NAME, Nastran95, default_folder};
+use corfem::method::error::Error;
+use corfem::method::modal::DynamicModel;
+use corfem::method::model::FiniteElementModel;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+#[derive(Debug, Args)]
+pub struct SolverArguments {
+    /// Which program does the finite element analyses of the outer loop
+    #[arg(long, value_enum, default_value = "built-in")]
+    solver: SolverArgument,
+    /// Folder of NASTRAN-95, with bin/nastrn and rf/; without it .cache/nastran95/nastran95/_data in the home folder
+    #[arg(long, value_name = "FOLDER", env = "NASTRAN95")]
+    nastran: Option<PathBuf>,
+    /// Seconds after which a run of NASTRAN-95 is stopped
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
+    time_limit: u32,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SolverArgument {
+    /// The elements of this program
+    BuiltIn,
+    /// NASTRAN-95, run once for every analysis
+    #[value(name = "nastran95")]
+    Nastran95,
+}
+
+/// What analyzes a model.
+pub enum Solver {
+    /// The elements of this program.
+    BuiltIn,
+    /// NASTRAN-95.
+    Nastran95(Nastran95),
+}
+
+impl Solver {
+    /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
+    pub fn of(arguments: &SolverArguments) -> Result<Self, Error> {
+        if let SolverArgument::BuiltIn = arguments.solver {
+            return Ok(Self::BuiltIn);
+        }
+        let folder = arguments.nastran.clone().unwrap_or_else(default_folder);
+        let mut nastran = Nastran95::in_folder(&folder)?;
+        nastran.time_limit = Duration::from_secs(arguments.time_limit.into());
+        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+            // A program that cannot be told to stop still does its work.
+            let _ = signal_hook::flag::register(signal, Arc::clone(&nastran.stop));
+        }
+        Ok(Self::Nastran95(nastran))
+    }
+
+    /// Its name in reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::BuiltIn => BUILT_IN,
+            Self::Nastran95(_) => NAME,
+        }
+    }
+
+    /// The dynamic model at the given factors on the parameters.
+    pub fn analyze(
+        &self,
+        model: &FiniteElementModel,
+        factors: &[f64],
+    ) -> Result<DynamicModel, Error> {
+        match self {
+            Self::BuiltIn => model.analyze(factors),
+            Self::Nastran95(nastran) => nastran.analyze(model, factors),
+        }
+    }
+}

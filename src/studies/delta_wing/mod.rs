@@ -1,0 +1,248 @@
+//! A second structure: the delta wing of NACA TN 3114, which nobody here can tune.
+//!
+//! MacNeal and Benscoter analyzed it on an electric analog computer, Zender tested it (NACA TN 3913), and NASA keeps it as
+//! NASTRAN's demonstration problem D01-01-1. Its planform is a rule. Grids lie on five lines along the span, at
+//! $y = 0, 20, \dots, 80$ in forward of the trailing edge, where stations at $x = 0, 10, 30, 50, 70, 90$ in outboard of
+//! the root's center cross them behind the leading edge
+//!
+//! $$ x + y \le 110\ \text{in}, $$
+//!
+//! which is swept by 45°. The wing is a quarter of the whole: the other wing moves alike, and the lower surface is the
+//! upper one's mirror image and moves against it in the plane. So mid-plane grids keep to $z$, those of the upper surface at
+//! $x = 0$ to $y$ and $z$, and the wing is supported along $z$ where its upper surface crosses the side of the body,
+//! $x = 30$ in.
+//!
+//! Depths and sizes are data, in `paper/delta_wing.toml`; `paper/delta_wing.md` tells where they come from.
+//! [`correlation`] corrects a wing of wrong gages with modes of this one.
+
+mod answers;
+pub mod correlation;
+mod planform;
+
+pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
+
+use crate::files::deck::BulkData;
+use crate::method::error::Error;
+use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use nalgebra::Vector3;
+use planform::{
+    LINES, STATIONS, SUPPORTED_STATION, SURFACE_STEP, along_lines, along_stations, leading_edge,
+    lines_at, mid_grid, stations_on, upper_grid,
+};
+use serde::Deserialize;
+
+/// First numbers of the elements of one sort, in the order they are made; the gaps are those of NASA's deck.
+const FIRST_COVER: usize = 1;
+const FIRST_WEB: usize = 18;
+const FIRST_POST: usize = 60;
+const FIRST_CAP: usize = 100;
+
+/// Material, depths and sizes of the wing.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeltaWing {
+    /// Young's modulus of sheet and rods, lbf/in².
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Mass density of covers and webs, lbf·s²/in⁴.
+    pub sheet_density: f64,
+    /// Gage of every cover panel, in.
+    pub cover_gage: f64,
+    /// Gage of every web, in.
+    pub web_gage: f64,
+    /// Load on one grid of the tip, downward, lbf.
+    pub tip_load: f64,
+    /// Half depths, in: by line, then by station.
+    pub half_depths: Vec<Vec<f64>>,
+    /// Areas of the posts between mid-plane and upper surface, in²: by line, then by station.
+    pub post_areas: Vec<Vec<f64>>,
+    /// Areas of the caps along the lines, in²: by line, from the root out.
+    pub spanwise_cap_areas: Vec<Vec<f64>>,
+    /// Areas of the caps along the stations, in²: by station from $x = 10$ in, from the trailing edge forward.
+    pub chordwise_cap_areas: Vec<Vec<f64>>,
+    /// Areas of the caps along the leading edge, in², from the root out.
+    pub leading_edge_cap_areas: Vec<f64>,
+}
+
+impl DeltaWing {
+    /// The wing that comes with the crate.
+    ///
+    /// # Errors
+    /// As [`Self::parse`], if the data file were damaged.
+    pub fn embedded() -> Result<Self, Error> {
+        Self::parse(
+            "paper/delta_wing.toml",
+            include_str!("../../../paper/delta_wing.toml"),
+        )
+    }
+
+    /// Reads a wing of this planform from TOML text; `name` stands in error messages.
+    ///
+    /// # Errors
+    /// [`Error::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
+        let read: Self = toml::from_str(text).map_err(|source| Error::Toml {
+            name: name.to_owned(),
+            expected: "a delta wing: material, half depths and sizes",
+            source: Box::new(source),
+        })?;
+        let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
+        let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
+        let along_stations: Vec<usize> = (1..STATIONS.len())
+            .map(|station| lines_at(station) - 1)
+            .collect();
+        for (what, table, lengths) in [
+            ("half depths", &read.half_depths, &at_grids),
+            ("post areas", &read.post_areas, &at_grids),
+            ("spanwise cap areas", &read.spanwise_cap_areas, &along_lines),
+            (
+                "chordwise cap areas",
+                &read.chordwise_cap_areas,
+                &along_stations,
+            ),
+        ] {
+            crate::method::linear_algebra::check_length(what, table.len(), lengths.len())?;
+            for (row, &length) in table.iter().zip(lengths) {
+                crate::method::linear_algebra::check_length(what, row.len(), length)?;
+            }
+        }
+        crate::method::linear_algebra::check_length(
+            "leading-edge cap areas",
+            read.leading_edge_cap_areas.len(),
+            leading_edge().len() - 1,
+        )?;
+        Ok(read)
+    }
+
+    /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to 53)
+    /// and 60 rods (posts, 60 to 83, and caps, 100 to 135), numbered as NASA's deck numbers them.
+    ///
+    /// # Errors
+    /// Those of [`Material::isotropic`] and [`Structure::new`].
+    pub fn structure(&self) -> Result<Structure, Error> {
+        let rods = Material::isotropic(self.youngs_modulus, self.poissons_ratio)?;
+        let sheet = rods.with_density(self.sheet_density)?;
+        let mut elements = Vec::new();
+        let mut put = |first: usize, members: Vec<(ElementKind, Vec<usize>, f64)>, material| {
+            for (row, (kind, grids, size)) in members.into_iter().enumerate() {
+                elements.push(Element {
+                    label: first + row,
+                    kind,
+                    grids,
+                    size,
+                    material,
+                });
+            }
+        };
+        put(FIRST_COVER, self.covers(), sheet);
+        put(FIRST_WEB, self.webs(), sheet);
+        put(FIRST_POST, self.posts(), rods);
+        put(FIRST_CAP, self.caps(), rods);
+        Structure::new(self.grids(), elements)
+    }
+
+    fn grids(&self) -> Vec<Grid> {
+        let mut grids = Vec::new();
+        for (line, depths) in self.half_depths.iter().enumerate() {
+            for (station, &depth) in depths.iter().enumerate() {
+                let (x, y) = (STATIONS[station], LINES[line]);
+                grids.push(Grid {
+                    label: mid_grid(line, station),
+                    position: Vector3::new(x, y, 0.0),
+                    held: [true, true, false],
+                });
+                grids.push(Grid {
+                    label: upper_grid(line, station),
+                    position: Vector3::new(x, y, depth),
+                    held: [station == 0, false, station == SUPPORTED_STATION],
+                });
+            }
+        }
+        grids.sort_by_key(|grid| grid.label);
+        grids
+    }
+
+    /// Between two lines a membrane in every bay, and a triangle where the leading edge cuts one.
+    fn covers(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+        let mut covers = Vec::new();
+        for line in 1..LINES.len() {
+            let (aft, forward) = (line - 1, line);
+            for station in 1..stations_on(aft) {
+                let [root, tip] = [station - 1, station].map(|s| upper_grid(aft, s));
+                let inboard = upper_grid(forward, station - 1);
+                covers.push(if station < stations_on(forward) {
+                    let outboard = upper_grid(forward, station);
+                    let grids = vec![root, tip, outboard, inboard];
+                    (ElementKind::Membrane, grids, self.cover_gage)
+                } else {
+                    let grids = vec![root, tip, inboard];
+                    (ElementKind::Triangle, grids, self.cover_gage)
+                });
+            }
+        }
+        covers
+    }
+
+    /// Along the lines, along the stations but the first, and along the leading edge from the tip in.
+    fn webs(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+        let mut sides = along_lines();
+        sides.extend(along_stations());
+        sides.extend(leading_edge().windows(2).map(|pair| [pair[0], pair[1]]));
+        sides
+            .into_iter()
+            .map(|[a, b]| {
+                let grids = vec![a, b, b + SURFACE_STEP, a + SURFACE_STEP];
+                (ElementKind::ShearPanel, grids, self.web_gage)
+            })
+            .collect()
+    }
+
+    fn posts(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+        let mut posts = Vec::new();
+        for (line, areas) in self.post_areas.iter().enumerate() {
+            for (station, &area) in areas.iter().enumerate() {
+                let ends = vec![mid_grid(line, station), upper_grid(line, station)];
+                posts.push((ElementKind::Rod, ends, area));
+            }
+        }
+        posts
+    }
+
+    /// Over the webs, those of the leading edge from the root out.
+    fn caps(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+        let mut sides = along_lines();
+        sides.extend(along_stations());
+        sides.extend(
+            leading_edge()
+                .windows(2)
+                .rev()
+                .map(|pair| [pair[1], pair[0]]),
+        );
+        let areas = (self.spanwise_cap_areas.iter().flatten())
+            .chain(self.chordwise_cap_areas.iter().flatten())
+            .chain(&self.leading_edge_cap_areas);
+        sides
+            .into_iter()
+            .zip(areas)
+            .map(|(ends, &area)| {
+                let ends = ends.map(|grid| grid + SURFACE_STEP).to_vec();
+                (ElementKind::Rod, ends, area)
+            })
+            .collect()
+    }
+
+    /// The wing as bulk data: what a deck would hold of it.
+    ///
+    /// # Errors
+    /// Those of [`Self::structure`].
+    pub fn bulk_data(&self) -> Result<BulkData, Error> {
+        let structure = self.structure()?;
+        Ok(BulkData {
+            grids: structure.grids().to_vec(),
+            elements: structure.elements().to_vec(),
+            ties: Vec::new(),
+            masses: Vec::new(),
+        })
+    }
+}

@@ -1,0 +1,263 @@
+//! Why elements and not matrices: the same box, the same test modes, and what either correction knows afterwards.
+//!
+//! A case is corrected once by factors on its elements and once by closed forms on its matrices, with its lowest test
+//! modes alone. Both then predict all modes of the tested box, and all modes of the box after a design change that is
+//! no part of the test: thicker covers. The truth is the box with the right gages.
+
+use crate::cases::Case;
+use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
+use crate::method::error::Error;
+use crate::method::modal::DynamicModel;
+use crate::method::modes::{Modes, solve};
+use crate::method::outer_loop::correlate;
+use crate::method::pairing::{cross_orthogonality, matched, pair_modes};
+use crate::studies::matrix_correction::{
+    baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, mass_weighted, weighted_norm,
+};
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+/// The case compared unless another is asked for: every panel is wrong by as much, so that a corrected stiffness
+/// can be judged entry by entry.
+pub const USUAL_CASE: usize = 2;
+/// Test modes given to the corrections unless another number is asked for: about half, so that there are others to predict.
+pub const USUAL_TEST_MODES: usize = 5;
+/// Covers of the box.
+pub const COVERS: [usize; 6] = [2, 4, 8, 9, 11, 15];
+/// Name of the prediction that is right by definition.
+pub const TRUTH: &str = "Truth";
+/// What the design change adds to every cover's gage, in: half of what a tested cover has.
+pub const COVER_DOUBLER: f64 = 0.5 * TEST_GAGE;
+/// Digits of the shapes that the mass correction is given: what is read from a plot of unit amplitude.
+const READ_DIGITS: f64 = 100.0;
+/// Singular value of the shares, each of unit norm, below which they are combinations of one another: far above
+/// round-off, and a thousand times below the smallest of the box's own.
+const SMALLEST_SINGULAR_VALUE: f64 = 1e-9;
+
+/// A model and what it says of the box as tested and after the design change.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Prediction {
+    /// Which model.
+    pub model: &'static str,
+    /// Relative frequency errors of all modes as tested, in the order of the true modes.
+    pub as_tested: Vec<f64>,
+    /// The same after the design change.
+    pub after_change: Vec<f64>,
+    /// Change of the stiffness, entry by entry, relative to the diagonal before: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$.
+    pub stiffness_change: Vec<Vec<f64>>,
+    /// Change of the mass in the same way.
+    pub mass_change: Vec<Vec<f64>>,
+    /// Weighted norm of what still separates the stiffness from the true one, relative to what did at the start.
+    pub distance_left: f64,
+    /// The part of the stiffness change, in the weighted norm, that no factors on the elements could make.
+    pub beyond_elements: f64,
+}
+
+/// Factors on one element's gage.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ElementFactor {
+    /// Element number.
+    pub element: usize,
+    /// The factor that makes the model true.
+    pub truth: f64,
+    /// The factor found by the correlation.
+    pub found: f64,
+    /// The factor in the set that comes nearest to Baruch's change.
+    pub nearest_to_baruch: f64,
+}
+
+/// The comparison.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MatrixComparison {
+    /// Case number.
+    pub case: usize,
+    /// Number of test modes, the lowest; the others are predicted.
+    pub test_modes: usize,
+    /// Frequencies of the true box as tested, Hz.
+    pub as_tested_hz: Vec<f64>,
+    /// Frequencies of the true box after the design change, Hz.
+    pub after_change_hz: Vec<f64>,
+    /// The start, the truth, and each correction.
+    pub predictions: Vec<Prediction>,
+    /// Factors on the elements, 1 to 15.
+    pub factors: Vec<ElementFactor>,
+}
+
+/// Corrects a case by elements and by matrices with its lowest `test_modes` test modes, and compares.
+///
+/// The element factors come from [`correlate`] with the case's settings and all analysis modes. Baruch's correction is
+/// given the exact test shapes. Berman and Nagy's is given them rounded to two digits, because with exact ones there
+/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the change
+/// of $K_D$ in the uncorrected model.
+///
+/// # Errors
+/// Those of the model, the loops and the corrections.
+pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparison, Error> {
+    let first = case.first_gages();
+    let start = analysis(case, &first)?;
+    let all = case.test_modes()?;
+    let test = all.lowest(test_modes)?;
+    let model = case.model()?;
+    let ranges = model.factor_ranges()?;
+    let correlation = correlate(
+        |f| model.analyze(f),
+        &test,
+        &ranges,
+        &case.settings,
+        |_, _| {},
+    )?;
+    let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
+
+    let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
+    let read = as_read(&test, &start.mass)?;
+    let corrected_mass = berman_nagy_mass(&start.mass, &read.shapes)?;
+    let berman_nagy = berman_nagy_stiffness(&start.stiffness, &corrected_mass, &read)?;
+
+    let truth = [TEST_GAGE; PANEL_COUNT];
+    let doubled = |gages: &[f64]| Ok::<_, Error>(analysis(case, &with_doublers(gages))?.stiffness);
+    let design_change = doubled(&first)? - &start.stiffness;
+    let mass = &start.mass;
+    let candidates = [
+        ("Initial", start.stiffness.clone(), doubled(&first)?, mass),
+        (
+            TRUTH,
+            analysis(case, &truth)?.stiffness,
+            doubled(&truth)?,
+            mass,
+        ),
+        (
+            "Element factors",
+            analysis(case, &found)?.stiffness,
+            doubled(&found)?,
+            mass,
+        ),
+        ("Baruch", baruch.clone(), &baruch + &design_change, mass),
+        (
+            "Berman and Nagy",
+            berman_nagy.clone(),
+            &berman_nagy + &design_change,
+            &corrected_mass,
+        ),
+    ];
+    let true_modes = solve(&candidates[1].1, mass, mass.nrows())?;
+    let true_changed = solve(&candidates[1].2, mass, mass.nrows())?;
+    let start_distance = weighted_norm(&(&start.stiffness - &candidates[1].1), mass)?;
+    let predictions = candidates
+        .iter()
+        .map(|(name, stiffness, changed, own_mass)| {
+            let change = stiffness - &start.stiffness;
+            let separation = weighted_norm(&(stiffness - &candidates[1].1), mass)?;
+            Ok(Prediction {
+                model: name,
+                as_tested: frequency_errors(stiffness, own_mass, &true_modes)?,
+                after_change: frequency_errors(changed, own_mass, &true_changed)?,
+                stiffness_change: relative_entries(&change, &start.stiffness),
+                mass_change: relative_entries(&(*own_mass - mass), mass),
+                distance_left: separation / start_distance,
+                beyond_elements: nearest_factors(&change, &start)?.1,
+            })
+        })
+        .collect::<Result<_, Error>>()?;
+    let nearest = nearest_factors(&(&baruch - &start.stiffness), &start)?.0;
+    let factors = (0..PANEL_COUNT)
+        .map(|e| ElementFactor {
+            element: case.panels[e].label,
+            truth: TEST_GAGE / first[e],
+            found: found[e] / first[e],
+            nearest_to_baruch: 1.0 + nearest[e],
+        })
+        .collect();
+    Ok(MatrixComparison {
+        case: case.number,
+        test_modes,
+        as_tested_hz: true_modes.frequencies_hz(),
+        after_change_hz: true_changed.frequencies_hz(),
+        predictions,
+        factors,
+    })
+}
+
+/// The dynamic model of a case at other gages.
+fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, Error> {
+    let model = case.model_with(gages)?;
+    model.analyze(&vec![1.0; model.parameters().len()])
+}
+
+fn with_doublers(gages: &[f64]) -> Vec<f64> {
+    let mut doubled = gages.to_vec();
+    for cover in COVERS {
+        doubled[cover - 1] += COVER_DOUBLER;
+    }
+    doubled
+}
+
+/// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
+/// then of unit generalized mass.
+fn as_read(modes: &Modes, mass: &DMatrix<f64>) -> Result<Modes, Error> {
+    let mut shapes = modes.shapes.clone();
+    for mut shape in shapes.column_iter_mut() {
+        let largest = shape.amax();
+        shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
+    }
+    Modes {
+        omega_squared: modes.omega_squared.clone(),
+        shapes,
+    }
+    .scaled_with(mass)
+}
+
+/// Relative frequency errors of a model, its modes paired with the true ones.
+fn frequency_errors(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    truth: &Modes,
+) -> Result<Vec<f64>, Error> {
+    let modes = solve(stiffness, mass, truth.len())?;
+    let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
+    let pairs = matched(&modes, &pairing).frequencies_hz();
+    let errors = pairs.iter().zip(truth.frequencies_hz());
+    Ok(errors.map(|(found, truth)| found / truth - 1.0).collect())
+}
+
+/// $\Delta_{ij}/\sqrt{A_{ii} A_{jj}}$, row by row.
+fn relative_entries(change: &DMatrix<f64>, before: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let size = before.nrows();
+    let scale = |i: usize, j: usize| (before[(i, i)] * before[(j, j)]).sqrt();
+    let row = |i: usize| (0..size).map(|j| change[(i, j)] / scale(i, j)).collect();
+    (0..size).map(row).collect()
+}
+
+/// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part of it
+/// that is left, both in the weighted norm.
+///
+/// On a box that is symmetric about its mid-plane upper and lower cover have like shares, so that only their sum is
+/// determined: of all nearest sets it is the smallest, each $c_e$ weighted with the norm of its share.
+fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f64>, f64), Error> {
+    let weighted = |matrix: &DMatrix<f64>| {
+        let weighted = mass_weighted(matrix, &start.mass)?;
+        Ok::<_, Error>(DVector::from_column_slice(weighted.as_slice()))
+    };
+    let mut columns = Vec::with_capacity(start.shares.len());
+    let mut norms = Vec::with_capacity(start.shares.len());
+    for share in &start.shares {
+        let column = weighted(share.matrix())?;
+        norms.push(column.norm());
+        columns.push(column.normalize());
+    }
+    let shares = DMatrix::from_columns(&columns);
+    let target = weighted(change)?;
+    let coefficients = shares
+        .clone()
+        .svd(true, true)
+        .solve(&target, SMALLEST_SINGULAR_VALUE)
+        .map_err(|_| Error::NoConvergence {
+            what: "element shares",
+        })?;
+    let left = (&target - shares * &coefficients).norm();
+    let whole = target.norm();
+    let factors = coefficients.iter().zip(norms).map(|(c, norm)| c / norm);
+    Ok((
+        factors.collect(),
+        if whole > 0.0 { left / whole } else { 0.0 },
+    ))
+}

@@ -1,0 +1,5 @@
+//! Studies beyond the paper's own cases.
+
+pub mod delta_wing;
+pub mod matrix_comparison;
+pub mod matrix_correction;

@@ -1,0 +1,283 @@
+//! Correlation with fewer modes: Tables 9 to 12, and what their numbers can and cannot be.
+
+use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::{
+    EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF,
+};
+use corfem::cases::fewer_modes::{
+    Agreement, FewerModesRun, ITERATIONS, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
+};
+use corfem::cases::published::PublishedTable;
+use corfem::cases::torque_box::TEST_GAGE;
+use corfem::cases::{Case, run_case};
+use corfem::method::error::Error;
+use corfem::method::inner_loop::Stop;
+use corfem::method::outer_loop::check;
+use corfem::method::step::StepRule;
+use corfem::method::structure::ElementKind;
+use corfem::present::report::fewer_modes_tables::fewer_modes_tables;
+use corfem::present::report::render::{csv, render};
+
+fn case_2() -> Case {
+    Case::new(2).expect("a case")
+}
+
+fn run(test_modes: usize, analysis_modes: usize) -> FewerModesRun {
+    fewer_modes_run(&case_2(), test_modes, analysis_modes).expect("it runs")
+}
+
+fn sorted(values: &[f64]) -> Vec<f64> {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+fn rms(errors: impl Iterator<Item = f64>) -> f64 {
+    let squares: Vec<f64> = errors.map(|error| error * error).collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[test]
+fn runs_are_every_pair_and_the_papers_among_them() {
+    let (all, published) = (
+        all_runs(&case_2()).unwrap(),
+        published_runs(&case_2()).unwrap(),
+    );
+    let pairs: Vec<(usize, usize)> = all
+        .iter()
+        .map(|run| (run.test_modes, run.analysis_modes))
+        .collect();
+    let expected: Vec<(usize, usize)> = (1..=9)
+        .flat_map(|test| (test..=9).map(move |analysis| (test, analysis)))
+        .collect();
+    assert_eq!(pairs, expected);
+    assert_eq!(published.len(), PUBLISHED_RUNS.len());
+    for (run, pair) in published.iter().zip(PUBLISHED_RUNS) {
+        assert_eq!((run.test_modes, run.analysis_modes), pair);
+        assert!(all.contains(run));
+    }
+}
+
+#[test]
+fn all_modes_are_the_first_pass_of_the_case() {
+    let run = run(9, 9);
+    let whole = run_case(&case_2(), |_, _| {}).unwrap();
+    let pass = &whole.correlation.passes[0];
+    assert_eq!(
+        (run.case, run.iterations, run.stop),
+        (2, pass.inner.iterations.len(), pass.inner.stop)
+    );
+    assert_eq!(run.gages_in, whole.pass_gages[0]);
+    assert_eq!(run.exact.frequencies_hz, pass.check.frequencies_hz);
+    assert_eq!(run.exact, run.exact_all_modes);
+    assert_eq!(
+        run.initial.frequency_rms,
+        whole.correlation.initial.errors.frequency_rms()
+    );
+    assert_eq!(run.inner.shape_rms, pass.inner.last.errors.shape_rms());
+    assert_eq!(run.test_frequencies_hz, whole.test.frequencies_hz());
+}
+
+#[test]
+fn errors_are_those_of_the_frequencies_listed() {
+    let all = case_2().test_modes().unwrap().frequencies_hz();
+    let panels = case_2().panels;
+    for run in all_runs(&case_2()).unwrap() {
+        assert_eq!(run.test_frequencies_hz, all[..run.test_modes]);
+        let of = |agreement: &Agreement, modes: usize, count: usize| {
+            assert_eq!(agreement.frequencies_hz.len(), modes);
+            let pairs = agreement.frequencies_hz.iter().zip(&all[..count]);
+            let found = rms(pairs.map(|(found, test)| found / test - 1.0));
+            assert!((found - agreement.frequency_rms).abs() < ROUND_OFF);
+        };
+        for agreement in [&run.initial, &run.inner, &run.exact] {
+            of(agreement, run.analysis_modes, run.test_modes);
+            let others = &agreement.frequencies_hz[run.test_modes..];
+            assert_eq!(others, sorted(others));
+        }
+        of(&run.exact_all_modes, 9, 9);
+        for (kind, found) in [
+            (ElementKind::ShearPanel, run.shear_gage_rms),
+            (ElementKind::Membrane, run.membrane_gage_rms),
+        ] {
+            let gages = run
+                .gages_in
+                .iter()
+                .zip(&panels)
+                .filter(|(_, p)| p.kind == kind);
+            assert!((rms(gages.map(|(gage, _)| gage / TEST_GAGE - 1.0)) - found).abs() < ROUND_OFF);
+        }
+    }
+}
+
+#[test]
+fn inner_frequencies_bound_exact_ones_from_above() {
+    // The first B and the first analysis modes hold the shapes, and what is held is stiffer: mode by mode.
+    for run in all_runs(&case_2()).unwrap() {
+        let exact = case_2()
+            .model_with(&run.gages_in)
+            .unwrap()
+            .analyze(&[1.0; 15])
+            .unwrap();
+        let exact = corfem::method::modes::solve(&exact.stiffness, &exact.mass, 9)
+            .unwrap()
+            .frequencies_hz();
+        for (inner, exact) in sorted(&run.inner.frequencies_hz).iter().zip(&exact) {
+            assert!(
+                inner * (1.0 + EIGEN_ROUND_OFF) >= *exact,
+                "{inner} below {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn runs_stop_at_the_tolerance_of_the_first_pass() {
+    for run in all_runs(&case_2()).unwrap() {
+        assert_eq!(run.stop, Stop::Tolerance);
+        assert_eq!(run.inner_error_sums.len(), run.iterations);
+        let (last, others) = run.inner_error_sums.split_last().unwrap();
+        assert!(*last < 0.025 && others.iter().all(|sum| *sum >= 0.025));
+        let of_sums =
+            (run.inner.frequency_rms + run.inner.shape_rms) * (run.test_modes as f64).sqrt();
+        assert!((last - of_sums).abs() < ROUND_OFF);
+    }
+}
+
+#[test]
+fn runs_that_do_not_reach_the_tolerance_end_at_thirty_iterations() {
+    let mut case = case_2();
+    case.settings.inner.step = StepRule::SumOverModes;
+    case.settings.inner.tolerance = 1e-6;
+    let run = fewer_modes_run(&case, 9, 9).unwrap();
+    assert_eq!((run.iterations, run.stop), (ITERATIONS, Stop::Iterations));
+    assert_eq!(ITERATIONS, 30);
+}
+
+#[test]
+fn a_single_pass_is_made_whatever_the_case_asks_for() {
+    let mut case = case_2();
+    case.settings.least_passes = 3;
+    case.settings.most_passes = 3;
+    assert_eq!(fewer_modes_run(&case, 5, 7).unwrap(), run(5, 7));
+}
+
+#[test]
+fn numbers_of_modes_out_of_range_are_errors() {
+    let error = |test, analysis| fewer_modes_run(&case_2(), test, analysis).unwrap_err();
+    assert!(matches!(error(0, 9), Error::Empty { what: "modes" }));
+    match error(10, 10) {
+        Error::TooMany {
+            what,
+            available,
+            requested,
+        } => {
+            assert_eq!((what, available, requested), ("modes", 9, 10));
+        }
+        other => panic!("{other:?}"),
+    }
+    match error(5, 4) {
+        Error::TooMany {
+            what,
+            available,
+            requested,
+        } => {
+            assert_eq!((what, available, requested), ("test modes", 4, 5));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Exact solution of the box at the gages that a published column prints, by that column's test modes.
+fn exact_at_published(test_modes: usize, analysis_modes: usize) -> (Vec<f64>, f64) {
+    let number = [(7, 10), (5, 11), (3, 12)]
+        .into_iter()
+        .find(|(test, _)| *test == test_modes)
+        .unwrap()
+        .1;
+    let table = PublishedTable::number(number).unwrap();
+    let heading = format!("fem_{analysis_modes}_in");
+    let gages: Vec<f64> = (1..=15)
+        .map(|e| table.required(&e.to_string(), &heading).unwrap())
+        .collect();
+    let model = case_2()
+        .model_with(&gages)
+        .unwrap()
+        .analyze(&[1.0; 15])
+        .unwrap();
+    let test = case_2().test_modes().unwrap().lowest(test_modes).unwrap();
+    let check = check(&model, &test, 9).unwrap();
+    // Case 2's modes keep their order at all these gages.
+    (check.modes.frequencies_hz(), check.errors.frequency_rms())
+}
+
+#[test]
+fn printed_frequencies_lie_below_the_exact_ones_of_their_gages() {
+    // Two to four and a half percent, in all 21 frequencies of Table 9: they are no exact solutions.
+    let table = PublishedTable::number(9).unwrap();
+    let mut count = 0;
+    for analysis_modes in [5, 7, 9] {
+        let (exact, _) = exact_at_published(5, analysis_modes);
+        for (mode, exact) in exact.iter().enumerate() {
+            let heading = format!("fem_{analysis_modes}_hz");
+            if let Some(printed) = table.value(&(mode + 1).to_string(), &heading) {
+                assert!(
+                    (0.019..0.045).contains(&(exact / printed - 1.0)),
+                    "{exact} {printed}"
+                );
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(count, 21);
+    // Nor are the RMS errors of Tables 10 to 12: all between 0.3 and 1.5 % as printed, 2.5 to 3.7 % on the box.
+    for (test_modes, analysis_modes) in PUBLISHED_RUNS {
+        let (_, frequency_rms) = exact_at_published(test_modes, analysis_modes);
+        assert!((0.025..0.037).contains(&frequency_rms), "{frequency_rms}");
+    }
+}
+
+#[test]
+fn tables_9_to_12_as_numbers() {
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
+    let case = case_2();
+    let tables = fewer_modes_tables(
+        &case,
+        &published_runs(&case).unwrap(),
+        &all_runs(&case).unwrap(),
+    )
+    .unwrap();
+    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "table_9",
+            "table_9_exact",
+            "table_10",
+            "table_11",
+            "table_12",
+            "fewer_modes_iterations",
+            "truncation_iterations",
+            "truncation_shear",
+            "truncation_membrane",
+            "truncation_frequency",
+            "truncation_shape"
+        ]
+    );
+    let (published, truncation) = tables.split_at(6);
+    for table in published {
+        let text = csv(std::slice::from_ref(table)).unwrap();
+        assert_golden(&table.name, &text, numbers);
+    }
+    assert_golden("truncation", &csv(truncation).unwrap(), numbers);
+    let rounded = Numbers {
+        relative: 0.0,
+        absolute: 0.0,
+        last_digit: true,
+    };
+    assert_golden("fewer_modes_text", &render(&tables, false), rounded);
+}

@@ -1,0 +1,113 @@
+//! Goldens of the report: Tables 3 to 8 and 13, Case 4, and the fit of the box.
+
+use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::{
+    GOLDEN_ABSOLUTE_PERCENT, GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE,
+};
+use corfem::cases::fit::fit;
+use corfem::cases::torque_box::Reconstruction;
+use corfem::cases::{CASES, Case, Grouping, run_case};
+use corfem::present::report::render::{csv, render, render_tables};
+use corfem::present::report::root_errors::root_error_table;
+use corfem::present::report::run_tables::all_tables;
+use corfem::present::report::table::Table;
+
+fn tables() -> Vec<Table> {
+    let results: Vec<_> = CASES
+        .into_iter()
+        .map(|number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs"))
+        .collect();
+    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    all_tables(&results, &fit).expect("published tables read")
+}
+
+#[test]
+fn every_table_as_numbers() {
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
+    let tables = tables();
+    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "table_3",
+            "table_4",
+            "table_5",
+            "table_6",
+            "table_7",
+            "table_8",
+            "case_4_frequencies",
+            "case_4_gages",
+            "case_4_factors",
+            "table_13",
+            "fit"
+        ]
+    );
+    for table in &tables {
+        assert_golden(
+            &table.name,
+            &csv(std::slice::from_ref(table)).expect("written"),
+            numbers,
+        );
+    }
+}
+
+#[test]
+fn report_as_text_and_markdown() {
+    let rounded = Numbers {
+        relative: 0.0,
+        absolute: 0.0,
+        last_digit: true,
+    };
+    let tables = tables();
+    assert_golden("report_text", &render(&tables, false), rounded);
+    assert_golden("report_markdown", &render(&tables, true), rounded);
+}
+
+#[test]
+fn cases_by_substructures() {
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
+    let results: Vec<_> = CASES
+        .into_iter()
+        .map(|number| {
+            let mut case = Case::new(number).expect("a case");
+            case.grouping = Grouping::Substructures;
+            run_case(&case, |_, _| {}).expect("it runs")
+        })
+        .collect();
+    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    let mut tables = all_tables(&results, &fit).expect("published tables read");
+    tables.pop();
+    assert!(
+        tables.iter().all(|table| !table.title.contains("Table 3")),
+        "the paper has no grouped run"
+    );
+    assert_golden("substructures", &csv(&tables).expect("written"), numbers);
+}
+
+#[test]
+fn root_errors_of_table_1() {
+    // Errors near round-off are another machine's to choose; a percent error of 1e-9 is already eleven digits of a root.
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_ROOT_PERCENT,
+        last_digit: false,
+    };
+    let table = root_error_table().expect("separate roots");
+    assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
+    // Errors over many decades: a reader sees a digit and a power of ten.
+    let text = render_tables(std::slice::from_ref(&table), false);
+    let cells = text.split_whitespace().filter(|word| {
+        let parts = word.split_once("e-");
+        parts.is_some_and(|(digits, _)| digits.trim_start_matches('-').len() == 3)
+    });
+    assert!(cells.count() > 24 * 7, "{text}");
+    assert_golden("table_1", &csv(&[table]).expect("written"), numbers);
+}

@@ -1,0 +1,224 @@
+//! What is wrong with a deck is named: file, line, card and field.
+
+use corfem::files::deck;
+use corfem::method::error::Error;
+
+/// A structure that reads: two grids, a rod, a material, its constraints, a mass.
+pub const GOOD: &str = "\
+GRID,1,,0.,0.,0.
+GRID,2,,10.,0.,0.
+CROD,1,1,1,2
+PROD,1,1,.01
+MAT1,1,1.+6,,.3
+SPC1,1,123456,1
+CMASS2,7,.4,2,1
+";
+
+/// The error of [`GOOD`] with one more card, or with one of its lines replaced.
+pub fn error(line: Option<usize>, card: &str) -> Error {
+    let mut lines: Vec<&str> = GOOD.lines().collect();
+    match line {
+        Some(line) => lines[line - 1] = card,
+        None => lines.push(card),
+    }
+    deck::read("wing.dat", &lines.join("\n")).expect_err(card)
+}
+
+#[test]
+fn the_deck_without_errors_reads() {
+    assert!(deck::read("wing.dat", GOOD).is_ok());
+}
+
+/// Line replaced (or `-` for one more), the card, and of its error the field, part of what is expected, and what is found.
+const BAD_FIELDS: &str = "\
+1 | GRID,x,,0.,0.,0. | 2 | a positive integer | X
+1 | GRID,0,,0.,0.,0. | 2 | a positive integer | 0
+1 | GRID,-1,,0.,0.,0. | 2 | a positive integer | -1
+1 | GRID*,123456789,,0.,0. | 2 | at most eight digits | 123456789
+2 | GRID,2,,10,0.,0. | 4 | a real number with a decimal point | 10
+2 | GRID,2,,10.,0.,1.X | 6 | a real number | 1.X
+2 | GRID,2,3,10.,0.,0. | 3 | no coordinate systems but the basic one | 3
+2 | GRID,2,,10.,0.,0.,5 | 7 | no coordinate systems but the basic one | 5
+2 | GRID,2,,10.,0.,0.,,127 | 8 | components from 1 to 6 | 127
+2 | GRID,1,,10.,0.,0. | 2 | other than that of the card in line 1 | 1
+- | CROD,1,1,2,1 | 2 | other than that of the card in line 3 | 1
+- | CONROD,1,1,2,1,.5 | 2 | other than that of the card in line 3 | 1
+- | PROD,1,1,.5 | 2 | other than that of the card in line 4 | 1
+- | MAT1,1,1.+7,,.3 | 2 | other than that of the card in line 5 | 1
+- | CONM2,7,2,,1. | 2 | other than that of the card in line 7 | 7
+3 | CROD,1,9,1,2 | 3 | the number of a PROD card | 9
+3 | CROD,1,1,1,3 | 5 | the number of a GRID card | 3
+3 | CROD,1,1,,2 | 4 | a positive integer | a blank
+- | CROD,2,1,1,2,3,1,1,8 | 9 | the number of a GRID card | 8
+- | CSHEAR,2,1,1,2,1,2 | 3 | the number of a PSHEAR card | 1
+- | CQDMEM,2,1,1,2,1,2 | 3 | the number of a PQDMEM card | 1
+- | CTRMEM,2,1,1,2,1 | 3 | the number of a PTRMEM card | 1
+- | CONROD,2,1,2,9,.5 | 5 | the number of a MAT1 card | 9
+- | CONROD,2,1,9,1,.5 | 4 | the number of a GRID card | 9
+4 | PROD,1,8,.01 | 3 | the number of a MAT1 card | 8
+7 | CMASS2,7,.4,3,1 | 4 | the number of a GRID card | 3
+- | CONM2,8,3,,.4 | 3 | the number of a GRID card | 3
+4 | PROD,1,1,0. | 4 | a positive real number | 0.
+4 | PROD,1,1 | 4 | a positive real number | a blank
+4 | PROD,1,1,-.5 | 4 | a positive real number | -.5
+4 | PROD,1,1,.5,.1 | 5 | no torsion of rods | .1
+4 | PROD,1,1,.5,,,.1 | 7 | no nonstructural mass | .1
+- | PSHEAR,2,1,.5,.1 | 5 | no nonstructural mass | .1
+- | PSHEAR,2,1,.5,,3,1,-.5 | 8 | a positive real number | -.5
+- | PTRMEM,2,1,.5,,3,1,.5,2. | 9 | no nonstructural mass | 2.
+- | CONROD,2,1,2,1,-1. | 6 | a positive real number | -1.
+- | CONROD,2,1,2,1,1.,1. | 7 | no torsion of rods | 1.
+- | CONROD,2,1,2,1,1.,,,1. | 9 | no nonstructural mass | 1.
+7 | CMASS2,7,-.4,2,1 | 3 | a positive real number | -.4
+7 | CMASS2,7,.4,2,4 | 5 | component 1, 2 or 3 | 4
+7 | CMASS2,7,.4,2,1,1,1 | 6 | no masses between two degrees of freedom | 1
+- | CONM2,8,2,4,.4 | 4 | no coordinate systems but the basic one | 4
+- | CONM2,8,2,,0. | 5 | a positive real number | 0.
+- | CONM2,8,2,,.4,1. | 6 | no offsets of masses | 1.
+- | CONM2,8,2,,.4,,,1. | 8 | no offsets of masses | 1.
+6 | SPC1,1,1234567,1 | 3 | components from 1 to 6 | 1234567
+6 | SPC1,1,,1 | 3 | components from 1 to 6 | a blank
+6 | SPC1,1,1 | 4 | a grid | a blank
+6 | SPC1,1,1,5 | 4 | the number of a GRID card | 5
+6 | SPC1,1,1,1,5 | 5 | the number of a GRID card | 5
+6 | SPC1,1,1,3,THRU,8 | 4 | the number of a GRID card | 3
+6 | SPC1,1,1,2,THRU,1 | 6 | a grid after 2 | 1
+6 | SPC1,1,1,1,THRU | 6 | a grid after THRU | a blank
+6 | SPC1,1,1,THRU,2 | 4 | a positive integer | THRU
+- | SPC1,2,1,2 | 2 | set 1 again | 2
+- | MPC,1 | 3 | a grid | a blank
+- | MPC,1,3,1,-1.,2,1,1. | 3 | the number of a GRID card | 3
+- | MPC,1,2,1,-1.,3,1,1. | 6 | the number of a GRID card | 3
+- | MPC,1,2,5,-1.,1,1,1. | 4 | component 1, 2 or 3 | 5
+- | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient that is not zero | 0.
+- | MPC,1,2,1,1,1,1,1. | 5 | a real number with a decimal point | 1
+- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card holds | 1
+";
+
+#[test]
+fn a_bad_field_is_named_with_file_line_and_card() {
+    for row in BAD_FIELDS.lines() {
+        let [line, card, field, expected, found] = row.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{row}");
+        };
+        let line = line.parse().ok();
+        let field: usize = field.parse().expect(row);
+        let error = error(line, card);
+        let name = card.split([',', '*']).next().expect("a name");
+        let Error::DeckField {
+            file,
+            line: at,
+            card: of,
+            field: number,
+            expected: wanted,
+            found: there,
+        } = &error
+        else {
+            panic!("{card}: {error}");
+        };
+        assert_eq!(
+            (file.as_str(), *at, of.as_str()),
+            ("wing.dat", line.unwrap_or(8), name),
+            "{card}"
+        );
+        assert_eq!((*number, there.as_str()), (field, found), "{card}: {error}");
+        assert!(wanted.contains(expected), "{card}: {error}");
+    }
+}
+
+#[test]
+fn a_bad_field_of_a_continuation_has_its_own_line_and_number() {
+    let field_of = |cards: &str| match error(None, cards) {
+        Error::DeckField { line, field, .. } => (line, field),
+        error => panic!("{cards}: {error}"),
+    };
+    assert_eq!(field_of("CONM2,8,2,,.4,,,,,+I\n+I,1."), (9, 12));
+    assert_eq!(field_of("CONM2,8,2,,.4,,,,,+I\n+I,,,,,,1."), (9, 17));
+    assert_eq!(field_of("SPC1,1,1,1,1,1,1,1,1,+S\n+S,1,7"), (9, 13));
+    let tied = "MPC,1,2,1,-1.,1,1,1.,,+M\n+M,,1,2,1.,2,3,x,,+N\n+N,,1,1,1.";
+    assert_eq!(field_of(tied), (9, 18));
+    assert_eq!(
+        field_of(
+            &tied
+                .replace(",x,", ",1.,")
+                .replace("+N,,1,1,1.", "+N,,1,9,1.")
+        ),
+        (10, 24)
+    );
+}
+
+#[test]
+fn equations_that_depend_on_one_another_are_refused() {
+    let deck = "\
+GRID,1
+GRID,2
+GRID,3
+MPC,1,2,1,-1.,1,1,1.
+MPC,1,3,1,-1.,1,2,1.,,+M
++M,,1,1,1.,2,1,1.
+";
+    let error = deck::read("wing.dat", deck).expect_err("grid 2 x is dependent");
+    assert!(
+        matches!(&error, Error::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
+        "{error}"
+    );
+    let error =
+        deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,1,2,1")).expect_err("tied twice");
+    assert!(
+        matches!(&error, Error::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
+        "{error}"
+    );
+    let error =
+        deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,7,3,1")).expect_err("two sets");
+    assert!(
+        matches!(&error, Error::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
+        "{error}"
+    );
+}
+
+#[test]
+fn messages_say_what_was_expected_and_found() {
+    assert_eq!(
+        error(Some(4), "PROD,1,1,-.5").to_string(),
+        "wing.dat, line 4: card PROD, field 4: expected a positive real number, found -.5"
+    );
+    assert_eq!(
+        error(None, "+B,1").to_string(),
+        "wing.dat, line 8: expected a card that this line continues, found none that ends with tag B"
+    );
+}
+
+#[test]
+fn what_no_deck_can_hold_is_refused() {
+    let mut model = deck::read("wing.dat", GOOD).expect("it reads").model;
+    let write = |model: &deck::BulkData| deck::write::bulk_data(model, &mut 0);
+    model.grids[0].position.y = f64::NAN;
+    let error = write(&model).expect_err("not a number");
+    assert!(
+        matches!(
+            error,
+            Error::NotFinite {
+                what: "number on a bulk data card",
+                column: 3,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    model.grids[0].position.y = 0.0;
+    model.grids[0].label = 100_000_000;
+    let error = write(&model).expect_err("nine digits");
+    assert!(
+        matches!(
+            error,
+            Error::TooMany {
+                what: "number of a grid or element in a deck",
+                available: 99_999_999,
+                requested: 100_000_000
+            }
+        ),
+        "{error}"
+    );
+    model.grids[0].label = 99_999_999;
+    assert!(write(&model).is_ok());
+}

@@ -1,0 +1,15 @@
+//! Decks and the solver.
+
+pub mod deck;
+pub mod deck_errors;
+pub mod deck_errors_lines;
+pub mod deck_modes;
+pub mod deck_numbers;
+pub mod deck_reading;
+pub mod nastran95_analysis;
+pub mod nastran95_delta_wing;
+pub mod nastran95_model;
+pub mod nastran95_outer_loop;
+pub mod nastran95_output5;
+pub mod nastran95_process;
+pub mod nastran95_program;

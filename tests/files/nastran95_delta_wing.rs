@@ -1,0 +1,205 @@
+//! The delta wing's correlation through NASTRAN-95: its stored answers against the crate, and how its report names it.
+//!
+//! `golden/nastran95/delta_wing.toml` is what `corfem delta-wing --solver nastran95` found; `golden/nastran95/README.md` says how
+//! it was made and what to expect of it.
+
+use crate::common::outer_loop::{assert_near, stored_wing};
+use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
+use corfem::cases::BUILT_IN;
+use corfem::files::nastran95::NAME;
+use corfem::method::error::Error;
+use corfem::method::model::FiniteElementModel;
+use corfem::method::outer_loop::check;
+use corfem::present::report::delta_wing_json::delta_wing_json;
+use corfem::present::report::delta_wing_tables::delta_wing_tables;
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::{
+    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, test_modes,
+};
+use std::sync::LazyLock;
+
+static RUN: LazyLock<WingCorrelation> =
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+
+fn wing() -> DeltaWing {
+    DeltaWing::embedded().expect("the wing")
+}
+
+/// NASTRAN-95's frequencies at the gages its own correlation went through are the crate's at the same gages: no panel of
+/// the wing is snapped.
+#[test]
+fn stored_frequencies_are_the_crates_at_the_same_factors() {
+    let stored = stored_wing();
+    let model = first_model(&wing()).expect("a model");
+    assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
+    let start = model.analyze(&stored.initial.factors).expect("an analysis");
+    let test = test_modes(&wing(), &start.mass).expect("test modes");
+    // They are the crate's own on both sides, perhaps by another processor.
+    assert_near(
+        &stored.test_frequencies_hz,
+        &test.frequencies_hz(),
+        NASTRAN_AGAIN,
+        "test modes",
+    );
+    for found in stored.checks() {
+        let dynamic = model.analyze(&found.factors).expect("an analysis");
+        let own = check(&dynamic, &test, 19).expect("modes");
+        assert_near(
+            &found.frequencies_hz,
+            &own.frequencies_hz,
+            NASTRAN_FREQUENCY,
+            "same factors",
+        );
+        // An RMS of differences changes by no more than the largest of them does.
+        let errors = [
+            (found.frequency_rms, own.errors.frequency_rms()),
+            (found.shape_rms, own.errors.shape_rms()),
+        ];
+        for (a, b) in errors {
+            assert!((a - b).abs() <= NASTRAN_FREQUENCY, "{a}, expected {b}");
+        }
+        // But it is NASTRAN-95's answer: more than round-off is between them.
+        let pairs = found.frequencies_hz.iter().zip(&own.frequencies_hz);
+        let apart = pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+        assert!(apart > NASTRAN_AGAIN, "{apart}");
+    }
+}
+
+/// The whole correlation through NASTRAN-95 is the built-in one: the same passes, iterations and factors.
+#[test]
+fn stored_correlation_is_the_crates() {
+    let (stored, own) = (stored_wing(), &RUN.correlation);
+    assert_near(
+        &[stored.initial.frequency_rms, stored.initial.shape_rms],
+        &[
+            own.initial.errors.frequency_rms(),
+            own.initial.errors.shape_rms(),
+        ],
+        NASTRAN_GAGE,
+        "start",
+    );
+    assert_eq!(stored.initial.iterations, None);
+    assert_eq!(stored.passes.len(), own.passes.len());
+    for (found, pass) in stored.passes.iter().zip(&own.passes) {
+        assert_eq!(found.iterations, Some(pass.inner.iterations.len()));
+        assert_near(&found.factors, &pass.factors, NASTRAN_GAGE, "factors");
+        assert_near(
+            &found.frequencies_hz,
+            &pass.check.frequencies_hz,
+            NASTRAN_FREQUENCY,
+            "frequencies",
+        );
+        let errors = &pass.check.errors;
+        assert_near(
+            &[found.frequency_rms, found.shape_rms],
+            &[errors.frequency_rms(), errors.shape_rms()],
+            NASTRAN_GAGE,
+            "errors",
+        );
+    }
+}
+
+#[test]
+fn another_analysis_is_asked_for_every_model() {
+    let mut asked = Vec::new();
+    let mut told = Vec::new();
+    let run = correlate_wing_with(
+        &wing(),
+        "another program",
+        |model, factors| {
+            asked.push(factors.to_vec());
+            model.analyze(factors)
+        },
+        |pass, _| told.push(pass),
+    )
+    .expect("it runs");
+    assert_eq!((run.solver, RUN.solver), ("another program", BUILT_IN));
+    assert_eq!(told, [1, 2, 3]);
+    // Before the test modes are scaled, at the start of the loop, and after every pass.
+    let mut expected = vec![vec![1.0; GROUPS.len()]; 2];
+    expected.extend(
+        RUN.correlation
+            .passes
+            .iter()
+            .map(|pass| pass.factors.clone()),
+    );
+    assert_eq!(asked, expected);
+}
+
+#[test]
+fn what_an_analysis_cannot_do_is_the_correlations_error() {
+    for answered in [0, 1, 2] {
+        let mut left = answered;
+        let error = correlate_wing_with(
+            &wing(),
+            NAME,
+            |model: &FiniteElementModel, factors: &[f64]| {
+                if left == 0 {
+                    return Err(Error::SolverInterrupted);
+                }
+                left -= 1;
+                model.analyze(factors)
+            },
+            |_, _| {},
+        );
+        assert!(matches!(error, Err(Error::SolverInterrupted)), "{answered}");
+    }
+}
+
+#[test]
+fn reports_name_another_solver() {
+    let other = WingCorrelation {
+        solver: NAME,
+        ..RUN.clone()
+    };
+    let noted = |run: &WingCorrelation| {
+        let tables = delta_wing_tables(&wing(), run).expect("tables");
+        let notes = tables.into_iter().map(|table| (table.name, table.notes));
+        notes.collect::<Vec<_>>()
+    };
+    let note = "Finite element analyses of the model with wrong gages by NASTRAN-95; test modes and everything else by this program.";
+    let mut expected = noted(&RUN);
+    assert_eq!(
+        expected[4],
+        ("delta_wing_test_modes".to_owned(), Vec::new())
+    );
+    expected[4].1.push(note.to_owned());
+    assert_eq!(noted(&other), expected);
+    for run in [&*RUN, &other] {
+        let json = delta_wing_json(&wing(), run).expect("written");
+        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(json["solver"], run.solver);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_command_asks_the_solver_it_is_given() {
+    use crate::common::fake_solver::fake;
+    let home = fake("exit 9");
+    let slow = fake("sleep 60");
+    let slow = slow.path().to_str().expect("a name");
+    for (extra, message) in [
+        (&[][..], "exit status: 9"),
+        (
+            &["--nastran", slow, "--time-limit", "1"],
+            "expected it to end within 1 s",
+        ),
+        (
+            &["--nastran", "no/such/folder"],
+            "found none at no/such/folder",
+        ),
+    ] {
+        let output = assert_cmd::Command::cargo_bin("corfem")
+            .expect("the program is built")
+            .args(["delta-wing", "--solver", "nastran95"])
+            .args(extra)
+            .env("NASTRAN95", home.path())
+            .output()
+            .expect("it starts");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{stderr}");
+        assert!(stderr.contains(message), "{stderr}");
+        assert!(output.stdout.is_empty());
+    }
+}

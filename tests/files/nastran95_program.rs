@@ -1,0 +1,242 @@
+//! NASTRAN-95 itself, where it is installed: it answers as stored, and runs the decks as they are written.
+
+use crate::common::outer_loop::{assert_near, stored, stored_wing};
+use crate::common::tolerances::{
+    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
+    NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
+};
+use corfem::cases::torque_box::{PANEL_COUNT, dynamic_points};
+use corfem::cases::{Case, run_case_with};
+use corfem::files::deck::{self, BulkData, Task};
+use corfem::files::nastran95::{NAME, Nastran95, default_folder};
+use corfem::method::modal::DynamicModel;
+use corfem::method::model::FiniteElementModel;
+use corfem::method::modes::solve;
+use corfem::method::outer_loop::check;
+use corfem::present::report::delta_wing_tables::delta_wing_tables;
+use corfem::present::report::render::render_tables;
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, test_modes};
+use nalgebra::DMatrix;
+use std::io::Write;
+
+/// The program, or a loud word that it is not there.
+fn program(test: &str) -> Option<Nastran95> {
+    let folder = std::env::var_os("NASTRAN95").map_or_else(default_folder, Into::into);
+    let found = Nastran95::in_folder(&folder);
+    if let Err(error) = &found {
+        // Not by `eprintln!`, which the test harness keeps to itself.
+        let _ = writeln!(
+            std::io::stderr(),
+            "\n*** NOT TESTED: {test}: {error}\n*** golden/nastran95/README.md says how to install it.\n"
+        );
+    }
+    found.ok()
+}
+
+#[test]
+fn nastran_answers_as_stored() {
+    let Some(nastran) = program("the outer loop through NASTRAN-95") else {
+        return;
+    };
+    for stored in stored() {
+        let case = Case::new(stored.number).expect("a case");
+        for check in std::iter::once(&stored.initial).chain(&stored.passes) {
+            let model = case.model_with(&check.gages_in).expect("a model");
+            let dynamic = nastran
+                .analyze(&model, &[1.0; PANEL_COUNT])
+                .expect("an analysis");
+            let found = solve(&dynamic.stiffness, &dynamic.mass, 9)
+                .expect("modes")
+                .frequencies_hz();
+            let mut expected = check.frequencies_hz.clone();
+            expected.sort_by(f64::total_cmp);
+            assert_near(
+                &found,
+                &expected,
+                NASTRAN_AGAIN,
+                &format!("case {}", stored.number),
+            );
+            // The shares are of this stiffness: they and the rods' sum to it.
+            let panels: DMatrix<f64> = dynamic
+                .shares
+                .iter()
+                .map(|share| share.matrix().clone())
+                .sum();
+            let rods = &dynamic.stiffness - panels;
+            assert!(rods.symmetric_eigenvalues().min() > -NASTRAN_AGAIN * dynamic.stiffness.amax());
+        }
+    }
+    let case = Case::new(2).expect("a case");
+    let run = run_case_with(
+        &case,
+        NAME,
+        |model, factors| nastran.analyze(model, factors),
+        |_, _| (),
+    )
+    .expect("a run");
+    let expected = &stored()[1].passes[1];
+    assert_near(
+        &run.pass_gages[1],
+        &expected.gages_in,
+        NASTRAN_GAGE,
+        "case 2",
+    );
+}
+
+#[test]
+fn nastran_solves_the_written_deck_for_its_modes() {
+    let Some(nastran) = program("decks run unchanged in NASTRAN-95") else {
+        return;
+    };
+    for number in [2, 3] {
+        let case = Case::new(number).expect("a case");
+        let model = case.model().expect("a model");
+        let (own, bulk) = modes_and_deck(&case, &model);
+        // By NASTRAN-95's own eigensolution with the singular mass.
+        let task = Task::Modes {
+            count: 9,
+            range_hz: [5.0, 3000.0],
+        };
+        let printed = nastran
+            .run(&deck::write(&bulk, "box", &task).expect("a deck"))
+            .expect("a run")
+            .printed;
+        assert_near(
+            &printed_eigenvalues(&printed),
+            &own,
+            NASTRAN_PRINTED_EIGENVALUE,
+            "printed",
+        );
+        // By its matrices: the nine finite roots of (KAA, MAA).
+        let matrices = nastran
+            .matrices(&deck::write(&bulk, "box", &Task::Matrices).expect("a deck"))
+            .expect("a run");
+        let lower = matrices["KAA"]
+            .clone()
+            .cholesky()
+            .expect("a held structure")
+            .l();
+        let half = lower
+            .solve_lower_triangular(&matrices["MAA"])
+            .expect("a nonzero diagonal");
+        let reduced = lower
+            .solve_lower_triangular(&half.transpose())
+            .expect("a nonzero diagonal");
+        let mut roots: Vec<f64> = (0.5 * (&reduced + reduced.transpose()))
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|root| root.recip())
+            .collect();
+        roots.retain(|root| *root > 0.0 && *root < 1e3 * own[8]);
+        roots.sort_by(f64::total_cmp);
+        assert_near(&roots, &own, NASTRAN_EIGENVALUE, "KAA and MAA");
+    }
+}
+
+/// Squared circular frequencies of a case's model, and its deck.
+fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkData) {
+    let dynamic = model.analyze(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+    let points = dynamic_points(&case.reconstruction).expect("points");
+    let bulk = BulkData::of(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
+    (modes.omega_squared.as_slice().to_vec(), bulk)
+}
+
+/// The column EIGENVALUE of the table of real eigenvalues.
+fn printed_eigenvalues(printed: &str) -> Vec<f64> {
+    let table = printed
+        .split("R E A L   E I G E N V A L U E S")
+        .nth(1)
+        .expect("a table");
+    table
+        .lines()
+        .map(|line| line.split_whitespace().collect::<Vec<_>>())
+        .filter(|fields| {
+            fields.len() == 7
+                && fields[0].parse::<usize>().is_ok()
+                && fields[1].parse::<usize>().is_ok()
+        })
+        .map(|fields| fields[2].parse().expect("an eigenvalue"))
+        .take(9)
+        .collect()
+}
+
+#[test]
+fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
+    let Some(nastran) = program("the delta wing by NASTRAN-95") else {
+        return;
+    };
+    let stored = stored_wing();
+    let wing = DeltaWing::embedded().expect("the wing");
+    let model = first_model(&wing).expect("a model");
+    let start = nastran
+        .analyze(&model, &stored.initial.factors)
+        .expect("an analysis");
+    let test = test_modes(&wing, &start.mass).expect("test modes");
+    for expected in stored.checks() {
+        let here = model.analyze(&expected.factors).expect("an analysis");
+        let there = nastran
+            .analyze(&model, &expected.factors)
+            .expect("an analysis");
+        for (here, there) in [
+            (&here.stiffness, &there.stiffness),
+            (&here.mass, &there.mass),
+        ] {
+            assert_eq!(there.shape(), (19, 19));
+            assert!((there - here).amax() <= NASTRAN_SINGLE_PRECISION * here.amax());
+        }
+        let frequencies = |model: &DynamicModel| {
+            let modes = solve(&model.stiffness, &model.mass, 19).expect("modes");
+            modes.frequencies_hz()
+        };
+        assert_near(
+            &frequencies(&there),
+            &frequencies(&here),
+            NASTRAN_FREQUENCY,
+            "delta wing",
+        );
+        let again = check(&there, &test, 19).expect("modes");
+        assert_near(
+            &again.frequencies_hz,
+            &expected.frequencies_hz,
+            NASTRAN_AGAIN,
+            "delta wing, stored",
+        );
+    }
+}
+
+#[test]
+fn nastran_corrects_the_delta_wing_as_stored() {
+    let Some(nastran) = program("the delta wing's correlation through NASTRAN-95") else {
+        return;
+    };
+    let run = correlate_wing_with(
+        &DeltaWing::embedded().expect("the wing"),
+        NAME,
+        |model, factors| nastran.analyze(model, factors),
+        |_, _| (),
+    )
+    .expect("a run");
+    let stored = stored_wing();
+    assert_eq!(run.correlation.passes.len(), stored.passes.len());
+    for (pass, expected) in run.correlation.passes.iter().zip(&stored.passes) {
+        assert_eq!(Some(pass.inner.iterations.len()), expected.iterations);
+        assert_near(
+            &pass.factors,
+            &expected.factors,
+            SAME_HISTORY,
+            "factors of the delta wing",
+        );
+    }
+    // The command does the same.
+    let output = assert_cmd::Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(["delta-wing", "--solver", "nastran95"])
+        .output()
+        .expect("it starts");
+    assert_eq!(output.status.code(), Some(0));
+    let tables = delta_wing_tables(&DeltaWing::embedded().expect("the wing"), &run);
+    let text = render_tables(&tables.expect("tables"), false);
+    assert_eq!(String::from_utf8_lossy(&output.stdout), text);
+}

@@ -1,0 +1,198 @@
+//! `paper/equations.toml` against the code: every equation is listed, every function and test named there exists.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// Every equation number the paper has: 1 to 13, A.1 to A.9, B.1 to B.7, C.1 to C.24.
+fn numbers() -> Vec<String> {
+    let plain = (1..=13).map(|n| n.to_string());
+    let appendix = |letter: char, last: usize| (1..=last).map(move |n| format!("{letter}.{n}"));
+    plain
+        .chain(appendix('A', 9))
+        .chain(appendix('B', 7))
+        .chain(appendix('C', 24))
+        .collect()
+}
+
+fn entries() -> Vec<Table> {
+    let text = include_str!("../../paper/equations.toml");
+    let document: Table = text.parse().expect("it reads");
+    let list = document["equation"].as_array().expect("a list");
+    list.iter()
+        .map(|entry| entry.as_table().expect("a table").clone())
+        .collect()
+}
+
+pub fn strings(entry: &Table, key: &str) -> Vec<String> {
+    let list = entry
+        .get(key)
+        .and_then(Value::as_array)
+        .unwrap_or_else(|| panic!("{key} in {entry}"));
+    list.iter()
+        .map(|value| value.as_str().expect("a string").to_owned())
+        .collect()
+}
+
+fn source(folder: &str, module: &str) -> Option<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let path = module.replace("::", "/");
+    [format!("{path}.rs"), format!("{path}/mod.rs")]
+        .iter()
+        .find_map(|file| fs::read_to_string(root.join(file)).ok())
+}
+
+/// Whether `folder` defines a function (or type) `module::name`.
+pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
+    let Some((module, name)) = full_name.rsplit_once("::") else {
+        return false;
+    };
+    source(folder, module).is_some_and(|text| {
+        text.match_indices(name).any(|(at, _)| {
+            let before = &text[..at];
+            let after = text[at + name.len()..].chars().next();
+            keywords.iter().any(|keyword| before.ends_with(keyword))
+                && !after.is_some_and(|c| c.is_alphanumeric() || c == '_')
+        })
+    })
+}
+
+#[test]
+fn every_equation_is_listed_once_and_in_order() {
+    let listed: Vec<String> = entries()
+        .iter()
+        .map(|entry| entry["number"].as_str().expect("a string").to_owned())
+        .collect();
+    assert_eq!(listed, numbers());
+}
+
+#[test]
+fn every_function_named_exists() {
+    for entry in entries() {
+        let functions = strings(&entry, "functions");
+        let number = &entry["number"];
+        assert!(
+            !functions.is_empty() || entry.contains_key("remark"),
+            "{number} has neither function nor remark"
+        );
+        for function in functions {
+            assert!(
+                defines(
+                    "src",
+                    &function,
+                    &["pub fn ", "pub struct ", "pub(crate) fn "]
+                ),
+                "{number}: {function}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_test_named_exists_and_is_a_test() {
+    for entry in entries() {
+        let tests = strings(&entry, "tests");
+        assert!(
+            !tests.is_empty() || strings(&entry, "functions").is_empty(),
+            "{} has no test",
+            entry["number"]
+        );
+        for test in tests {
+            assert!(
+                defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]),
+                "{}: {test}",
+                entry["number"]
+            );
+        }
+    }
+}
+
+#[test]
+fn every_entry_says_what_it_is() {
+    for entry in entries() {
+        assert!(
+            entry["what"].as_str().is_some_and(|what| what.len() > 10),
+            "{entry}"
+        );
+        let known: BTreeSet<&str> = [
+            "number",
+            "what",
+            "functions",
+            "tests",
+            "correction",
+            "remark",
+        ]
+        .into();
+        assert!(
+            entry.keys().all(|key| known.contains(key.as_str())),
+            "{entry}"
+        );
+    }
+}
+
+#[test]
+fn the_check_itself_finds_what_is_missing() {
+    assert!(defines("src", "method::modes::solve", &["pub fn "]));
+    assert!(!defines("src", "method::modes::solv", &["pub fn "]));
+    assert!(!defines(
+        "src",
+        "method::modes::solved_by_nobody",
+        &["pub fn "]
+    ));
+    assert!(!defines("src", "nowhere::solve", &["pub fn "]));
+    assert!(defines(
+        "tests",
+        "ledgers::equations::every_function_named_exists",
+        &["#[test]\nfn "]
+    ));
+    assert!(!defines(
+        "tests",
+        "ledgers::equations::numbers",
+        &["#[test]\nfn "]
+    ));
+}
+
+/// A file that nobody lists is a test that never runs.
+#[test]
+fn every_file_of_tests_is_part_of_the_test_program() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    assert_eq!(found(&tests, "main"), listed(&tests.join("main.rs")));
+    for room in listed(&tests.join("main.rs")) {
+        let folder = tests.join(&room);
+        assert_eq!(
+            found(&folder, "mod"),
+            listed(&folder.join("mod.rs")),
+            "{room}"
+        );
+    }
+}
+
+/// The modules that a file lists.
+fn listed(file: &Path) -> BTreeSet<String> {
+    let text = fs::read_to_string(file).expect("it reads");
+    text.lines()
+        .filter_map(|line| {
+            line.trim_start_matches("pub ")
+                .strip_prefix("mod ")?
+                .strip_suffix(';')
+        })
+        .map(str::to_owned)
+        .collect()
+}
+
+/// The modules that stand in a folder, without the file that lists them.
+fn found(folder: &Path, list: &str) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).expect("it reads");
+    entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
+        .map(|path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .filter(|name| name != list)
+        .collect()
+}

@@ -1,0 +1,90 @@
+//! The rooms of `src/`: each imports only from those above it, and `method` from none.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// From the top down.
+const ROOMS: [&str; 7] = [
+    "method",
+    "closed_forms",
+    "cases",
+    "studies",
+    "files",
+    "present",
+    "program",
+];
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("it reads") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files.extend(files_below(&path));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// The rooms that a text names as `crate::room` or `corfem::room`, in code or in documentation.
+fn rooms_named(text: &str) -> Vec<&str> {
+    let mut named = Vec::new();
+    for root in ["crate::", "corfem::"] {
+        for (at, _) in text.match_indices(root) {
+            let rest = &text[at + root.len()..];
+            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
+            named.push(&rest[..end.unwrap_or(rest.len())]);
+        }
+    }
+    named
+}
+
+/// What a file of a room imports from rooms that are not above it.
+fn imports_from_below(room: usize, text: &str) -> Vec<&str> {
+    let mut named = rooms_named(text);
+    named.retain(|name| !ROOMS[..=room].contains(name));
+    named
+}
+
+#[test]
+fn every_room_imports_only_from_rooms_above_it() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut count = 0;
+    for (room, name) in ROOMS.iter().enumerate() {
+        for file in files_below(&source.join(name)) {
+            let text = fs::read_to_string(&file).expect("it reads");
+            let below = imports_from_below(room, &text);
+            assert!(below.is_empty(), "{}: {below:?}", file.display());
+            count += 1;
+        }
+    }
+    assert!(count > 60, "only {count} files were read");
+}
+
+#[test]
+fn every_folder_of_the_source_is_a_room() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for entry in fs::read_dir(source).expect("it reads") {
+        let path = entry.expect("an entry").path();
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        assert!(
+            ROOMS.contains(&name.as_str()) || ["lib.rs", "main.rs"].contains(&name.as_str()),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn the_check_finds_an_import_from_below() {
+    let text = "use crate::method::modes;\nuse crate::{present, cases};\nuse crate::cases::Case;";
+    assert_eq!(imports_from_below(0, text), ["", "cases"]);
+    assert_eq!(
+        imports_from_below(2, "use crate::cases::Case; use corfem::method::modes;"),
+        [""; 0]
+    );
+}

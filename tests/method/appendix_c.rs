@@ -1,0 +1,291 @@
+//! Appendix C for a change of stiffness: what holds for every way of solving it, and the exact solution they tend to.
+
+use crate::common::pairings::rearrangement;
+use crate::common::tolerances::{
+    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF,
+};
+use crate::common::vibrations::{Change, any_change, full_change, modes_by_nalgebra};
+use corfem::method::appendix_c::{
+    Perturbed, UpdateRule, eigensolution, first_order, normalize, original, perturb, recursive_1,
+    recursive_1_converged, recursive_2,
+};
+use corfem::method::error::Error;
+use nalgebra::{DMatrix, dmatrix, dvector};
+use proptest::prelude::*;
+
+/// Every rule, the recursive ones to a few orders.
+pub const RULES: [UpdateRule; 9] = [
+    UpdateRule::FirstOrder,
+    UpdateRule::Original,
+    UpdateRule::Recursive1 { order: 1 },
+    UpdateRule::Recursive1 { order: 4 },
+    UpdateRule::Recursive2 { order: 1 },
+    UpdateRule::Recursive2 { order: 3 },
+    UpdateRule::Recursive1Converged {
+        tolerance: 1e-13,
+        orders: 60,
+    },
+    UpdateRule::Recursive1Converged {
+        tolerance: 1e-6,
+        orders: 200,
+    },
+    UpdateRule::Eigensolution,
+];
+
+/// Size of change at which every rule holds for every change a strategy gives.
+const SMALL: f64 = 0.02;
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn no_change_changes_nothing(change in full_change(4)) {
+        for rule in RULES {
+            let perturbed = perturb(&change.stiffness, &change.beta(0.0), rule).unwrap();
+            prop_assert_eq!(perturbed.shapes, DMatrix::identity(4, 4));
+            for (root, k) in perturbed.roots.iter().zip(change.stiffness.iter()) {
+                prop_assert!((root * k - 1.0).abs() <= ROUND_OFF);
+            }
+        }
+    }
+
+    #[test]
+    fn a_diagonal_change_is_exact_at_first_order(
+        change in full_change(4),
+        sizes in prop::collection::vec(-0.3..3.0_f64, 4),
+    ) {
+        // Modes that do not couple keep their shapes and their Rayleigh quotient is exact. Roots may pass each other.
+        let mut beta = DMatrix::zeros(4, 4);
+        for i in 0..4 {
+            beta[(i, i)] = sizes[i] * change.stiffness[i];
+        }
+        let changed: Vec<f64> = (0..4).map(|i| change.stiffness[i] + beta[(i, i)]).collect();
+        for i in 0..4 {
+            for j in 0..i {
+                prop_assume!((changed[i] / changed[j] - 1.0).abs() > 1e-6);
+            }
+        }
+        for rule in RULES {
+            let perturbed = perturb(&change.stiffness, &beta, rule).unwrap();
+            for (root, k) in perturbed.roots.iter().zip(&changed) {
+                prop_assert!((root * k - 1.0).abs() <= ROUND_OFF, "{rule:?} {root} {k}");
+            }
+            prop_assert!((perturbed.shapes - DMatrix::identity(4, 4)).amax() <= ROUND_OFF);
+        }
+    }
+
+    #[test]
+    fn own_components_are_one(change in full_change(5)) {
+        for rule in RULES {
+            let perturbed = perturb(&change.stiffness, &change.beta(SMALL), rule).unwrap();
+            prop_assert_eq!(perturbed.shapes.shape(), (5, 5));
+            prop_assert_eq!(perturbed.roots.len(), 5);
+            for j in 0..5 {
+                prop_assert!((perturbed.shapes[(j, j)] - 1.0).abs() <= ROUND_OFF);
+            }
+        }
+    }
+
+    #[test]
+    fn results_do_not_depend_on_the_order_of_modes(
+        change in full_change(4),
+        other in rearrangement(4),
+    ) {
+        let beta = change.beta(SMALL);
+        let (stiffness, turned) = (
+            change.stiffness.select_rows(&other.order),
+            beta.select_rows(&other.order).select_columns(&other.order),
+        );
+        for rule in RULES {
+            let before = perturb(&change.stiffness, &beta, rule).unwrap();
+            let after = perturb(&stiffness, &turned, rule).unwrap();
+            let roots = before.roots.select_rows(&other.order);
+            let shapes = before.shapes.select_rows(&other.order).select_columns(&other.order);
+            prop_assert!((&after.roots - &roots).amax() <= ROUND_OFF * roots.amax());
+            prop_assert!((&after.shapes - &shapes).amax() <= MATRIX_ROUND_OFF, "{rule:?}");
+        }
+    }
+
+    #[test]
+    fn roots_scale_with_flexibility_and_shapes_not_at_all(
+        change in full_change(4),
+        scale in 0.01..100.0_f64,
+    ) {
+        let beta = change.beta(SMALL);
+        for rule in RULES {
+            let before = perturb(&change.stiffness, &beta, rule).unwrap();
+            let after = perturb(&(scale * &change.stiffness), &(scale * &beta), rule).unwrap();
+            for (a, b) in after.roots.iter().zip(before.roots.iter()) {
+                prop_assert!((a * scale / b - 1.0).abs() <= ROUND_OFF);
+            }
+            prop_assert!((after.shapes - before.shapes).amax() <= MATRIX_ROUND_OFF, "{rule:?}");
+        }
+    }
+
+    #[test]
+    fn any_change_gives_finite_modes_or_a_typed_error(change in any_change()) {
+        for rule in RULES {
+            match perturb(&change.stiffness, &change.beta(1.0), rule) {
+                Ok(Perturbed { roots, shapes, .. }) => {
+                    prop_assert!(roots.iter().all(|root| *root > 0.0 && root.is_finite()));
+                    prop_assert!(shapes.iter().all(|component| component.is_finite()));
+                }
+                Err(
+                    Error::LostRoot { .. }
+                    | Error::CoalescingModes { .. }
+                    | Error::NotAVibration { .. },
+                ) => {}
+                Err(other) => prop_assert!(false, "{rule:?}: {other}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_modal_eigensolution_satisfies_every_row(change in full_change(5)) {
+        // (C.16): [k (γ − Λ) + β γ] p = 0, that is (k + β) p = p/γ.
+        let beta = change.beta(0.1);
+        let exact = eigensolution(&change.stiffness, &beta).unwrap();
+        prop_assert_eq!((exact.order, exact.last_change), (0, 0.0));
+        let changed = DMatrix::from_diagonal(&change.stiffness) + beta;
+        let residual = &changed * &exact.shapes
+            - &exact.shapes * DMatrix::from_diagonal(&exact.roots.map(f64::recip));
+        let scale = changed.amax() * exact.shapes.amax();
+        prop_assert!(residual.amax() <= MATRIX_ROUND_OFF * scale, "{:e}", residual.amax());
+    }
+
+    #[test]
+    fn the_modal_eigensolution_is_that_of_nalgebra(change in full_change(5)) {
+        let beta = change.beta(0.1);
+        let exact = eigensolution(&change.stiffness, &beta).unwrap();
+        let changed = DMatrix::from_diagonal(&change.stiffness) + beta;
+        let (omega_squared, _) = modes_by_nalgebra(&changed, &DMatrix::identity(5, 5));
+        let mut found: Vec<f64> = exact.roots.iter().map(|root| 1.0 / root).collect();
+        found.sort_by(f64::total_cmp);
+        for (a, b) in found.iter().zip(omega_squared.iter()) {
+            prop_assert!((a - b).abs() <= EIGEN_ROUND_OFF * omega_squared.amax(), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn the_converged_recursion_is_the_eigensolution(change in full_change(5)) {
+        let beta = change.beta(SMALL);
+        let rule = UpdateRule::default();
+        let recursive = perturb(&change.stiffness, &beta, rule).unwrap();
+        let exact = eigensolution(&change.stiffness, &beta).unwrap();
+        for (a, b) in recursive.roots.iter().zip(exact.roots.iter()) {
+            prop_assert!((a / b - 1.0).abs() <= CONVERGED_RECURSION, "{a} {b}");
+        }
+        let error = (recursive.shapes - exact.shapes).amax();
+        prop_assert!(error <= CONVERGED_RECURSION * change.stiffness.amax(), "{error:e}");
+    }
+
+    #[test]
+    fn normalized_shapes_have_unit_generalized_mass(change in full_change(4)) {
+        let shapes = eigensolution(&change.stiffness, &change.beta(0.1)).unwrap().shapes;
+        let mut unit = shapes.clone();
+        normalize(&mut unit);
+        for j in 0..4 {
+            prop_assert!((unit.column(j).norm() - 1.0).abs() <= ROUND_OFF);
+            prop_assert!(unit[(j, j)] > 0.0);
+            let back = unit.column(j) / unit[(j, j)];
+            prop_assert!((back - shapes.column(j)).amax() <= ROUND_OFF * shapes.amax());
+        }
+        // Exact shapes of a symmetric change are orthogonal too.
+        let orthogonal = unit.tr_mul(&unit);
+        prop_assert!((orthogonal - DMatrix::identity(4, 4)).amax() <= MATRIX_ROUND_OFF);
+    }
+}
+
+#[test]
+fn every_rule_is_its_own_function() {
+    let Change {
+        stiffness,
+        direction,
+    } = Change {
+        stiffness: dvector![1.0, 2.0, 4.0],
+        direction: dmatrix![0.1, 0.2, 0.15; 0.2, 0.3, 0.25; 0.15, 0.25, 0.2],
+    };
+    let (k, beta) = (&stiffness, &direction);
+    for (rule, expected) in [
+        (UpdateRule::FirstOrder, first_order(k, beta)),
+        (UpdateRule::Original, original(k, beta)),
+        (UpdateRule::Recursive1 { order: 3 }, recursive_1(k, beta, 3)),
+        (UpdateRule::Recursive2 { order: 3 }, recursive_2(k, beta, 3)),
+        (UpdateRule::Eigensolution, eigensolution(k, beta)),
+        (
+            UpdateRule::Recursive1Converged {
+                tolerance: 1e-4,
+                orders: 9,
+            },
+            recursive_1_converged(k, beta, 1e-4, 9),
+        ),
+        (
+            UpdateRule::default(),
+            recursive_1_converged(k, beta, 1e-13, 60),
+        ),
+    ] {
+        assert_eq!(
+            perturb(k, beta, rule).unwrap(),
+            expected.unwrap(),
+            "{rule:?}"
+        );
+    }
+    // They differ on this change, so that the comparison above tells them apart.
+    let roots = |rule| perturb(k, beta, rule).unwrap().roots[0];
+    let distinct = [
+        roots(UpdateRule::FirstOrder),
+        roots(UpdateRule::Original),
+        roots(UpdateRule::Recursive1 { order: 3 }),
+        roots(UpdateRule::Recursive2 { order: 3 }),
+    ];
+    for a in 0..4 {
+        for b in 0..a {
+            assert!((distinct[a] / distinct[b] - 1.0).abs() > MATRIX_ROUND_OFF);
+        }
+    }
+}
+
+#[test]
+fn the_eigensolution_continues_modes_past_each_other() {
+    // Mode 0 rises from 1 past mode 1 at 2; with a slight coupling it is still mode 0.
+    let exact = eigensolution(&dvector![1.0, 2.0], &dmatrix![3.0, 0.01; 0.01, 0.0]).unwrap();
+    assert!(exact.roots[0] < exact.roots[1]);
+    assert!((1.0 / exact.roots[0] - 4.0).abs() < 0.01);
+    assert!(exact.shapes[(1, 0)].abs() < 0.01);
+}
+
+#[test]
+fn a_mode_that_nothing_continues_is_refused() {
+    // Modes of the reflection [I - u u^t, u; u^t, 0], u = (1, 1, 1)/sqrt 3: the three largest components pair the
+    // first three, and what is left of mode 3 has no part in itself.
+    let third = 1.0 / 3.0;
+    let u = 1.0 / 3_f64.sqrt();
+    let shapes = dmatrix![
+        1.0 - third, -third, -third, u;
+        -third, 1.0 - third, -third, u;
+        -third, -third, 1.0 - third, u;
+        u, u, u, 0.0
+    ];
+    let stiffness = dvector![1.0, 2.0, 3.0, 4.0];
+    let changed = &shapes * DMatrix::from_diagonal(&stiffness) * shapes.transpose();
+    let beta = changed - DMatrix::from_diagonal(&stiffness);
+    match eigensolution(&stiffness, &beta) {
+        Err(Error::CoalescingModes {
+            first,
+            second,
+            separation,
+        }) => {
+            assert_eq!((first, second), (3, 3));
+            assert!(separation < 1e-9);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_change_that_leaves_no_stiffness_is_no_vibration() {
+    match eigensolution(&dvector![1.0, 2.0], &dmatrix![-3.0, 0.0; 0.0, 0.0]) {
+        Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (0, -2.0)),
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,0 +1,173 @@
+//! The objective (5, 6): zero only on equal modes, blind to scale and sign of shapes, relative in frequency.
+
+use crate::common::pairings::rearrangement;
+use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
+use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
+use corfem::cases::published::PublishedTable;
+use corfem::method::error_sum::{Errors, errors};
+use corfem::method::modes::Modes;
+use corfem::method::pairing::{Pairing, cross_orthogonality, pair_modes};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use proptest::prelude::*;
+
+/// Analysis modes that are the test modes' partners in order, with the test's signs.
+fn in_order(count: usize) -> Pairing {
+    Pairing {
+        analysis_mode: (0..count).collect(),
+        sign: vec![1.0; count],
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn errors_of_equal_modes_are_zero((chain, truth) in chain_and_truth()) {
+        let modes = chain.modes(&truth);
+        let found = errors(&modes, &in_order(modes.len()), &modes);
+        prop_assert_eq!((found.frequency, found.shape, found.sum()), (0.0, 0.0, 0.0));
+        prop_assert_eq!(found.mode_count, modes.len());
+    }
+
+    #[test]
+    fn errors_of_different_modes_are_not((chain, truth) in chain_and_truth()) {
+        let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
+        let found = errors(&analysis, &in_order(test.len()), &test);
+        prop_assert!(found.frequency > 0.0);
+        prop_assert!(found.shape > 0.0);
+    }
+
+    #[test]
+    fn errors_do_not_depend_on_scale_or_sign_of_shapes(
+        (chain, truth) in chain_and_truth(),
+        scales in prop::collection::vec((1e-3..1e3_f64, any::<bool>(), 1e-3..1e3_f64), 5),
+    ) {
+        let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
+        let expected = errors(&analysis, &in_order(test.len()), &test);
+        let (mut scaled, mut scaled_test, mut pairing) =
+            (analysis.clone(), test.clone(), in_order(test.len()));
+        for (mode, (scale, flip, test_scale)) in scales.into_iter().take(test.len()).enumerate() {
+            let sign = if flip { -1.0 } else { 1.0 };
+            scaled.shapes.column_mut(mode).scale_mut(sign * scale);
+            pairing.sign[mode] = sign;
+            scaled_test.shapes.column_mut(mode).scale_mut(test_scale);
+        }
+        let found = errors(&scaled, &pairing, &scaled_test);
+        prop_assert_eq!(found.frequency, expected.frequency);
+        prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
+    }
+
+    #[test]
+    fn errors_do_not_depend_on_the_order_of_modes(
+        (chain, truth) in chain_and_truth(),
+        change in rearrangement(5),
+    ) {
+        let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
+        let expected = errors(&analysis, &in_order(test.len()), &test);
+        let order: Vec<usize> = change.order.iter().copied().filter(|&i| i < test.len()).collect();
+        let reordered = Modes {
+            omega_squared: test.omega_squared.select_rows(&order),
+            shapes: test.shapes.select_columns(&order),
+        };
+        let pairing = Pairing { analysis_mode: order, sign: vec![1.0; test.len()] };
+        let found = errors(&analysis, &pairing, &reordered);
+        prop_assert!((found.frequency - expected.frequency).abs() <= ROUND_OFF);
+        prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
+    }
+
+    #[test]
+    fn a_common_frequency_error_counts_once_a_mode(
+        (chain, truth) in chain_and_truth(),
+        error in -0.5..1.0_f64,
+    ) {
+        let test = chain.modes(&truth);
+        let analysis = Modes {
+            omega_squared: (1.0 + error).powi(2) * &test.omega_squared,
+            shapes: test.shapes.clone(),
+        };
+        let found = errors(&analysis, &in_order(test.len()), &test);
+        let count = test.len() as f64;
+        prop_assert!((found.frequency - error.abs() * count.sqrt()).abs() <= ROUND_OFF);
+        prop_assert!((found.frequency_rms() - error.abs()).abs() <= ROUND_OFF);
+        prop_assert_eq!(found.shape, 0.0);
+    }
+
+    #[test]
+    fn the_error_sum_is_that_of_its_definition((chain, truth) in chain_and_truth()) {
+        let analysis = chain.modes(&vec![1.0; truth.len()]);
+        let test = chain.modes(&truth);
+        let cross = cross_orthogonality(&analysis, &test, &chain.mass()).unwrap();
+        let pairing = pair_modes(&cross).unwrap();
+        let found = errors(&analysis, &pairing, &test).sum();
+        let model = chain.model(&vec![1.0; truth.len()]);
+        let expected = error_sum_by_definition(&model.stiffness, &model.mass, &test);
+        prop_assert!((found - expected).abs() <= MATRIX_ROUND_OFF, "{found} {expected}");
+    }
+}
+
+#[test]
+fn errors_by_hand() {
+    // Frequencies 1.1 and 1.8 against 1 and 2: (0.1)^2 + (-0.1)^2. Shapes (2, 1) against (1, 0) is (1, 1/2) against
+    // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
+    let analysis = Modes {
+        omega_squared: dvector![3.24, 1.21],
+        shapes: dmatrix![1.0, 2.0; -3.0, 1.0],
+    };
+    let test = Modes {
+        omega_squared: dvector![1.0, 4.0],
+        shapes: dmatrix![1.0, -1.0; 0.0, 4.0],
+    };
+    let pairing = Pairing {
+        analysis_mode: vec![1, 0],
+        sign: vec![1.0, -1.0],
+    };
+    let found = errors(&analysis, &pairing, &test);
+    assert!((found.frequency - 0.02_f64.sqrt()).abs() <= ROUND_OFF);
+    assert!((found.shape - (37.0 / 288.0_f64).sqrt()).abs() <= ROUND_OFF);
+    assert_eq!(found.mode_count, 2);
+}
+
+#[test]
+fn sums_and_root_mean_squares_by_hand() {
+    let errors = Errors {
+        frequency: 0.3,
+        shape: 0.6,
+        mode_count: 9,
+    };
+    assert!((errors.sum() - 0.9).abs() <= ROUND_OFF);
+    assert!((errors.frequency_rms() - 0.1).abs() <= ROUND_OFF);
+    assert!((errors.shape_rms() - 0.2).abs() <= ROUND_OFF);
+}
+
+#[test]
+fn the_frequency_error_is_the_relative_one_of_table_3() {
+    // The text gives 0.3828 for Case 1's start: the root sum of squares of the table's percent errors.
+    let table = PublishedTable::number(3).unwrap();
+    let column = |heading: &str| -> Vec<f64> {
+        (1..=9)
+            .map(|mode| table.required(&mode.to_string(), heading).unwrap())
+            .collect()
+    };
+    let modes = |frequencies: &[f64]| {
+        Modes::from_measured(
+            frequencies,
+            &DMatrix::identity(9, 9),
+            &DMatrix::identity(9, 9),
+        )
+        .unwrap()
+    };
+    let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
+    let found = errors(&analysis, &in_order(9), &test);
+    assert!((found.frequency - 0.3828).abs() <= PRINTED_PERCENT / 100.0);
+    let printed = table.required("frequency_rms", "initial_percent").unwrap();
+    assert!((100.0 * found.frequency_rms() - printed).abs() <= PRINTED_PERCENT);
+    let percent = DVector::from_vec(column("initial_percent"));
+    assert!((percent.norm() - 38.28).abs() <= 3.0 * PRINTED_PERCENT);
+    // The difference in hertz that the equation prints is another order of magnitude altogether.
+    let difference: f64 = column("initial_hz")
+        .iter()
+        .zip(column("gvt_hz"))
+        .map(|(analysis, test)| (analysis - test).powi(2))
+        .sum();
+    assert!(difference.sqrt() > 100.0 * found.frequency);
+}

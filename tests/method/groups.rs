@@ -1,0 +1,136 @@
+//! Groups: the paper's substructures, all elements of one scaled together.
+
+use corfem::cases::torque_box::TEST_GAGE;
+use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
+use corfem::method::error::Error;
+use corfem::method::parameters::Scaled;
+
+fn grouped(number: usize) -> CaseResult {
+    let mut case = Case::new(number).expect("a case");
+    case.grouping = Grouping::Substructures;
+    run_case(&case, |_, _| {}).expect("it runs")
+}
+
+/// Panels of each substructure, from the geometry: covers join upper or lower grids alone (odd or even), ribs four
+/// consecutive grids, spars the rest.
+fn by_geometry(case: &Case) -> [Vec<usize>; 3] {
+    let mut found = [Vec::new(), Vec::new(), Vec::new()];
+    for panel in &case.panels {
+        let same_parity = panel
+            .grids
+            .iter()
+            .all(|grid| grid % 2 == panel.grids[0] % 2);
+        let same_rib = panel
+            .grids
+            .iter()
+            .all(|grid| (grid - 1) / 4 == (panel.grids[0] - 1) / 4);
+        let group = if same_parity {
+            0
+        } else if same_rib {
+            2
+        } else {
+            1
+        };
+        found[group].push(panel.label);
+    }
+    found
+}
+
+#[test]
+fn substructures_are_what_the_geometry_says() {
+    let case = Case {
+        grouping: Grouping::Substructures,
+        ..Case::new(2).expect("a case")
+    };
+    let model = case.model().expect("a model");
+    let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["covers", "spars", "ribs"]);
+    for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
+        assert_eq!(parameter.scaled, Scaled::Stiffness(expected));
+    }
+}
+
+#[test]
+fn one_factor_moves_every_element_of_a_group() {
+    for number in CASES {
+        let result = grouped(number);
+        assert_eq!(result.parameter_names.len(), 3);
+        assert_eq!(result.unlimited_factors().len(), 3);
+        let groups = by_geometry(&result.case);
+        for (pass, gages) in result.correlation.passes.iter().zip(&result.pass_gages) {
+            for (group, &factor) in groups.iter().zip(&pass.factors) {
+                for &label in group {
+                    let first = result.case.panels[label - 1].gage;
+                    approx::assert_relative_eq!(
+                        gages[label - 1],
+                        first * factor,
+                        max_relative = 1e-14
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn error_common_to_a_group_is_found() {
+    // Cases 1 and 2 start 50 % thick everywhere, so three factors of 2/3 are the whole answer.
+    for number in [1, 2] {
+        let result = grouped(number);
+        assert!(result.correlation.converged, "Case {number}");
+        let covers = result.pass_gages.last().expect("a pass")[1];
+        assert!(
+            (covers / TEST_GAGE - 1.0).abs() < 0.03,
+            "Case {number}: covers at {covers}"
+        );
+    }
+}
+
+#[test]
+fn error_within_a_group_is_out_of_reach_and_said_to_be() {
+    // Case 3 alternates thick and thin within every group: no three factors can mend it.
+    let result = grouped(3);
+    assert!(!result.correlation.converged && !result.succeeded());
+    let (first, last) = (
+        &result.correlation.initial,
+        result.correlation.passes.last().expect("a pass"),
+    );
+    assert!(last.check.errors.sum() < first.errors.sum());
+    for pass in &result.correlation.passes {
+        for factor in &pass.factors {
+            assert!((7.0 / 13.0 - 1e-12..=13.0 / 7.0 + 1e-12).contains(factor));
+        }
+    }
+}
+
+/// A group may have panels at both gage bounds, and the factor that takes one bound to the other is allowed.
+#[test]
+fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
+    let mut case = Case::new(3).expect("a case");
+    case.grouping = Grouping::Substructures;
+    let gages = case.gage_range.expect("bounds of the gages");
+    let model = case.model().expect("a model");
+    assert_eq!(model.parameters().len(), 3);
+    for parameter in model.parameters() {
+        let range = parameter.factor_range.expect("bounds of the factor");
+        assert_eq!(range.lower, gages.lower / gages.upper);
+        assert_eq!(range.upper, gages.upper / gages.lower);
+        assert!(range.lower < 1.0 && 1.0 < range.upper);
+    }
+}
+
+#[test]
+fn there_is_a_gage_for_every_panel() {
+    let case = Case::new(1).expect("a case");
+    for count in [14, 16] {
+        match case.model_with(&vec![TEST_GAGE; count]) {
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                rows,
+                ..
+            }) => assert_eq!((what, expected_rows, rows), ("panel gages", 15, count)),
+            other => panic!("{other:?}"),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The inner loop: steps by perturbation that only ever lower the error sum, within their limits, until one of
+//! three reasons to stop.
+
+use crate::common::boxes::{problem_of, uneven_box};
+use crate::common::loops::{
+    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop,
+    chain_problem, given,
+};
+use crate::common::vibrations::chain_and_truth;
+use corfem::method::error::Error;
+use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
+use corfem::method::modal::ModalProblem;
+use corfem::method::step::Range;
+use proptest::prelude::*;
+
+/// A run as given; where roots are so close that no first step settles there is nothing to look at.
+fn run_given(given: &Given) -> Result<(ModalProblem, InnerRun), TestCaseError> {
+    let problem = chain_problem(&given.chain, &given.truth);
+    match run(&problem, &given.base, &given.total_ranges, &given.settings) {
+        Ok(run) => Ok((problem, run)),
+        Err(Error::UnsettledRoots { .. }) => Err(TestCaseError::reject("close roots")),
+        Err(error) => Err(TestCaseError::fail(error.to_string())),
+    }
+}
+
+/// A single step without halvings, its relaxation a thousandth of the usual.
+fn small_step() -> InnerSettings {
+    InnerSettings {
+        first_relaxation: 1e-3,
+        halvings: 0,
+        iterations: 1,
+        ..InnerSettings::default()
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn a_small_step_lowers_the_error_sum((chain, truth) in chain_and_truth()) {
+        let problem = chain_problem(&chain, &truth);
+        let count = truth.len();
+        let start = problem.start_state().unwrap().errors;
+        // Near zero either error has a kink, and no slope to go down.
+        prop_assume!(start.frequency > 0.02 && start.shape > 0.02);
+        let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step()).unwrap();
+        prop_assert_eq!(run.iterations.len(), 1);
+        prop_assert!(run.last.errors.sum() < start.sum());
+    }
+
+    #[test]
+    fn the_error_sum_only_falls(given in given()) {
+        assert_error_sum_only_falls(&run_given(&given)?.1);
+    }
+
+    #[test]
+    fn limits_hold_in_every_iteration(given in given()) {
+        let (_, run) = run_given(&given)?;
+        assert_limits_hold(&run, &given.base, &given.total_ranges, given.settings.factor_range);
+    }
+
+    #[test]
+    fn the_record_is_the_loop(given in given()) {
+        let (problem, run) = run_given(&given)?;
+        assert_record_is_the_loop(&problem, &given, &run);
+    }
+
+    #[test]
+    fn earlier_passes_matter_only_through_the_limits(given in given()) {
+        let count = given.truth.len();
+        let free = Given { total_ranges: vec![None; count], ..given.clone() };
+        let first = Given { base: vec![1.0; count], ..free.clone() };
+        prop_assert_eq!(run_given(&free)?.1.last.factors, run_given(&first)?.1.last.factors);
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::costly_config())]
+
+    #[test]
+    fn a_small_step_lowers_the_error_sum_of_a_box(case in uneven_box()) {
+        let problem = problem_of(&case);
+        let run = run(&problem, &[1.0; 15], &[None; 15], &small_step()).unwrap();
+        prop_assert_eq!(run.iterations.len(), 1);
+        prop_assert!(run.last.errors.sum() < run.start.sum());
+    }
+
+    #[test]
+    fn boxes_reach_the_tolerance_within_limits(case in uneven_box()) {
+        let problem = problem_of(&case);
+        let ranges: Vec<Option<Range>> = case
+            .panels
+            .iter()
+            .map(|panel| Some(Range { lower: 0.007 / panel.gage, upper: 0.013 / panel.gage }))
+            .collect();
+        let settings = InnerSettings::default();
+        let run = run(&problem, &[1.0; 15], &ranges, &settings).unwrap();
+        assert_error_sum_only_falls(&run);
+        assert_limits_hold(&run, &[1.0; 15], &ranges, settings.factor_range);
+        prop_assert_eq!(run.stop, Stop::Tolerance);
+        prop_assert!(run.last.errors.sum() < settings.tolerance);
+    }
+}

@@ -1,0 +1,267 @@
+//! The inner loop by hand: one spring, a step that is halved, a step that fails, and the three reasons to stop.
+
+use crate::common::boxes::{first_problem, problem_of};
+use crate::common::loops::{assert_error_sum_only_falls, assert_limits_hold, chain_problem};
+use crate::common::tolerances::ROUND_OFF;
+use crate::common::vibrations::Chain;
+use corfem::cases::Case;
+use corfem::method::appendix_c::UpdateRule;
+use corfem::method::error::Error;
+use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
+use corfem::method::modal::{DynamicModel, ModalProblem, Share};
+use corfem::method::modes::solve;
+use corfem::method::step::{Limit, Range};
+use nalgebra::dmatrix;
+
+/// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
+fn one_spring() -> ModalProblem {
+    chain_problem(&Chain::uniform(1), &[0.81])
+}
+
+#[test]
+fn one_spring_by_hand() {
+    let settings = InnerSettings {
+        first_relaxation: 2.0,
+        iterations: 1,
+        ..InnerSettings::default()
+    };
+    let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
+    assert!((run.start.sum() - 1.0 / 9.0).abs() <= ROUND_OFF);
+    // Δe = (√1.001 − 1)/0.9 and Δk = 0.001/0.81.
+    let factor = 1.0 - 2.0 / 9.0 * (1.001_f64.sqrt() - 1.0) / 0.9 / (0.001 / 0.81);
+    assert!((run.first_unlimited_factors[0] - factor).abs() <= 1e3 * ROUND_OFF);
+    assert!((run.last.factors[0] - factor).abs() <= 1e3 * ROUND_OFF);
+    assert!((run.last.errors.sum() - (factor.sqrt() / 0.9 - 1.0)).abs() <= 1e3 * ROUND_OFF);
+    assert_eq!(run.stop, Stop::Iterations);
+    assert_eq!(run.iterations[0].limits, [Limit::None]);
+    assert_eq!(run.iterations[0].halvings, 0);
+}
+
+#[test]
+fn relaxation_is_another_in_the_first_iteration() {
+    let settings = InnerSettings {
+        first_relaxation: 0.5,
+        relaxation: 2.0,
+        iterations: 2,
+        ..InnerSettings::default()
+    };
+    let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
+    let step = |iteration: usize, error_sum: f64| {
+        let record = &run.iterations[iteration];
+        let change = record.derivatives.error_change[0];
+        let stiffness = record.derivatives.share_change[(0, 0)];
+        (1.0 - record.unlimited_factors[0]) * stiffness / (change * error_sum)
+    };
+    assert!((step(0, run.start.sum()) - 0.5).abs() <= 1e3 * ROUND_OFF);
+    assert!((step(1, run.iterations[0].errors.sum()) - 2.0).abs() <= 1e3 * ROUND_OFF);
+}
+
+#[test]
+fn a_step_that_overshoots_is_halved() {
+    // R = 12 asks for 0.4, bounded to 0.55, which is farther off than the start; half of it, 0.7, is nearer.
+    let settings = InnerSettings {
+        first_relaxation: 12.0,
+        iterations: 1,
+        ..InnerSettings::default()
+    };
+    let run_with = |halvings| {
+        let settings = InnerSettings {
+            halvings,
+            ..settings.clone()
+        };
+        run(&one_spring(), &[1.0], &[None], &settings).unwrap()
+    };
+    let run = run_with(1);
+    assert_eq!(run.iterations[0].halvings, 1);
+    assert_eq!(run.iterations[0].limits, [Limit::None]);
+    assert!((run.last.factors[0] - 0.7).abs() < 1e-3);
+    assert!((run.iterations[0].unlimited_factors[0] - 0.4).abs() < 1e-3);
+    // Without halvings the place counts as a local minimum.
+    let stuck = run_with(0);
+    assert_eq!(stuck.stop, Stop::LocalMinimum);
+    assert!(stuck.iterations.is_empty());
+    assert_eq!(stuck.last.factors, [1.0]);
+    assert_eq!(stuck.last.errors, stuck.start);
+    assert_eq!(stuck.first_unlimited_factors, run.first_unlimited_factors);
+}
+
+#[test]
+fn a_step_too_far_for_the_perturbation_is_halved() {
+    // Springs of 2, 1/2 and 1 times: the whole step loses a root, half of it raises the error sum, a quarter is good.
+    let problem = chain_problem(&Chain::uniform(3), &[2.0, 0.5, 1.0]);
+    let wide = Range {
+        lower: 0.05,
+        upper: 20.0,
+    };
+    let settings = InnerSettings {
+        first_relaxation: 4.0,
+        factor_range: wide,
+        iterations: 1,
+        ..InnerSettings::default()
+    };
+    let run = run(&problem, &[1.0; 3], &[None; 3], &settings).unwrap();
+    assert_eq!(run.iterations[0].halvings, 2);
+    assert!(run.last.errors.sum() < run.start.sum());
+    let at = |fraction: f64| {
+        let factors = run
+            .first_unlimited_factors
+            .iter()
+            .map(|c| (1.0 + fraction * (c - 1.0)).clamp(0.05, 20.0))
+            .collect();
+        problem.state_at(factors, UpdateRule::default())
+    };
+    assert!(matches!(at(1.0), Err(Error::LostRoot { mode: 2, .. })));
+    assert!(at(0.5).unwrap().errors.sum() > run.start.sum());
+    assert_eq!(at(0.25).unwrap().errors, run.last.errors);
+}
+
+#[test]
+fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
+    // One mass on a spring of 300 with a destabilizing one of -200; the test has 81 where the model has 100.
+    let model = DynamicModel {
+        stiffness: dmatrix![100.0],
+        mass: dmatrix![1.0],
+        shares: vec![
+            Share::Stiffness(dmatrix![300.0]),
+            Share::Stiffness(dmatrix![-200.0]),
+        ],
+    };
+    let test = solve(&dmatrix![81.0], &model.mass, 1).unwrap();
+    let problem = ModalProblem::new(&model, &test, 1).unwrap();
+    let settings = InnerSettings {
+        first_relaxation: 6.0,
+        iterations: 1,
+        update: UpdateRule::Eigensolution,
+        ..InnerSettings::default()
+    };
+    let run = run(&problem, &[1.0; 2], &[None; 2], &settings).unwrap();
+    let whole = problem.state_at(run.first_unlimited_factors.clone(), settings.update);
+    assert!(matches!(whole, Err(Error::NotAVibration { mode: 0, .. })));
+    assert!(run.iterations[0].halvings >= 1);
+    assert!(run.last.errors.sum() < run.start.sum());
+}
+
+#[test]
+fn equal_modes_are_a_local_minimum() {
+    let chain = Chain::uniform(3);
+    let run = run(
+        &chain_problem(&chain, &[1.0; 3]),
+        &[1.0; 3],
+        &[None; 3],
+        &InnerSettings::default(),
+    )
+    .unwrap();
+    // A step is tried although the start is within tolerance; nothing lowers an error sum of nothing.
+    assert_eq!(run.stop, Stop::LocalMinimum);
+    assert!(run.iterations.is_empty());
+    // The shapes are scaled once more with the model's mass: equal to round-off.
+    assert!(run.start.sum() <= ROUND_OFF);
+    assert_eq!(run.first_unlimited_factors.len(), 3);
+    let farthest = run
+        .first_unlimited_factors
+        .iter()
+        .map(|factor| (factor - 1.0).abs());
+    assert!(farthest.fold(0.0, f64::max) <= ROUND_OFF);
+}
+
+#[test]
+fn a_start_within_tolerance_is_still_stepped_from_once() {
+    let settings = InnerSettings {
+        tolerance: 10.0,
+        ..InnerSettings::default()
+    };
+    let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
+    assert_eq!(run.stop, Stop::Tolerance);
+    assert_eq!(run.iterations.len(), 1);
+}
+
+#[test]
+fn no_iterations_are_no_steps() {
+    let settings = InnerSettings {
+        iterations: 0,
+        ..InnerSettings::default()
+    };
+    let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
+    assert_eq!(run.stop, Stop::Iterations);
+    assert!(run.iterations.is_empty() && run.first_unlimited_factors.is_empty());
+    assert_eq!(run.last.factors, [1.0]);
+}
+
+#[test]
+fn the_box_stops_for_each_of_the_three_reasons() {
+    let problem = first_problem(1);
+    let run_with = |change: &dyn Fn(&mut InnerSettings)| {
+        let mut settings = InnerSettings::default();
+        change(&mut settings);
+        run(&problem, &[1.0; 15], &[None; 15], &settings).unwrap()
+    };
+    let within = run_with(&|_| {});
+    assert_eq!(within.stop, Stop::Tolerance);
+    assert!(within.last.errors.sum() < 0.025);
+    let cut_short = run_with(&|settings| settings.iterations = 3);
+    assert_eq!(
+        (cut_short.stop, cut_short.iterations.len()),
+        (Stop::Iterations, 3)
+    );
+    assert_eq!(cut_short.last.errors, within.iterations[2].errors);
+    let stuck = run_with(&|settings| {
+        settings.tolerance = 1e-6;
+        settings.iterations = 1000;
+    });
+    assert_eq!(stuck.stop, Stop::LocalMinimum);
+    assert!(stuck.last.errors.sum() < within.last.errors.sum());
+    assert_error_sum_only_falls(&stuck);
+}
+
+#[test]
+fn case_3_is_held_by_its_gages_and_case_4_by_the_factor() {
+    let case = Case::new(3).unwrap();
+    let ranges = case.model().unwrap().factor_ranges().unwrap();
+    let settings = InnerSettings::default();
+    let run_3 = run(&problem_of(&case), &[1.0; 15], &ranges, &settings).unwrap();
+    assert_limits_hold(&run_3, &[1.0; 15], &ranges, settings.factor_range);
+    let held = |run: &InnerRun, limit| {
+        run.iterations
+            .iter()
+            .any(|iteration| iteration.limits.contains(&limit))
+    };
+    assert!(held(&run_3, Limit::Total));
+    let once = InnerSettings {
+        iterations: 1,
+        ..settings
+    };
+    let run_4 = run(&first_problem(4), &[1.0; 15], &[None; 15], &once).unwrap();
+    // Element 8 asks for far more than the factor's bound and gets that.
+    assert_eq!(run_4.iterations[0].limits[7], Limit::Factor);
+    assert_eq!(run_4.iterations[0].halvings, 0);
+    assert_eq!(run_4.last.factors[7], 1.5);
+    assert!(!held(&run_4, Limit::Total));
+}
+
+#[test]
+fn the_default_settings_are_the_papers() {
+    let settings = InnerSettings::default();
+    assert_eq!((settings.first_relaxation, settings.relaxation), (0.8, 1.0));
+    assert_eq!(
+        (settings.factor_range.lower, settings.factor_range.upper),
+        (0.55, 1.5)
+    );
+    assert_eq!(settings.tolerance, 0.025);
+    assert_eq!((settings.halvings, settings.iterations), (5, 100));
+}
+
+#[test]
+fn the_tolerance_itself_is_not_within_the_tolerance() {
+    let to = |tolerance: f64| {
+        let settings = InnerSettings {
+            tolerance,
+            iterations: 1,
+            ..InnerSettings::default()
+        };
+        run(&one_spring(), &[1.0], &[None], &settings).unwrap()
+    };
+    let reached = to(1e-9).last.errors.sum();
+    assert!(reached > 1e-9);
+    assert_eq!(to(reached).stop, Stop::Iterations);
+    assert_eq!(to(reached.next_up()).stop, Stop::Tolerance);
+}

@@ -1,0 +1,269 @@
+//! Changes of mass: element and point masses, their derivatives, and correlation by mass or by both.
+
+use crate::common::log_log_slope;
+use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
+use approx::assert_relative_eq;
+use corfem::cases::Case;
+use corfem::method::appendix_a::{condense, unit_mass_share};
+use corfem::method::appendix_c::UpdateRule;
+use corfem::method::assembly::{FactorizedStiffness, element_matrices};
+use corfem::method::derivatives::{DERIVATIVE_STEP, error_derivatives};
+use corfem::method::elements::mass::corner_volumes;
+use corfem::method::error::Error;
+use corfem::method::modal::{ModalProblem, Share};
+use corfem::method::model::FiniteElementModel;
+use corfem::method::modes::{Modes, solve};
+use corfem::method::parameters::{Parameter, Scaled};
+use corfem::method::structure::Structure;
+use nalgebra::DMatrix;
+
+/// Aluminum, lbf·s²/in⁴.
+pub const DENSITY: f64 = 2.5e-4;
+
+/// The box of Case 2 at its test gages, its panels with a density, given parameters and point mass factors.
+pub fn boxed(
+    parameters: Vec<Parameter>,
+    density: f64,
+    point_factors: [f64; 9],
+) -> Result<FiniteElementModel, Error> {
+    let case = Case::new(2)?;
+    let model = case.model_with(&[0.010; 15])?;
+    let mut elements = model.structure().elements().to_vec();
+    for element in &mut elements {
+        element.material = element.material.with_density(density)?;
+    }
+    let structure = Structure::new(model.structure().grids().to_vec(), elements)?;
+    let mut mass = model.mass().clone();
+    for (dof, factor) in point_factors.iter().enumerate() {
+        mass[(dof, dof)] *= factor;
+    }
+    FiniteElementModel::new(
+        structure,
+        model.load_distribution().clone(),
+        mass,
+        parameters,
+    )
+}
+
+pub fn point_masses() -> Vec<Parameter> {
+    (0..9)
+        .map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass(vec![dof])))
+        .collect()
+}
+
+fn element_masses() -> Vec<Parameter> {
+    (1..=39)
+        .map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass(vec![label])))
+        .collect()
+}
+
+pub fn modes(model: &FiniteElementModel) -> Modes {
+    let dynamic = model
+        .analyze(&vec![1.0; model.parameters().len()])
+        .expect("held");
+    solve(&dynamic.stiffness, &dynamic.mass, 9).expect("solved")
+}
+
+#[test]
+fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
+    // (A.9): q_Dᵗ M_D q_D = q_Sᵗ M_S q_S with q_S = Bᵗ q_D, M_S put together here entry by entry.
+    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
+    let structure = model.structure();
+    let matrices = element_matrices(structure).expect("good panels");
+    let sizes: Vec<f64> = structure
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect();
+    let stiffness =
+        FactorizedStiffness::new(&matrices, &sizes, structure.free_dof()).expect("held");
+    let b_t = condense(&stiffness, model.load_distribution())
+        .expect("independent")
+        .transformation;
+    let mut structural = DMatrix::zeros(36, 36);
+    for element in structure.elements() {
+        let volumes = corner_volumes(element.kind, &structure.corners(element)).expect("fits");
+        for (grid, volume) in element.grids.iter().zip(volumes) {
+            for direction in 0..3 {
+                if let Some(dof) = structure.free_dof_index(*grid, direction) {
+                    structural[(dof, dof)] += DENSITY * element.size * volume;
+                }
+            }
+        }
+    }
+    let expected = b_t.tr_mul(&(structural * &b_t)) + model.mass();
+    let dynamic = model.analyze(&[1.0; 39]).expect("held");
+    assert_eq!(dynamic.mass.shape(), (9, 9));
+    assert_relative_eq!(
+        dynamic.mass,
+        expected,
+        epsilon = MATRIX_ROUND_OFF * expected.amax()
+    );
+    let added = dynamic.mass - model.mass();
+    assert!(
+        added.trace() > model.mass()[(2, 2)],
+        "the elements weigh more than the smallest point mass"
+    );
+}
+
+#[test]
+fn mass_shares_sum_to_the_mass() {
+    let parameters = point_masses().into_iter().chain(element_masses()).collect();
+    let model = boxed(parameters, DENSITY, [1.0; 9]).expect("a model");
+    for factors in [
+        vec![1.0; 48],
+        (0..48).map(|e| 0.6 + 0.02 * e as f64).collect(),
+    ] {
+        let dynamic = model.analyze(&factors).expect("held");
+        let mut sum = DMatrix::zeros(9, 9);
+        for share in &dynamic.shares {
+            assert!(matches!(share, Share::Mass(_)));
+            sum += share.matrix();
+        }
+        assert_relative_eq!(
+            sum,
+            dynamic.mass,
+            epsilon = MATRIX_ROUND_OFF * dynamic.mass.amax()
+        );
+    }
+}
+
+#[test]
+fn mass_factors_leave_sizes_and_stiffness_alone() {
+    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
+    let (light, heavy) = (
+        model.analyze(&[1.0; 39]).expect("held"),
+        model.analyze(&[2.0; 39]).expect("held"),
+    );
+    assert_eq!(light.stiffness, heavy.stiffness);
+    assert_eq!(
+        model.sizes(&[2.0; 39]).expect("sizes"),
+        model.sizes(&[1.0; 39]).expect("sizes")
+    );
+    let (one, two) = (&light.mass - model.mass(), &heavy.mass - model.mass());
+    assert_relative_eq!(2.0 * one, two, epsilon = MATRIX_ROUND_OFF * two.amax());
+}
+
+#[test]
+fn unit_mass_share_is_symmetric_and_semidefinite() {
+    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
+    let b_t = DMatrix::from_fn(36, 9, |i, j| ((i * 7 + j * 3) % 11) as f64 - 5.0);
+    for element in model.element_matrices() {
+        let share = unit_mass_share(&b_t, element);
+        assert_eq!(share.shape(), (9, 9));
+        assert_eq!(share, share.transpose());
+        let smallest = share.clone().symmetric_eigenvalues().min();
+        assert!(smallest >= -MATRIX_ROUND_OFF * share.amax());
+    }
+}
+
+/// The box with point masses off by up to 30 %, stiffness of panels and masses as parameters.
+pub fn both() -> (FiniteElementModel, Modes) {
+    let truth = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
+    let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
+    let parameters = (1..=15)
+        .map(|label| Parameter::element(label, None))
+        .chain(point_masses())
+        .collect();
+    (
+        boxed(parameters, DENSITY, wrong).expect("a model"),
+        modes(&truth),
+    )
+}
+
+#[test]
+fn mass_derivatives_are_central_differences() {
+    let (model, test) = both();
+    let problem =
+        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
+    let state = problem.start_state().expect("a state");
+    let derivatives = error_derivatives(&problem, &state).expect("separate modes");
+    for e in 0..24 {
+        let e_s = |change: f64| {
+            let mut factors = vec![1.0; 24];
+            factors[e] += change;
+            let state = problem.state_at(factors, UpdateRule::Eigensolution);
+            state.expect("solved").errors.sum()
+        };
+        let h = DERIVATIVE_STEP;
+        let (below, here, above) = (e_s(-h), e_s(0.0), e_s(h));
+        let central = (above - below) / (2.0 * h);
+        let curvature = (above - 2.0 * here + below) / (h * h);
+        let forward = derivatives.error_change[e] / h;
+        // What a forward difference of exact error sums differs by; first-order roots and shapes leave the rest,
+        // which is of the same order in the step.
+        let difference = (forward - central - 0.5 * curvature * h).abs();
+        assert!(
+            difference < FORWARD_DIFFERENCE,
+            "parameter {e}: {forward} for {central}, off by {difference}"
+        );
+    }
+    // Mass lowers what stiffness raises.
+    assert!(derivatives.share_change.iter().all(|&change| change >= 0.0));
+}
+
+#[test]
+fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
+    let (model, test) = both();
+    let problem =
+        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
+    let points: Vec<(f64, f64)> = [0.005, 0.01, 0.02, 0.04]
+        .into_iter()
+        .map(|size| {
+            let factors: Vec<f64> = (0..24)
+                .map(|e| 1.0 + if e % 3 == 0 { size } else { -size })
+                .collect();
+            let first = problem
+                .state_at(factors.clone(), UpdateRule::FirstOrder)
+                .expect("solved");
+            let exact = problem
+                .state_at(factors, UpdateRule::Eigensolution)
+                .expect("solved");
+            let pairs = first
+                .modes
+                .omega_squared
+                .iter()
+                .zip(exact.modes.omega_squared.iter());
+            (
+                size,
+                pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max),
+            )
+        })
+        .collect();
+    let slope = log_log_slope(&points);
+    assert!((1.9..2.2).contains(&slope), "{slope}");
+}
+
+#[test]
+fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
+    let (model, test) = both();
+    let problem =
+        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
+    let factors: Vec<f64> = (0..24)
+        .map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0)
+        .collect();
+    let ours = problem
+        .state_at(factors.clone(), UpdateRule::default())
+        .expect("solved");
+    let exact = problem
+        .state_at(factors, UpdateRule::Eigensolution)
+        .expect("solved");
+    for (a, b) in ours
+        .modes
+        .omega_squared
+        .iter()
+        .zip(exact.modes.omega_squared.iter())
+    {
+        assert_relative_eq!(*a, *b, max_relative = 1e2 * MATRIX_ROUND_OFF);
+    }
+    assert_relative_eq!(
+        ours.modes.shapes,
+        exact.modes.shapes,
+        epsilon = 1e4 * MATRIX_ROUND_OFF * exact.modes.shapes.amax()
+    );
+    assert_relative_eq!(
+        ours.errors.sum(),
+        exact.errors.sum(),
+        max_relative = 1e4 * MATRIX_ROUND_OFF
+    );
+}

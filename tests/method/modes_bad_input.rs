@@ -1,0 +1,256 @@
+//! What the eigenproblem and the measured modes refuse, by variant and by who is named.
+
+use corfem::closed_forms::spring_chain::uniform_held_modes;
+use corfem::method::error::Error;
+use corfem::method::modes::{Modes, solve};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+
+fn identity(size: usize) -> DMatrix<f64> {
+    DMatrix::identity(size, size)
+}
+
+fn diagonal(entries: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_diagonal(&DVector::from_column_slice(entries))
+}
+
+#[test]
+fn a_zero_or_negative_mass_names_its_dof() {
+    for (masses, expected) in [
+        ([1.0, 0.0, 1.0], 1),
+        ([1.0, 1.0, -2.0], 2),
+        ([0.0, 1.0, 1.0], 0),
+    ] {
+        match solve(&identity(3), &diagonal(&masses), 3) {
+            Err(Error::NotPositiveDefinite { what, dof }) => {
+                assert_eq!((what, dof), ("dynamic mass", expected));
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn an_indefinite_mass_names_where_it_shows() {
+    // The leading 2 x 2 is singular although its diagonal is positive.
+    match solve(&identity(2), &dmatrix![1.0, 2.0; 2.0, 1.0], 2) {
+        Err(Error::NotPositiveDefinite { what, dof }) => {
+            assert_eq!((what, dof), ("dynamic mass", 1));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn nan_and_infinity_name_their_entry() {
+    let mut stiffness = identity(3);
+    stiffness[(2, 1)] = f64::NAN;
+    match solve(&stiffness, &identity(3), 3) {
+        Err(Error::NotFinite {
+            what,
+            row,
+            column,
+            value,
+        }) => {
+            assert_eq!((what, row, column), ("dynamic stiffness", 2, 1));
+            assert!(value.is_nan());
+        }
+        other => panic!("{other:?}"),
+    }
+    let mut mass = identity(3);
+    mass[(0, 2)] = f64::INFINITY;
+    match solve(&identity(3), &mass, 3) {
+        Err(Error::NotFinite {
+            what,
+            row,
+            column,
+            value,
+        }) => assert_eq!(
+            (what, row, column, value),
+            ("dynamic mass", 0, 2, f64::INFINITY)
+        ),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn an_unsymmetric_matrix_names_the_worst_pair() {
+    let stiffness = dmatrix![4.0, 1.0, 0.0; 1.0, 4.0, 0.5; 0.0, 0.9, 4.0];
+    match solve(&stiffness, &identity(3), 3) {
+        Err(Error::NotSymmetric {
+            what,
+            row,
+            column,
+            difference,
+        }) => {
+            assert_eq!((what, row, column), ("dynamic stiffness", 2, 1));
+            assert!((difference - 0.1).abs() < f64::EPSILON);
+        }
+        other => panic!("{other:?}"),
+    }
+    match solve(&identity(2), &dmatrix![1.0, 0.1; 0.0, 1.0], 2) {
+        Err(Error::NotSymmetric {
+            what, row, column, ..
+        }) => assert_eq!((what, row, column), ("dynamic mass", 1, 0)),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn matrices_of_other_shapes_are_refused() {
+    match solve(&DMatrix::zeros(3, 2), &identity(3), 1) {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => assert_eq!(
+            (what, expected_rows, expected_columns, rows, columns),
+            ("dynamic stiffness", 3, 3, 3, 2)
+        ),
+        other => panic!("{other:?}"),
+    }
+    match solve(&identity(3), &identity(2), 1) {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => assert_eq!(
+            (what, expected_rows, expected_columns, rows, columns),
+            ("dynamic mass", 3, 3, 2, 2)
+        ),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn too_many_modes_or_none_are_refused() {
+    match solve(&identity(3), &identity(3), 4) {
+        Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => assert_eq!((what, available, requested), ("modes", 3, 4)),
+        other => panic!("{other:?}"),
+    }
+    match solve(&identity(3), &identity(3), 0) {
+        Err(Error::Empty { what }) => assert_eq!(what, "modes"),
+        other => panic!("{other:?}"),
+    }
+    let modes = solve(&identity(3), &identity(3), 2).unwrap();
+    match modes.lowest(3) {
+        Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => assert_eq!((what, available, requested), ("modes", 2, 3)),
+        other => panic!("{other:?}"),
+    }
+    assert!(matches!(
+        modes.lowest(0),
+        Err(Error::Empty { what: "modes" })
+    ));
+}
+
+#[test]
+fn a_motion_that_is_no_vibration_is_refused() {
+    match solve(&diagonal(&[3.0, -2.0]), &diagonal(&[1.0, 4.0]), 2) {
+        Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (0, -0.5)),
+        other => panic!("{other:?}"),
+    }
+    match solve(&diagonal(&[0.0, 1.0]), &identity(2), 1) {
+        Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (0, 0.0)),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn measured_modes_must_fit_the_mass() {
+    match Modes::from_measured(&[], &DMatrix::zeros(2, 0), &identity(2)) {
+        Err(Error::Empty { what }) => assert_eq!(what, "test modes"),
+        other => panic!("{other:?}"),
+    }
+    match Modes::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1), &identity(2)) {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => assert_eq!(
+            (what, expected_rows, expected_columns, rows, columns),
+            ("test mode shapes", 2, 2, 3, 1)
+        ),
+        other => panic!("{other:?}"),
+    }
+    match Modes::from_measured(&[1.0], &dmatrix![1.0; f64::NAN], &identity(2)) {
+        Err(Error::NotFinite {
+            what, row, column, ..
+        }) => assert_eq!((what, row, column), ("test mode shapes", 1, 0)),
+        other => panic!("{other:?}"),
+    }
+    match Modes::from_measured(&[1.0], &dmatrix![1.0; 1.0], &dmatrix![1.0, 0.5; 0.0, 1.0]) {
+        Err(Error::NotSymmetric { what, .. }) => assert_eq!(what, "dynamic mass"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn measured_frequencies_must_be_positive() {
+    for bad in [0.0, -1.0, f64::INFINITY] {
+        match Modes::from_measured(&[1.0, bad], &identity(2), &identity(2)) {
+            Err(Error::NotPositive { what, owner, value }) => assert_eq!(
+                (what, owner.as_str(), value),
+                ("frequency", "test mode 1 (from zero)", bad)
+            ),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(matches!(
+        Modes::from_measured(&[f64::NAN], &dmatrix![1.0], &identity(1)),
+        Err(Error::NotPositive { value, .. }) if value.is_nan()
+    ));
+}
+
+#[test]
+fn measured_shapes_must_move_mass() {
+    match Modes::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0], &identity(2)) {
+        Err(Error::NotPositive { what, owner, value }) => assert_eq!(
+            (what, owner.as_str(), value),
+            ("generalized mass", "test mode 1 (from zero)", 0.0)
+        ),
+        other => panic!("{other:?}"),
+    }
+    let negative = DMatrix::from_diagonal(&dvector![1.0, -4.0]);
+    match Modes::from_measured(&[1.0, 2.0], &identity(2), &negative) {
+        Err(Error::NotPositive { what, owner, value }) => assert_eq!(
+            (what, owner.as_str(), value),
+            ("generalized mass", "test mode 1 (from zero)", -4.0)
+        ),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_chain_needs_masses_and_springs() {
+    assert!(matches!(
+        uniform_held_modes(0, 1.0, 1.0),
+        Err(Error::Empty { what: "masses" })
+    ));
+    match uniform_held_modes(2, 0.0, 1.0) {
+        Err(Error::NotPositive { what, owner, value }) => assert_eq!(
+            (what, owner.as_str(), value),
+            ("stiffness", "the uniform chain", 0.0)
+        ),
+        other => panic!("{other:?}"),
+    }
+    match uniform_held_modes(2, 1.0, -1.0) {
+        Err(Error::NotPositive { what, owner, value }) => assert_eq!(
+            (what, owner.as_str(), value),
+            ("mass", "the uniform chain", -1.0)
+        ),
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,0 +1,175 @@
+//! The outer loop: exact checks between inner loops, until analysis and test agree or there is no more to try.
+
+use crate::common::loops::correlate_chain;
+use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
+use corfem::method::appendix_c::UpdateRule;
+use corfem::method::error::Error;
+use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::modal::ModalProblem;
+use corfem::method::outer_loop::{Check, Settings, check, correlate};
+use corfem::method::step::Range;
+use proptest::prelude::*;
+use std::cell::RefCell;
+
+/// Settings with tolerances from loose to strict and up to four passes, so that loops end for every reason.
+fn settings() -> impl Strategy<Value = Settings> {
+    (
+        (0.01..0.2_f64, 0.01..0.1_f64),
+        (0.005..0.3_f64, 0.005..0.3_f64, 0.005..0.3_f64),
+        (0..=3_usize, 0..=4_usize, 0..=8_usize),
+    )
+        .prop_map(
+            |(inner, outer, (least_passes, most_passes, iterations))| Settings {
+                inner: InnerSettings {
+                    tolerance: inner.0,
+                    iterations,
+                    ..InnerSettings::default()
+                },
+                later_inner_tolerance: inner.1,
+                error_sum_tolerance: outer.0,
+                frequency_tolerance: outer.1,
+                shape_tolerance: outer.2,
+                least_passes,
+                most_passes,
+                analysis_modes: None,
+            },
+        )
+}
+
+proptest! {
+    #![proptest_config(crate::common::costly_config())]
+
+    #[test]
+    fn the_record_is_the_loop((chain, truth) in chain_and_truth(), settings in settings()) {
+        let (test, ranges) = (chain.modes(&truth), vec![None; truth.len()]);
+        let (asked, told) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
+        let found = correlate(
+            |factors| {
+                asked.borrow_mut().push(factors.to_vec());
+                Ok(chain.model(factors))
+            },
+            &test,
+            &ranges,
+            &settings,
+            |number, pass| told.borrow_mut().push((number, pass.factors.clone())),
+        )
+        .unwrap();
+        let meets = |check: &Check| {
+            check.errors.sum() <= settings.error_sum_tolerance
+                && check.errors.frequency <= settings.frequency_tolerance
+                && check.errors.shape <= settings.shape_tolerance
+        };
+        let mut factors = vec![1.0; truth.len()];
+        let mut analyses = vec![factors.clone()];
+        let mut tolerance = settings.inner.tolerance;
+        let (mut converged, mut stuck) = (meets(&found.initial), false);
+        prop_assert_eq!(found.parameter_count, truth.len());
+        for (number, pass) in found.passes.iter().enumerate() {
+            prop_assert!(number < settings.most_passes && !stuck);
+            prop_assert!(number < settings.least_passes || !converged);
+            // The inner loop of this pass begins at the factors so far, with this pass's tolerance.
+            let model = chain.model(&factors);
+            let problem = ModalProblem::new(&model, &test, truth.len()).unwrap();
+            let inner = InnerSettings { tolerance, ..settings.inner.clone() };
+            let expected = run(&problem, &factors, &ranges, &inner).unwrap();
+            prop_assert_eq!(&pass.inner.last.factors, &expected.last.factors);
+            prop_assert_eq!(pass.inner.stop, expected.stop);
+            prop_assert_eq!(pass.inner.iterations.len(), expected.iterations.len());
+            for (factor, step) in factors.iter_mut().zip(&expected.last.factors) {
+                *factor *= step;
+            }
+            prop_assert_eq!(&pass.factors, &factors);
+            prop_assert_eq!(&told.borrow()[number], &(number + 1, factors.clone()));
+            analyses.push(factors.clone());
+            tolerance = settings.later_inner_tolerance;
+            converged = meets(&pass.check);
+            stuck = pass.inner.iterations.is_empty();
+        }
+        // It went on for as long as it had to.
+        let count = found.passes.len();
+        prop_assert!(stuck || count == settings.most_passes || (count >= settings.least_passes && converged));
+        prop_assert_eq!(found.converged, converged);
+        prop_assert_eq!(told.borrow().len(), count);
+        prop_assert_eq!(&*asked.borrow(), &analyses);
+    }
+
+    #[test]
+    fn checks_are_exact_solutions((chain, truth) in chain_and_truth()) {
+        let settings = Settings { least_passes: 2, most_passes: 2, ..Settings::default() };
+        let found = correlate_chain(&chain, &truth, &settings);
+        let test = chain.modes(&truth);
+        let ones = vec![1.0; truth.len()];
+        let checks = std::iter::once((&ones, &found.initial))
+            .chain(found.passes.iter().map(|pass| (&pass.factors, &pass.check)));
+        for (factors, check) in checks {
+            let model = chain.model(factors);
+            let expected = error_sum_by_definition(&model.stiffness, &model.mass, &test);
+            prop_assert!((check.errors.sum() - expected).abs() <= MATRIX_ROUND_OFF);
+            prop_assert_eq!(check.modes.len(), truth.len());
+            prop_assert_eq!(check.frequencies_hz.len(), truth.len());
+            let all = check.modes.frequencies_hz();
+            for (frequency, &i) in check.frequencies_hz.iter().zip(&check.pairing.analysis_mode) {
+                prop_assert_eq!(*frequency, all[i]);
+            }
+        }
+    }
+
+    #[test]
+    fn where_b_never_changes_the_check_confirms_the_inner_loop((chain, truth) in chain_and_truth()) {
+        // By eigensolutions: the recursion stops at 60 orders, which a large step among close modes may not be enough for.
+        let inner = InnerSettings { update: UpdateRule::Eigensolution, ..InnerSettings::default() };
+        let settings = Settings { inner, least_passes: 3, ..Settings::default() };
+        for pass in correlate_chain(&chain, &truth, &settings).passes {
+            let difference = pass.check.errors.sum() - pass.inner.last.errors.sum();
+            prop_assert!(difference.abs() <= CONVERGED_STATE, "{difference:e}");
+        }
+    }
+
+    #[test]
+    fn the_best_factors_have_the_lowest_exact_error_sum(
+        (chain, truth) in chain_and_truth(),
+        settings in settings(),
+    ) {
+        let found = correlate_chain(&chain, &truth, &settings);
+        let best = found.best_factors();
+        prop_assert_eq!(best.len(), truth.len());
+        let test = chain.modes(&truth);
+        let sum = |factors: &[f64]| check(&chain.model(factors), &test, truth.len()).unwrap().errors.sum();
+        let lowest = sum(&best);
+        prop_assert!(lowest <= found.initial.errors.sum());
+        for pass in &found.passes {
+            prop_assert!(lowest <= pass.check.errors.sum());
+        }
+        let known = best.iter().all(|&factor| factor == 1.0)
+            || found.passes.iter().any(|pass| pass.factors == best);
+        prop_assert!(known);
+    }
+
+    #[test]
+    fn total_limits_hold_over_all_passes(
+        (chain, truth) in chain_and_truth(),
+        bounds in prop::collection::vec((0.8..0.95_f64, 1.05..1.2_f64), 5),
+    ) {
+        let ranges: Vec<Option<Range>> = bounds[..truth.len()]
+            .iter()
+            .map(|&(lower, upper)| Some(Range { lower, upper }))
+            .collect();
+        let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
+        let found = correlate(
+            |factors| Ok(chain.model(factors)),
+            &chain.modes(&truth),
+            &ranges,
+            &settings,
+            |_, _| {},
+        );
+        // Where roots are so close that no first step settles there is no pass to look at.
+        prop_assume!(!matches!(found, Err(Error::UnsettledRoots { .. })));
+        for pass in found.unwrap().passes {
+            for (factor, (lower, upper)) in pass.factors.iter().zip(&bounds) {
+                prop_assert!(*factor >= lower * (1.0 - ROUND_OFF));
+                prop_assert!(*factor <= upper * (1.0 + ROUND_OFF));
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! The outer loop by hand: when it begins, goes on and ends, and what its settings mean.
+
+use crate::common::loops::{chain_problem, correlate_chain};
+use crate::common::tolerances::MATRIX_ROUND_OFF;
+use crate::common::vibrations::Chain;
+use corfem::cases::Case;
+use corfem::method::inner_loop::{InnerSettings, Stop, run};
+use corfem::method::outer_loop::{Settings, check, correlate};
+
+#[test]
+fn a_model_that_is_right_needs_no_pass() {
+    let chain = Chain::uniform(3);
+    let settings = Settings {
+        least_passes: 0,
+        ..Settings::default()
+    };
+    let found = correlate_chain(&chain, &[1.0; 3], &settings);
+    assert!(found.converged);
+    assert!(found.passes.is_empty());
+    assert_eq!(found.best_factors(), [1.0; 3]);
+}
+
+#[test]
+fn a_pass_without_a_step_is_the_last() {
+    let settings = Settings {
+        least_passes: 3,
+        ..Settings::default()
+    };
+    let found = correlate_chain(&Chain::uniform(3), &[1.0; 3], &settings);
+    assert_eq!(found.passes.len(), 1);
+    assert!(found.converged);
+    let pass = &found.passes[0];
+    assert_eq!(pass.inner.stop, Stop::LocalMinimum);
+    assert!(pass.inner.iterations.is_empty());
+    assert_eq!(pass.factors, [1.0; 3]);
+    assert_eq!(found.best_factors(), [1.0; 3]);
+}
+
+#[test]
+fn every_tolerance_counts() {
+    // One pass; the errors it leaves meet every tolerance just above them, and none just below any one.
+    let (chain, truth) = (Chain::uniform(3), [1.3, 0.8, 1.1]);
+    let once = |change: &dyn Fn(&mut Settings)| {
+        let mut settings = Settings {
+            most_passes: 1,
+            ..Settings::default()
+        };
+        change(&mut settings);
+        correlate_chain(&chain, &truth, &settings)
+    };
+    let errors = once(&|_| {}).passes[0].check.errors;
+    assert!(errors.frequency > 0.0 && errors.shape > 0.0);
+    let within = |sum: f64, frequency: f64, shape: f64| {
+        once(&|settings| {
+            settings.error_sum_tolerance = sum * errors.sum();
+            settings.frequency_tolerance = frequency * errors.frequency;
+            settings.shape_tolerance = shape * errors.shape;
+        })
+        .converged
+    };
+    assert!(within(1.0, 1.0, 1.0));
+    assert!(!within(0.99, 1.0, 1.0));
+    assert!(!within(1.0, 0.99, 1.0));
+    assert!(!within(1.0, 1.0, 0.99));
+}
+
+#[test]
+fn passes_after_the_first_have_their_own_tolerance() {
+    let chain = Chain::uniform(4);
+    let settings = Settings {
+        inner: InnerSettings {
+            tolerance: 0.1,
+            ..InnerSettings::default()
+        },
+        later_inner_tolerance: 0.02,
+        least_passes: 2,
+        most_passes: 2,
+        ..Settings::default()
+    };
+    let found = correlate_chain(&chain, &[1.4, 0.8, 1.2, 0.7], &settings);
+    let sums: Vec<f64> = found
+        .passes
+        .iter()
+        .map(|pass| pass.inner.last.errors.sum())
+        .collect();
+    assert!(sums[0] < 0.1 && sums[0] > 0.02);
+    assert!(sums[1] < 0.02);
+    assert!(
+        found
+            .passes
+            .iter()
+            .all(|pass| pass.inner.stop == Stop::Tolerance)
+    );
+}
+
+#[test]
+fn the_most_passes_have_the_last_word() {
+    let settings = Settings {
+        least_passes: 5,
+        most_passes: 2,
+        ..Settings::default()
+    };
+    let found = correlate_chain(&Chain::uniform(3), &[1.3, 0.8, 1.1], &settings);
+    assert_eq!(found.passes.len(), 2);
+    let none = Settings {
+        most_passes: 0,
+        ..settings
+    };
+    let found = correlate_chain(&Chain::uniform(3), &[1.3, 0.8, 1.1], &none);
+    assert!(found.passes.is_empty() && !found.converged);
+    assert_eq!(found.best_factors(), [1.0; 3]);
+}
+
+#[test]
+fn analysis_modes_may_be_fewer_than_degrees_of_freedom() {
+    let chain = Chain::uniform(5);
+    let test = chain.modes(&[1.2, 0.9, 1.1, 1.0, 0.8]).lowest(2).unwrap();
+    let with = |analysis_modes| {
+        let settings = Settings {
+            analysis_modes,
+            ..Settings::default()
+        };
+        correlate(
+            |factors| Ok(chain.model(factors)),
+            &test,
+            &[None; 5],
+            &settings,
+            |_, _| {},
+        )
+        .unwrap()
+    };
+    let some = with(Some(3));
+    assert_eq!(some.initial.modes.shapes.shape(), (5, 3));
+    assert_eq!(some.passes[0].check.modes.len(), 3);
+    assert_eq!(some.passes[0].inner.last.generalized_shapes.shape(), (3, 3));
+    assert_eq!(some.initial.errors.mode_count, 2);
+    let all = with(None);
+    assert_eq!(all.initial.modes.shapes.shape(), (5, 5));
+    assert_eq!(all.passes[0].inner.last.generalized_shapes.shape(), (5, 5));
+    // Exact errors at the start do not depend on modes beyond those paired.
+    assert_eq!(some.initial.errors, all.initial.errors);
+}
+
+#[test]
+fn frequencies_stand_in_the_order_of_the_test_modes() {
+    let chain = Chain::uniform(3);
+    let mut test = chain.modes(&[1.0; 3]);
+    test.omega_squared.swap_rows(0, 2);
+    test.shapes.swap_columns(0, 2);
+    let found = check(&chain.model(&[1.0; 3]), &test, 3).unwrap();
+    assert_eq!(found.pairing.analysis_mode, [2, 1, 0]);
+    assert_eq!(found.frequencies_hz, test.frequencies_hz());
+    assert_eq!(found.errors.frequency, 0.0);
+}
+
+#[test]
+fn the_default_settings_are_as_documented() {
+    let settings = Settings::default();
+    assert_eq!(settings.inner, InnerSettings::default());
+    assert_eq!(settings.later_inner_tolerance, 0.015);
+    assert_eq!(settings.error_sum_tolerance, 0.05);
+    assert_eq!(settings.frequency_tolerance, 0.015);
+    assert_eq!(settings.shape_tolerance, 0.04);
+    assert_eq!((settings.least_passes, settings.most_passes), (1, 10));
+    assert_eq!(settings.analysis_modes, None);
+}
+
+#[test]
+fn the_box_needs_a_second_pass_because_b_was_frozen() {
+    let case = Case::new(1).unwrap();
+    let model = case.model().unwrap();
+    let test = case.test_modes().unwrap();
+    let ranges = model.factor_ranges().unwrap();
+    let found = correlate(
+        |f| model.analyze(f),
+        &test,
+        &ranges,
+        &case.settings,
+        |_, _| {},
+    )
+    .unwrap();
+    let [first, second] = &found.passes[..] else {
+        panic!("{} passes", found.passes.len());
+    };
+    // The exact check of the first pass shows more error than its inner loop; the second, hardly changed, does not.
+    assert!(first.check.errors.sum() > 1.5 * first.inner.last.errors.sum());
+    assert!(second.check.errors.sum() < 1.1 * second.inner.last.errors.sum());
+    // Each pass begins with a new exact solution.
+    assert!((second.inner.start.sum() - first.check.errors.sum()).abs() <= MATRIX_ROUND_OFF);
+    assert_eq!(found.best_factors(), second.factors);
+}
+
+#[test]
+fn the_first_pass_is_the_inner_loop_from_the_first_model() {
+    let (chain, truth) = (Chain::uniform(3), [1.3, 0.8, 1.1]);
+    let found = correlate_chain(&chain, &truth, &Settings::default());
+    let problem = chain_problem(&chain, &truth);
+    let inner = run(&problem, &[1.0; 3], &[None; 3], &InnerSettings::default()).unwrap();
+    assert_eq!(found.passes[0].inner.last.factors, inner.last.factors);
+    assert_eq!(found.initial.errors, inner.start);
+}
+
+/// An analysis that knows nothing of the factors: no pass is better than the start, and none better than another.
+#[test]
+fn of_equal_passes_the_first_is_best() {
+    let chain = Chain::uniform(3);
+    let model = chain.model(&[1.0; 3]);
+    let test = chain.modes(&[1.3, 0.8, 1.1]);
+    let settings = Settings {
+        least_passes: 2,
+        most_passes: 2,
+        ..Settings::default()
+    };
+    let found = correlate(
+        |_| Ok(model.clone()),
+        &test,
+        &[None; 3],
+        &settings,
+        |_, _| {},
+    )
+    .unwrap();
+    assert_eq!(found.passes.len(), 2);
+    for pass in &found.passes {
+        assert_eq!(pass.check.errors, found.initial.errors);
+        assert_ne!(pass.factors, [1.0; 3]);
+    }
+    assert_eq!(found.best_factors(), [1.0; 3]);
+}

@@ -1,0 +1,289 @@
+//! The data of the figures are what the tables say.
+
+use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
+use approx::assert_relative_eq;
+use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::cases::{CASES, Case, CaseResult, run_case};
+use corfem::method::structure::ElementKind;
+use corfem::present::figures::derivative_map::derivative_map;
+use corfem::present::figures::error_history::error_history;
+use corfem::present::figures::gage_errors::gage_errors;
+use corfem::present::figures::mode_agreement::mode_agreement;
+use corfem::present::figures::node_lines::node_lines;
+use corfem::present::figures::unlimited_factors::unlimited_factors;
+use corfem::present::figures::{Figure, all_figures, comparison_figures};
+use corfem::present::report::correlation_tables::{frequency_table, gage_table};
+use corfem::present::report::run_tables::{factor_table, iteration_table};
+use corfem::present::report::table::{Cell, Table};
+use corfem::studies::matrix_comparison::{
+    MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
+};
+use std::sync::OnceLock;
+
+/// The four cases, run once for all tests of figures.
+pub fn results() -> &'static [CaseResult] {
+    static RESULTS: OnceLock<Vec<CaseResult>> = OnceLock::new();
+    RESULTS.get_or_init(|| {
+        let run =
+            |number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
+        CASES.into_iter().map(run).collect()
+    })
+}
+
+/// The runs with fewer modes, run once.
+pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
+    static RUNS: OnceLock<Vec<FewerModesRun>> = OnceLock::new();
+    RUNS.get_or_init(|| all_runs(&Case::new(PUBLISHED_CASE).expect("a case")).expect("they run"))
+}
+
+/// Corrections by elements and by matrices, compared once.
+pub fn comparison() -> &'static MatrixComparison {
+    static COMPARISON: OnceLock<MatrixComparison> = OnceLock::new();
+    COMPARISON.get_or_init(|| {
+        let case = Case::new(USUAL_CASE).expect("a case");
+        compare_matrices(&case, USUAL_TEST_MODES).expect("it runs")
+    })
+}
+
+/// Every figure, drawn anew.
+pub fn draw_all() -> Vec<Figure> {
+    let mut figures = all_figures(results()).expect("drawn");
+    let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
+    figures.extend(compared.expect("drawn"));
+    figures
+}
+
+/// Every figure, drawn once.
+pub fn figures() -> &'static [Figure] {
+    static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
+    FIGURES.get_or_init(draw_all)
+}
+
+fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>) {
+    let named = |c: &corfem::present::report::table::Column| c.name == column && c.unit == unit;
+    let at = table.columns.iter().position(named).expect("the column");
+    let row = table.rows.iter().find(|r| r.label == row).expect("the row");
+    match row.cells[at] {
+        Cell::Number {
+            computed,
+            published,
+            ..
+        } => (computed, published),
+        _ => panic!("no number in row {}, column {column}", row.label),
+    }
+}
+
+#[test]
+fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
+    let counts = iteration_table(results()).expect("it reads");
+    for result in &results()[..3] {
+        let data = error_history(result);
+        let table = frequency_table(result).expect("it reads");
+        let case = result.case.number.to_string();
+        assert_eq!(data.case, result.case.number);
+        assert_eq!(data.passes.len(), result.correlation.passes.len());
+        let root = (9.0_f64).sqrt();
+        let same = |errors: &corfem::method::error_sum::Errors, column: &str| {
+            let percent = |row| cell(&table, row, column, "%").0;
+            assert_relative_eq!(
+                100.0 * errors.frequency,
+                root * percent("frequency RMS"),
+                max_relative = ROUND_OFF
+            );
+            assert_relative_eq!(
+                100.0 * errors.shape,
+                root * percent("shape RMS"),
+                max_relative = ROUND_OFF
+            );
+        };
+        let mut iterations = 0;
+        for pass in &data.passes {
+            let before = match pass.pass {
+                1 => "Initial error".to_owned(),
+                later => format!("Pass {} error", later - 1),
+            };
+            same(&pass.inner[0].errors, &before);
+            same(&pass.check.errors, &format!("Pass {} error", pass.pass));
+            assert_eq!(pass.inner[0].iteration, iterations);
+            let count = cell(&counts, &case, &format!("Pass {}", pass.pass), "").0;
+            iterations += count as usize;
+            assert_eq!(pass.inner.len(), count as usize + 1);
+            assert_eq!(
+                (pass.inner[count as usize].iteration, pass.check.iteration),
+                (iterations, iterations)
+            );
+            assert_eq!(pass.tolerance, if pass.pass == 1 { 0.025 } else { 0.015 });
+            let steps = &result.correlation.passes[pass.pass - 1].inner.iterations;
+            for (moment, step) in pass.inner[1..].iter().zip(steps) {
+                assert_eq!(moment.errors, step.errors);
+            }
+        }
+    }
+}
+
+#[test]
+fn node_lines_belong_to_the_modes_of_the_tables() {
+    for result in &results()[..3] {
+        let data = node_lines(result).expect("nine points");
+        let table = frequency_table(result).expect("it reads");
+        let last = format!("Pass {}", result.correlation.passes.len());
+        assert_eq!((data.case, data.modes.len()), (result.case.number, 9));
+        for (mode, states) in data.modes.iter().enumerate() {
+            let row = (mode + 1).to_string();
+            for (state, column) in states.iter().zip(["GVT", "Initial", &last]) {
+                let hertz = cell(&table, &row, column, "Hz").0;
+                assert_relative_eq!(state.frequency_hz, hertz, max_relative = ROUND_OFF);
+                let largest = state
+                    .shape
+                    .iter()
+                    .fold(0.0, |most: f64, w| most.max(w.abs()));
+                assert_eq!(largest, 1.0);
+                assert_eq!(state.node_lines, data.planform.node_lines(&state.shape));
+            }
+            // Analysis shapes are signed like their test mode.
+            let test = &states[0].shape;
+            for state in &states[1..] {
+                let product: f64 = state.shape.iter().zip(test).map(|(a, b)| a * b).sum();
+                assert!(product > 0.0);
+            }
+        }
+        assert!(
+            data.modes[0][0].node_lines.is_empty(),
+            "the first bending mode has none"
+        );
+    }
+}
+
+#[test]
+fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
+    for result in &results()[..3] {
+        let data = mode_agreement(result).expect("shapes fit");
+        let masses = &result.case.reconstruction.masses;
+        let checks = [
+            &result.correlation.initial,
+            &result.correlation.passes.last().expect("a pass").check,
+        ];
+        for (agreement, check) in [&data.before, &data.after].into_iter().zip(checks) {
+            assert_eq!(agreement.cross_orthogonality.shape(), (9, 9));
+            assert_eq!(agreement.modal_assurance.shape(), (9, 9));
+            for j in 0..9 {
+                // Nine modes of nine DOF hold every shape: Bessel's inequality is an equality.
+                let column = agreement.cross_orthogonality.column(j);
+                assert_relative_eq!(column.norm(), 1.0, max_relative = MATRIX_ROUND_OFF);
+                assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
+                for i in 0..9 {
+                    let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
+                    let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
+                    assert!(
+                        (agreement.cross_orthogonality[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF
+                    );
+                    let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
+                    assert!((agreement.modal_assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
+                }
+            }
+        }
+        let off = |m: &nalgebra::DMatrix<f64>| (m.abs() - nalgebra::DMatrix::identity(9, 9)).amax();
+        assert!(off(&data.after.cross_orthogonality) < off(&data.before.cross_orthogonality));
+    }
+}
+
+#[test]
+fn gage_errors_are_those_of_the_tables() {
+    for result in &results()[..3] {
+        let data = gage_errors(result).expect("it reads");
+        let table = gage_table(result).expect("it reads");
+        let passes = result.correlation.passes.len();
+        assert_eq!((data.stages.len(), data.panels.len()), (passes + 1, 15));
+        for (pass, stage) in data.stages.iter().enumerate() {
+            let name = if pass == 0 {
+                "Initial".to_owned()
+            } else {
+                format!("Pass {pass}")
+            };
+            assert_eq!(stage.name, name);
+            for (row, (label, kind)) in data.panels.iter().enumerate() {
+                let (computed, published) = cell(&table, label, &format!("{name} error"), "%");
+                assert_eq!(
+                    (stage.computed[row], stage.published[row]),
+                    (computed, published)
+                );
+                assert!(published.is_some());
+                let membrane = result.case.panels[row].kind == ElementKind::Membrane;
+                assert_eq!(kind, if membrane { "M" } else { "S" });
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
+    for result in results() {
+        let data = derivative_map(result).expect("a model");
+        assert_eq!(
+            (data.frequency.shape(), data.error_sum.shape()),
+            ((15, 9), (15, 1))
+        );
+        let model = result.case.model().expect("a model");
+        let start = &result.correlation.initial;
+        let shares = model.analyze(&[1.0; 15]).expect("analyzed").shares;
+        for e in 0..15 {
+            let frequencies = |step: f64| {
+                let mut factors = [1.0; 15];
+                factors[e] += step;
+                let dynamic = model.analyze(&factors).expect("analyzed");
+                corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9)
+                    .expect("solved")
+                    .frequencies_hz()
+            };
+            // Fourth-order central difference: the eigenvalues' rounding asks for a step that second order cannot afford.
+            const STEP: f64 = 2e-3;
+            let stencil = [
+                (8.0, STEP),
+                (-8.0, -STEP),
+                (-1.0, 2.0 * STEP),
+                (1.0, -2.0 * STEP),
+            ]
+            .map(|(weight, step)| (weight, frequencies(step)));
+            for j in 0..9 {
+                let i = start.pairing.analysis_mode[j];
+                let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();
+                let difference = sum / (12.0 * STEP);
+                let derivative = data.frequency[(e, j)];
+                assert!(
+                    (derivative - difference).abs() < CENTRAL_DIFFERENCE_FREQUENCY,
+                    "case {}, panel {}, mode {}: {derivative} for {difference}",
+                    data.case,
+                    e + 1,
+                    j + 1
+                );
+            }
+            // (13) from the figure's column gives the unlimited factor of the table.
+            let seen: f64 = (0..9)
+                .map(|j| {
+                    let v = result.test.shapes.column(j);
+                    let share = v.dot(&(shares[e].matrix() * v)) / result.test.omega_squared[j];
+                    share * share
+                })
+                .sum();
+            let factor = 1.0 - 0.8 * start.errors.sum() * data.error_sum[(e, 0)] / seen.sqrt();
+            let printed = cell(&factor_table(result), &data.parameters[e], "Factor", "").0;
+            assert_relative_eq!(factor, printed, max_relative = 1e3 * MATRIX_ROUND_OFF);
+        }
+    }
+}
+
+#[test]
+fn unlimited_factors_are_those_of_the_table_with_the_published_one() {
+    let result = &results()[3];
+    let data = unlimited_factors(result);
+    let table = factor_table(result);
+    assert_eq!((data.case, data.factors.len()), (4, 15));
+    assert_eq!((data.limits.lower, data.limits.upper), (0.55, 1.50));
+    for factor in &data.factors {
+        let (computed, published) = cell(&table, &factor.parameter, "Factor", "");
+        assert_eq!((factor.computed, factor.published), (computed, published));
+        let is_faulty = factor.parameter == "8";
+        assert_eq!(factor.published, is_faulty.then_some(60.0));
+        assert_eq!(factor.verdict == "anomaly", is_faulty);
+    }
+}

@@ -1,0 +1,98 @@
+//! Axes and numbers of the figures on other data than the four cases': what holds them, and how they are written.
+
+use crate::common::drawings::written;
+use crate::present::figures::results;
+use corfem::cases::Case;
+use corfem::present::figures::cover_gages::cover_gages;
+use corfem::present::figures::error_history::{ErrorHistory, error_history};
+use corfem::present::figures::unlimited_factors::unlimited_factors;
+
+/// The words of a drawing, in its order.
+fn words(svg: &str) -> Vec<String> {
+    written(svg).into_iter().map(|word| word.text).collect()
+}
+
+#[test]
+fn thin_gages_are_written_with_the_decimals_they_need() {
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
+    let words = words(&cover_gages(&cases).draw().expect("drawn"));
+    // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
+    assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
+    assert!(words.iter().any(|word| word == "0.010"));
+    assert!(!words.iter().any(|word| word == "0.0100" || word == "0.000"));
+}
+
+#[test]
+fn error_axis_ends_at_the_ticks_around_the_errors() {
+    let history = error_history(&results()[0]);
+    let ticks = |history: &ErrorHistory| -> Vec<f64> {
+        let words = words(&history.draw().expect("drawn"));
+        // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
+        let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
+        numbers
+            .filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number))
+            .collect()
+    };
+    let moments = |history: &ErrorHistory| -> Vec<f64> {
+        let passes = history.passes.iter();
+        let moments = passes.flat_map(|pass| pass.inner.iter().chain([&pass.check]));
+        moments.map(|moment| moment.errors.sum()).collect()
+    };
+    let largest = moments(&history).into_iter().fold(0.0, f64::max);
+    // A tenth of room is left above the largest: with 45 % at 50, and 46 % at 100.
+    for (wanted, last) in [(0.46, 100.0), (0.45, 50.0), (0.05, 10.0)] {
+        let mut scaled = history.clone();
+        for pass in &mut scaled.passes {
+            for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
+                moment.errors.frequency *= wanted / largest;
+                moment.errors.shape *= wanted / largest;
+            }
+        }
+        let found = ticks(&scaled);
+        let highest = found.iter().copied().fold(0.0, f64::max);
+        assert_eq!(highest, last, "{found:?}");
+    }
+}
+
+#[test]
+fn factor_axis_leaves_room_for_the_numbers() {
+    let mut figure = unlimited_factors(&results()[3]);
+    let lowest = |figure: &corfem::present::figures::unlimited_factors::UnlimitedFactors| {
+        let words = words(&figure.draw().expect("drawn"));
+        let labels = words
+            .iter()
+            .filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
+        // Labels of the axis are whole tens; a factor has a decimal.
+        labels
+            .filter(|label| label % 10.0 == 0.0)
+            .fold(0.0, f64::min)
+    };
+    for factor in &mut figure.factors {
+        (factor.computed, factor.published) = (1.0, None);
+    }
+    figure.factors[0].computed = -9.9;
+    assert_eq!(lowest(&figure), -20.0);
+    figure.factors[0].computed = -5.0;
+    assert_eq!(lowest(&figure), -10.0);
+}
+
+/// What the legend shows is the color of the panels it speaks of.
+#[test]
+fn legend_of_the_gages_has_the_panels_colors() {
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
+    let svg = cover_gages(&cases).draw().expect("drawn");
+    // The fill of the last polygon before a word.
+    let fill = |word: &str| {
+        let before = &svg[..svg.find(word).expect("written")];
+        let polygon = &before[before.rfind("<polygon").expect("drawn")..];
+        polygon.split("fill=\"").nth(1).expect("a fill")[..7].to_owned()
+    };
+    assert_eq!(fill("thinner than in the test"), fill("0.0001"));
+    assert_eq!(fill("thicker than in the test"), fill("0.015"));
+    assert_eq!(fill("as in the test"), fill("0.010"));
+    assert_ne!(fill("0.0001"), fill("0.015"));
+}

@@ -1,0 +1,117 @@
+//! The data of the figures of the box are the model's and Table 2's.
+
+use crate::common::tolerances::MATRIX_ROUND_OFF;
+use crate::present::figures::results;
+use corfem::cases::Case;
+use corfem::cases::published::PublishedTable;
+use corfem::method::structure::ElementKind;
+use corfem::present::figures::box_elements::{Layer, box_elements};
+use corfem::present::figures::box_points::box_points;
+use corfem::present::figures::cover_gages::cover_gages;
+use nalgebra::DVector;
+
+#[test]
+fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
+    let case = &results()[0].case;
+    let data = box_points(case).expect("a box");
+    let numbers: Vec<usize> = data.structural.iter().map(|point| point.grid).collect();
+    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
+    for point in &data.structural {
+        assert_eq!(point.fixed, point.grid >= 13);
+        let position: [f64; 3] = point.position.into();
+        assert_eq!(position, case.reconstruction.grids[&point.grid]);
+    }
+    assert_eq!(
+        data.edges.len(),
+        28,
+        "24 edges that rods run along, and four in the root"
+    );
+    assert!(data.edges.iter().all(|[from, to]| from < to));
+    // A rigid tilt of the structure moves each dynamic point as the plane through it says.
+    let model = case.model().expect("a model");
+    for (a, b, c) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)] {
+        let motion = model.structure().free_dof().iter().map(|dof| {
+            let [x, y, z] = case.reconstruction.grids[&dof.grid];
+            [b * z, -a * z, a * y - b * x + c][dof.direction]
+        });
+        let structural = DVector::from_iterator(36, motion);
+        let dynamic = model.load_distribution().tr_mul(&structural);
+        assert_eq!((dynamic.len(), data.dynamic.len()), (9, 9));
+        for (moved, point) in dynamic.iter().zip(&data.dynamic) {
+            assert_eq!(point.z, 0.0);
+            let plane = a * point.y - b * point.x + c;
+            assert!(
+                (moved - plane).abs() < MATRIX_ROUND_OFF * 40.0,
+                "{moved} for {plane}"
+            );
+        }
+    }
+}
+
+#[test]
+fn box_elements_are_the_models_in_three_layers() {
+    let case = &results()[1].case;
+    let data = box_elements(case).expect("a box");
+    let model = case.model().expect("a model");
+    assert_eq!(data.elements.len(), 39);
+    for (drawn, element) in data.elements.iter().zip(model.structure().elements()) {
+        assert_eq!((drawn.label, drawn.kind), (element.label, element.kind));
+        assert_eq!(drawn.corners, model.structure().corners(element));
+    }
+    let on = |layer| {
+        let here = data
+            .elements
+            .iter()
+            .filter(move |drawn| drawn.layer == layer);
+        here.map(|drawn| drawn.label).collect::<Vec<_>>()
+    };
+    assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
+    assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);
+    assert_eq!(on(Layer::Webs)[..9], [1, 3, 5, 6, 7, 10, 12, 13, 14]);
+    // Nine caps above, nine below, six posts between.
+    let counts = [Layer::Upper, Layer::Lower, Layer::Webs].map(|layer| on(layer).len());
+    assert_eq!(counts, [3 + 9, 3 + 9, 9 + 6]);
+}
+
+#[test]
+fn cover_gages_are_those_of_table_2() {
+    let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
+    let data = cover_gages(&cases);
+    let table = PublishedTable::number(2).expect("it reads");
+    let names: Vec<&str> = data
+        .configurations
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
+    for (number, configuration) in data.configurations.iter().enumerate() {
+        let labels: Vec<usize> = configuration
+            .covers
+            .iter()
+            .map(|cover| cover.label)
+            .collect();
+        assert_eq!(labels, [2, 4, 8, 9, 11, 15]);
+        for cover in &configuration.covers {
+            assert_eq!(cover.upper, [4, 9, 15].contains(&cover.label));
+            assert_eq!(cover.corners.len(), 4);
+            let row = cover.label.to_string();
+            if number == 0 {
+                assert_eq!((cover.gage, cover.kind), (0.010, None));
+                continue;
+            }
+            let printed = table
+                .required(&row, &format!("gage_{number}"))
+                .expect("printed");
+            assert_eq!(cover.gage, printed);
+            let kind = match table.text(&row, &format!("type_{number}")) {
+                Some("S") => ElementKind::ShearPanel,
+                _ => ElementKind::Membrane,
+            };
+            assert_eq!(cover.kind, Some(kind));
+            let [x, y, _] =
+                cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
+            assert_eq!(cover.corners[0], [x, y]);
+        }
+    }
+    assert!(cover_gages(&[]).configurations.is_empty());
+}

@@ -1,0 +1,159 @@
+//! The figures as drawn: complete, the same every time, their letters apart, and as stored.
+
+use crate::common::drawings::{size, written};
+use crate::common::golden::Numbers;
+use crate::present::figures::{draw_all, figures};
+use corfem::method::error::Error;
+use corfem::present::figures::picture;
+
+#[test]
+fn figures_of_a_run_in_the_order_of_the_report() {
+    let names: Vec<&str> = figures()
+        .iter()
+        .map(|figure| figure.name.as_str())
+        .collect();
+    let mut expected = vec![
+        "box_points".to_owned(),
+        "box_elements".into(),
+        "cover_gages".into(),
+    ];
+    for case in 1..=3 {
+        for name in [
+            "errors",
+            "gages",
+            "node_lines",
+            "mode_shapes",
+            "agreement",
+            "derivatives",
+        ] {
+            expected.push(format!("case_{case}_{name}"));
+        }
+    }
+    expected.extend(
+        [
+            "case_4_factors",
+            "case_4_derivatives",
+            "truncation",
+            "matrices_stiffness",
+            "matrices_frequencies",
+        ]
+        .map(String::from),
+    );
+    assert_eq!(names, expected);
+    for figure in figures() {
+        assert!(
+            figure.caption.ends_with('.') && figure.caption.len() > 30,
+            "{}",
+            figure.name
+        );
+        if let Some(case) = figure.name.strip_prefix("case_") {
+            assert!(figure.caption.starts_with(&format!("Case {}:", &case[..1])));
+            assert!(figure.svg.contains(&format!("<title>Case {}:", &case[..1])));
+        }
+    }
+}
+
+#[test]
+fn figures_are_the_same_bytes_every_time() {
+    assert_eq!(draw_all(), figures());
+}
+
+#[test]
+fn letters_stay_on_the_page_and_off_each_other() {
+    let mut faults = Vec::new();
+    for figure in figures() {
+        let (width, height) = size(&figure.svg);
+        assert_eq!(width, 760.0);
+        let words: Vec<_> = written(&figure.svg)
+            .into_iter()
+            .filter(|word| !word.text.is_empty())
+            .collect();
+        assert!(words.len() > 10, "{}", figure.name);
+        for (row, one) in words.iter().enumerate() {
+            let [left, top, right, bottom] = one.bounds;
+            if left < 0.0 || top < 0.0 || right > width || bottom > height {
+                faults.push(format!("{}: {one:?} leaves the page", figure.name));
+            }
+            for other in &words[row + 1..] {
+                let [l, t, r, b] = other.bounds;
+                if right > l && r > left && bottom > t && b > top {
+                    faults.push(format!("{}: {one:?} on {other:?}", figure.name));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn stored_figures_are_what_the_command_writes() {
+    let numbers = Numbers {
+        relative: 0.0,
+        absolute: 0.0,
+        last_digit: true,
+    };
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/figures");
+    let mut compared = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder") {
+        let path = entry.expect("a file").path();
+        let name = path
+            .file_stem()
+            .and_then(|name| name.to_str())
+            .expect("a name");
+        let figure = figures()
+            .iter()
+            .find(|figure| figure.name == name)
+            .expect("a figure of that name");
+        let stored = std::fs::read_to_string(&path).expect("it reads");
+        assert!(
+            numbers.agree(&stored, &figure.svg),
+            "{name} differs: write it again"
+        );
+        compared += 1;
+    }
+    assert_eq!(compared, 13, "one of every kind");
+}
+
+#[test]
+fn pictures_have_letters_without_a_font_of_the_system() {
+    let page = |text: &str| {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\"><text x=\"5\" y=\"15\" font-family=\"Noto Sans, Arial\" font-size=\"12\">{text}</text></svg>"
+        )
+    };
+    let png = |text| picture::png("words", &page(text)).expect("a picture");
+    let words = png("Ωλ 1");
+    assert_eq!(&words[..8], b"\x89PNG\r\n\x1a\n");
+    // Two dots to a pixel.
+    assert_eq!(words[16..24], [0, 0, 0, 120, 0, 0, 0, 40]);
+    assert_ne!(words, png(""), "the letters show");
+    assert_ne!(words, png("Ωλ 2"));
+    let wrong = picture::png("broken", "<svg");
+    assert!(matches!(wrong, Err(Error::Drawing { figure, .. }) if figure == "broken"));
+}
+
+#[test]
+fn captions_name_the_papers_figures() {
+    let caption = |name: &str| {
+        let figure = figures().iter().find(|figure| figure.name == name);
+        figure.expect("drawn").caption.as_str()
+    };
+    for (name, number) in [
+        ("box_points", 2),
+        ("box_elements", 3),
+        ("cover_gages", 4),
+        ("case_1_errors", 5),
+        ("case_1_node_lines", 6),
+        ("case_2_errors", 7),
+        ("case_3_errors", 8),
+    ] {
+        assert!(
+            caption(name).contains(&format!("Figure {number})")),
+            "{name}"
+        );
+    }
+    // The paper has node lines of its first case only.
+    for name in ["case_2_node_lines", "case_3_node_lines"] {
+        assert!(!caption(name).contains("Figure"), "{name}");
+    }
+}

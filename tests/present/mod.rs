@@ -1,0 +1,11 @@
+//! Tables, figures, page.
+
+pub mod delta_wing_report;
+pub mod figures;
+pub mod figures_axes;
+pub mod figures_box;
+pub mod figures_comparisons;
+pub mod figures_drawing;
+pub mod figures_planform;
+pub mod matrix_tables;
+pub mod page;

@@ -1,0 +1,6 @@
+//! The program from outside.
+
+pub mod cli;
+pub mod cli_comparisons;
+pub mod cli_pictures;
+pub mod deck_cli;

@@ -1,0 +1,297 @@
+//! Baruch's and Berman and Nagy's corrections: exact for the test modes, symmetric, and the smallest change that is.
+
+use crate::common::strategies::{positive_definite, symmetric};
+use crate::common::tolerances::CORRECTION_ROUND_OFF;
+use corfem::method::error::Error;
+use corfem::method::modes::{Modes, solve};
+use corfem::studies::matrix_correction::{
+    baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, weighted_norm,
+};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use proptest::prelude::*;
+
+/// Degrees of freedom: enough that tests are fewer than they by several.
+const SIZE: usize = 6;
+
+/// An analysis stiffness and mass, a true stiffness, a number of test modes below that of DOF, and any symmetric matrix.
+///
+/// Conditions up to 100 each: masses and stiffnesses of one structure differ by so much, and the corrections' round-off
+/// grows with the product of the conditions.
+#[derive(Debug, Clone)]
+struct Problem {
+    stiffness: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    test: Modes,
+    /// All modes of the true structure.
+    all: Modes,
+    true_stiffness: DMatrix<f64>,
+    other: DMatrix<f64>,
+}
+
+fn problem() -> impl Strategy<Value = Problem> {
+    (
+        positive_definite(SIZE, 2.0),
+        positive_definite(SIZE, 2.0),
+        positive_definite(SIZE, 2.0),
+        1..SIZE,
+        symmetric(SIZE),
+    )
+        .prop_map(
+            |((stiffness, _), (mass, _), (true_stiffness, _), count, other)| {
+                let all = solve(&true_stiffness, &mass, SIZE).expect("positive definite");
+                Problem {
+                    test: all.lowest(count).expect("fewer than there are"),
+                    stiffness,
+                    mass,
+                    all,
+                    true_stiffness,
+                    other,
+                }
+            },
+        )
+}
+
+/// Shapes that are not orthonormal: mixed by a matrix within 0.75 of one (five columns of 0.15), so that they stay
+/// independent.
+fn mixed(problem: &Problem) -> DMatrix<f64> {
+    let count = problem.test.len();
+    let mixing =
+        DMatrix::identity(count, count) + 0.15 * problem.other.view((0, 0), (count, count));
+    &problem.test.shapes * mixing
+}
+
+/// Largest entry of a difference relative to a matrix.
+fn difference(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {
+    assert_eq!(found.shape(), expected.shape());
+    (found - expected).amax() / expected.amax()
+}
+
+/// A change that keeps a corrected matrix admissible: it does not act on the test shapes. `complement` takes their part
+/// out of any vector.
+fn admissible(problem: &Problem, mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> DMatrix<f64> {
+    let size = mass.nrows();
+    let generalized = shapes.tr_mul(&(mass * shapes));
+    let inverse = generalized.try_inverse().expect("independent shapes");
+    let complement = DMatrix::identity(size, size) - mass * shapes * inverse * shapes.transpose();
+    let change = &complement * &problem.other * complement.transpose();
+    0.5 * (&change + change.transpose())
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn corrected_stiffness_has_the_test_modes_exactly(problem in problem()) {
+        let Problem { stiffness, mass, test, .. } = &problem;
+        for corrected in [
+            baruch_stiffness(stiffness, mass, test).unwrap(),
+            berman_nagy_stiffness(stiffness, mass, test).unwrap(),
+        ] {
+            prop_assert_eq!(corrected.shape(), (SIZE, SIZE));
+            prop_assert_eq!(&corrected, &corrected.transpose());
+            let inertia = mass * &test.shapes * DMatrix::from_diagonal(&test.omega_squared);
+            let left = &corrected * &test.shapes;
+            let scale = stiffness.amax().max(problem.true_stiffness.amax()) * test.shapes.amax();
+            prop_assert!((left - inertia).amax() <= CORRECTION_ROUND_OFF * scale);
+        }
+    }
+
+    #[test]
+    fn corrected_stiffness_is_the_nearest_admissible_one(problem in problem()) {
+        // Nearest in an inner product: every admissible change beside the correction is orthogonal to it.
+        let Problem { stiffness, mass, test, .. } = &problem;
+        let corrected = baruch_stiffness(stiffness, mass, test).unwrap();
+        let beside = admissible(&problem, mass, &test.shapes);
+        let change = &corrected - stiffness;
+        let squares = [
+            weighted_norm(&(&change + &beside), mass).unwrap().powi(2),
+            weighted_norm(&change, mass).unwrap().powi(2),
+            weighted_norm(&beside, mass).unwrap().powi(2),
+        ];
+        prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
+    }
+
+    #[test]
+    fn both_stiffness_corrections_are_one(problem in problem()) {
+        let Problem { stiffness, mass, test, .. } = &problem;
+        let baruch = baruch_stiffness(stiffness, mass, test).unwrap();
+        let berman_nagy = berman_nagy_stiffness(stiffness, mass, test).unwrap();
+        prop_assert!(difference(&berman_nagy, &baruch) <= CORRECTION_ROUND_OFF);
+    }
+
+    #[test]
+    fn a_model_that_has_the_modes_is_left_alone(problem in problem()) {
+        let Problem { mass, test, true_stiffness, .. } = &problem;
+        let corrected = baruch_stiffness(true_stiffness, mass, test).unwrap();
+        prop_assert!(difference(&corrected, true_stiffness) <= CORRECTION_ROUND_OFF);
+        prop_assert!(difference(&berman_nagy_mass(mass, &test.shapes).unwrap(), mass) <= CORRECTION_ROUND_OFF);
+    }
+
+    #[test]
+    fn all_modes_give_the_true_stiffness(problem in problem()) {
+        let Problem { stiffness, mass, all, true_stiffness, .. } = &problem;
+        let corrected = baruch_stiffness(stiffness, mass, all).unwrap();
+        let scale = stiffness.amax().max(true_stiffness.amax());
+        prop_assert!((corrected - true_stiffness).amax() <= CORRECTION_ROUND_OFF * scale);
+    }
+
+    #[test]
+    fn corrected_mass_makes_the_shapes_orthonormal(problem in problem()) {
+        let shapes = mixed(&problem);
+        let mass = berman_nagy_mass(&problem.mass, &shapes).unwrap();
+        prop_assert_eq!(mass.shape(), (SIZE, SIZE));
+        prop_assert_eq!(&mass, &mass.transpose());
+        let count = shapes.ncols();
+        let orthonormality = shapes.tr_mul(&(&mass * &shapes)) - DMatrix::identity(count, count);
+        prop_assert!(orthonormality.amax() <= CORRECTION_ROUND_OFF);
+        // The nearest such mass, and the stiffness that follows it.
+        let beside = admissible(&problem, &problem.mass, &shapes);
+        let change = &mass - &problem.mass;
+        let squares = [
+            weighted_norm(&(&change + &beside), &problem.mass).unwrap().powi(2),
+            weighted_norm(&change, &problem.mass).unwrap().powi(2),
+            weighted_norm(&beside, &problem.mass).unwrap().powi(2),
+        ];
+        prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
+        let measured = Modes { shapes, ..problem.test.clone() };
+        let stiffness = berman_nagy_stiffness(&problem.stiffness, &mass, &measured).unwrap();
+        let inertia = &mass * &measured.shapes * DMatrix::from_diagonal(&measured.omega_squared);
+        let scale = problem.stiffness.amax().max(problem.true_stiffness.amax()) * measured.shapes.amax();
+        prop_assert!((stiffness * &measured.shapes - inertia).amax() <= CORRECTION_ROUND_OFF * scale);
+    }
+}
+
+fn one_mode(shape: DVector<f64>, omega_squared: f64) -> Modes {
+    Modes {
+        omega_squared: dvector![omega_squared],
+        shapes: DMatrix::from_columns(&[shape]),
+    }
+}
+
+#[test]
+fn two_degrees_of_freedom_by_hand() {
+    // The first DOF is a mode of ω² = 3, so nothing may couple it; what does not touch it stays.
+    let stiffness = dmatrix![2.0, -1.0; -1.0, 2.0];
+    let identity = DMatrix::identity(2, 2);
+    let test = one_mode(dvector![1.0, 0.0], 3.0);
+    let expected = dmatrix![3.0, 0.0; 0.0, 2.0];
+    assert_eq!(
+        baruch_stiffness(&stiffness, &identity, &test).unwrap(),
+        expected
+    );
+    assert_eq!(
+        berman_nagy_stiffness(&stiffness, &identity, &test).unwrap(),
+        expected
+    );
+    // Of generalized mass 4 there; one quarter of the mass makes it 1.
+    let mass = berman_nagy_mass(&identity, &(2.0 * &test.shapes)).unwrap();
+    assert_eq!(mass, dmatrix![0.25, 0.0; 0.0, 1.0]);
+}
+
+#[test]
+fn weighted_norm_divides_by_the_masses_of_row_and_column() {
+    let mass = dmatrix![4.0, 0.0; 0.0, 1.0];
+    let change = dmatrix![4.0, 2.0; 2.0, 1.0];
+    // All four entries are one.
+    assert_eq!(weighted_norm(&change, &mass).unwrap(), 2.0);
+}
+
+#[test]
+fn shapes_that_are_not_orthonormal_are_named() {
+    let mass = DMatrix::identity(3, 3);
+    let stiffness = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
+    let mut shapes = DMatrix::identity(3, 2);
+    let modes = |shapes: DMatrix<f64>| Modes {
+        omega_squared: dvector![1.0, 2.0],
+        shapes,
+    };
+    type Correction = fn(&DMatrix<f64>, &DMatrix<f64>, &Modes) -> Result<DMatrix<f64>, Error>;
+    let corrections: [Correction; 2] = [baruch_stiffness, berman_nagy_stiffness];
+    for correct in corrections {
+        // Within round-off of a test's processing is orthonormal enough.
+        shapes[(1, 1)] = 1.0 + 1e-9;
+        assert!(correct(&stiffness, &mass, &modes(shapes.clone())).is_ok());
+        shapes[(1, 1)] = 1.1;
+        match correct(&stiffness, &mass, &modes(shapes.clone())) {
+            Err(Error::NotOrthonormal {
+                first: 1,
+                second: 1,
+                found,
+            }) => assert_eq!(found, 1.1 * 1.1),
+            other => panic!("{other:?}"),
+        }
+        shapes[(1, 1)] = 1.0;
+        shapes[(0, 1)] = 0.5e-3;
+        match correct(&stiffness, &mass, &modes(shapes.clone())) {
+            Err(Error::NotOrthonormal {
+                first: 1,
+                second: 0,
+                found,
+            }) => assert_eq!(found, 0.5e-3),
+            other => panic!("{other:?}"),
+        }
+        shapes[(0, 1)] = 0.0;
+    }
+}
+
+#[test]
+fn dependent_shapes_are_named() {
+    let mass = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
+    let shapes = dmatrix![1.0, 0.0, 2.0; 0.0, 1.0, -1.0; 0.0, 0.0, 0.0];
+    match berman_nagy_mass(&mass, &shapes) {
+        Err(Error::DependentTestShape { mode }) => assert_eq!(mode, 2),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn bad_matrices_are_named() {
+    let good = DMatrix::from_diagonal(&dvector![1.0, 2.0]);
+    let test = one_mode(dvector![1.0, 0.0], 1.0);
+    let skew = dmatrix![1.0, 0.5; 0.0, 2.0];
+    let small = DMatrix::from_element(1, 1, 1.0);
+    let mut nan = test.clone();
+    nan.shapes[(0, 0)] = f64::NAN;
+    let wrong = |error: Error, expected: &str| match error {
+        Error::WrongShape { what, .. }
+        | Error::NotSymmetric { what, .. }
+        | Error::NotFinite { what, .. }
+        | Error::NotPositiveDefinite { what, .. } => assert_eq!(what, expected),
+        other => panic!("{other:?}"),
+    };
+    wrong(
+        baruch_stiffness(&skew, &good, &test).unwrap_err(),
+        "dynamic stiffness",
+    );
+    wrong(
+        baruch_stiffness(&good, &skew, &test).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        baruch_stiffness(&good, &small, &test).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        baruch_stiffness(&good, &good, &one_mode(dvector![1.0], 1.0)).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        baruch_stiffness(&good, &good, &nan).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        berman_nagy_mass(&(-&good), &test.shapes).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        berman_nagy_mass(&good, &DMatrix::identity(3, 1)).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        berman_nagy_mass(&good, &nan.shapes).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(weighted_norm(&skew, &good).unwrap_err(), "matrix change");
+    wrong(weighted_norm(&small, &good).unwrap_err(), "matrix change");
+    wrong(weighted_norm(&good, &(-&good)).unwrap_err(), "dynamic mass");
+}

@@ -1,0 +1,9 @@
+//! Studies beyond the paper.
+
+pub mod delta_wing;
+pub mod delta_wing_answers;
+pub mod delta_wing_correlation;
+pub mod delta_wing_scenario;
+pub mod matrix_comparison;
+pub mod matrix_comparison_elements;
+pub mod matrix_correction;
