@@ -9,7 +9,7 @@ use corfem::cases::run_case;
 use corfem::method::appendix_c::perturb;
 use corfem::method::derivatives::{Workspace, error_changes_into};
 use corfem::method::inner_loop::run;
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalProblem;
 use corfem::method::outer_loop::check;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;

@@ -3,10 +3,10 @@
 use corfem::cases::{CASES, Case, run_case};
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modal::{DynamicModel, ModalProblem, ModalState};
+use corfem::method::model::{DynamicModel, ModalProblem, ModalState};
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::Modes;
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 use nalgebra::{DMatrix, DVector};
 
 /// Modes, and dynamic degrees of freedom, of the paper's box.

@@ -9,8 +9,9 @@ use crate::cases::torque_box::{PANEL_COUNT, gage_rms};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::{Check, Settings, check, correlate};
+use crate::method::modes::ModeSet;
+use crate::method::model::Check;
+use crate::method::outer_loop::{Settings, correlate};
 use crate::method::pairing::Pairing;
 use crate::method::structure::ElementKind;
 use serde::Serialize;
@@ -45,7 +46,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn new(modes: &Modes, pairing: &Pairing, errors: &Errors) -> Self {
+    fn new(modes: &ModeSet, pairing: &Pairing, errors: &Errors) -> Self {
         let all = modes.frequencies_hz();
         let others = (0..all.len()).filter(|mode| !pairing.analysis_mode.contains(mode));
         let order = pairing.analysis_mode.iter().copied().chain(others);
@@ -112,14 +113,12 @@ pub fn fewer_modes_run(
     let mut settings = Settings {
         least_passes: 1,
         most_passes: 1,
-        analysis_modes: Some(analysis_modes),
         ..case.settings.clone()
     };
     settings.inner.iterations = ITERATIONS;
     let ranges = model.factor_ranges()?;
     let correlation = correlate(
-        |factors| model.analyze(factors),
-        &test,
+        |factors| model.analyze(factors, &test, Some(analysis_modes)),
         &ranges,
         &settings,
         |_, _| {},
@@ -129,7 +128,7 @@ pub fn fewer_modes_run(
     };
     let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
-    let all_modes = check(&model.analyze(&pass.factors)?, &all, all.len())?;
+    let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
     Ok(FewerModesRun {
         case: case.number,
         test_modes,

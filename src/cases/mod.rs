@@ -15,12 +15,11 @@ use crate::cases::torque_box::{
 };
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::modal::DynamicModel;
 use crate::method::model::FiniteElementModel;
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::parameters::Parameter;
-use crate::method::step::Range;
+use crate::method::model::Parameter;
+use crate::method::model::Range;
 use crate::method::structure::ElementKind;
 
 /// Numbers of the paper's cases.
@@ -196,20 +195,20 @@ impl Case {
     /// # Errors
     /// Those of [`Self::model_with`] and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, Error> {
-        self.test_modes_with(FiniteElementModel::analyze)
+        self.test_modes_with(|model, _| Ok(model.clone()))
     }
 
-    /// The same by another finite element analysis.
+    /// The same with the element stiffness of another program, see [`run_case_with`].
     ///
     /// # Errors
-    /// Those of [`Self::model_with`] and of `analyze`.
+    /// Those of [`Self::model_with`], of `elements` and of the analysis.
     pub fn test_modes_with(
         &self,
-        mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+        mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, Error>,
     ) -> Result<Modes, Error> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-        let dynamic = analyze(&model, &vec![1.0; model.parameters().len()])?;
-        crate::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
+        let factors = vec![1.0; model.parameters().len()];
+        elements(&model, &factors)?.modes(&factors)
     }
 }
 

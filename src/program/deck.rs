@@ -63,9 +63,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
             }
         };
     }
-    let dynamic = model.analyze(&factors)?;
-    let modes =
-        corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
+    let modes = model.modes(&factors)?;
     let frequencies = modes.frequencies_hz();
     let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
     let task = Task::Modes {

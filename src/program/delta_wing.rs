@@ -23,8 +23,8 @@ pub struct DeltaWingArguments {
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, Error> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
-    let run = correlate_wing_with(&wing, solver.name(), analyze, |_, _| {})?;
+    let elements = |model: &FiniteElementModel, factors: &[f64]| solver.elements(model, factors);
+    let run = correlate_wing_with(&wing, solver.name(), elements, |_, _| {})?;
     let tables = delta_wing_tables(&wing, &run)?;
     arguments.report.write(&tables, render::render_tables, || {
         delta_wing_json(&wing, &run)

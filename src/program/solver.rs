@@ -4,7 +4,6 @@ use clap::{Args, ValueEnum};
 use corfem::cases::BUILT_IN;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
 use corfem::method::model::FiniteElementModel;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -64,15 +63,15 @@ impl Solver {
         }
     }
 
-    /// The dynamic model at the given factors on the parameters.
-    pub fn analyze(
+    /// The model with the solver's elements, at the given factors on the parameters.
+    pub fn elements(
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
-    ) -> Result<DynamicModel, Error> {
+    ) -> Result<FiniteElementModel, Error> {
         match self {
-            Self::BuiltIn => model.analyze(factors),
-            Self::Nastran95(nastran) => nastran.analyze(model, factors),
+            Self::BuiltIn => Ok(model.clone()),
+            Self::Nastran95(nastran) => nastran.elements(model, factors),
         }
     }
 }

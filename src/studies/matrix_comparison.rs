@@ -7,10 +7,10 @@
 use crate::cases::Case;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
-use crate::method::modal::DynamicModel;
-use crate::method::modes::{Modes, solve};
+use crate::method::model::DynamicModel;
+use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::outer_loop::correlate;
-use crate::method::pairing::{cross_orthogonality, matched, pair_modes};
+use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
 use crate::studies::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, mass_weighted, weighted_norm,
 };
@@ -100,8 +100,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
     let correlation = correlate(
-        |f| model.analyze(f),
-        &test,
+        |factors| model.analyze(factors, &test, None),
         &ranges,
         &case.settings,
         |_, _| {},
@@ -180,7 +179,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
 /// The dynamic model of a case at other gages.
 fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, Error> {
     let model = case.model_with(gages)?;
-    model.analyze(&vec![1.0; model.parameters().len()])
+    model.matrices(&vec![1.0; model.parameters().len()])
 }
 
 fn with_doublers(gages: &[f64]) -> Vec<f64> {
@@ -193,13 +192,13 @@ fn with_doublers(gages: &[f64]) -> Vec<f64> {
 
 /// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
 /// then of unit generalized mass.
-fn as_read(modes: &Modes, mass: &DMatrix<f64>) -> Result<Modes, Error> {
+fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
     let mut shapes = modes.shapes.clone();
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    Modes {
+    ModeSet {
         omega_squared: modes.omega_squared.clone(),
         shapes,
     }
@@ -214,7 +213,7 @@ fn frequency_errors(
 ) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
-    let pairs = matched(&modes, &pairing).frequencies_hz();
+    let pairs = paired(&modes, &pairing).frequencies_hz();
     let errors = pairs.iter().zip(truth.frequencies_hz());
     Ok(errors.map(|(found, truth)| found / truth - 1.0).collect())
 }

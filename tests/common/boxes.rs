@@ -2,7 +2,7 @@
 
 use corfem::cases::Case;
 use corfem::cases::torque_box::PANEL_COUNT;
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalProblem;
 use proptest::prelude::*;
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.

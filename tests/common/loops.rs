@@ -5,7 +5,7 @@ use super::vibrations::{Chain, chain_and_truth};
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::derivatives::error_derivatives;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
-use corfem::method::modal::{ModalProblem, ModalState};
+use corfem::method::model::{ModalProblem, ModalState};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::step::{Limit, Range, StepRule, unlimited_factors};
 use proptest::prelude::*;

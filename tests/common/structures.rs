@@ -5,8 +5,8 @@ use corfem::method::assembly::{
 };
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::parameters::Parameter;
-use corfem::method::step::Range;
+use corfem::method::model::Parameter;
+use corfem::method::model::Range;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

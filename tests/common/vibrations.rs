@@ -4,7 +4,7 @@
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
 use corfem::closed_forms::spring_chain::spring_stiffness;
-use corfem::method::modal::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

@@ -8,7 +8,7 @@ use corfem::cases::Case;
 use corfem::files::deck::BulkData;
 use corfem::files::nastran95::Matrices;
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, Share};
 use corfem::method::model::FiniteElementModel;
 use nalgebra::DMatrix;
 use tempfile::TempDir;
@@ -111,7 +111,7 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
 
 /// A frame of three rods and a triangle on grids 7, 3, 9, 5 with z at two dynamic points.
 pub fn disordered() -> FiniteElementModel {
-    use corfem::method::parameters::Parameter;
+    use corfem::method::model::Parameter;
     use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
     let grid = |label, position: [f64; 3], held| Grid {
         label,

@@ -9,7 +9,7 @@ use corfem::cases::fit::fit;
 use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::files::deck::BulkData;
 use corfem::method::error::Error;
-use corfem::method::modal::Share;
+use corfem::method::model::Share;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::report::json::json;
 use corfem::present::report::render::render;

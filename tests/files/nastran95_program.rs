@@ -9,7 +9,7 @@ use corfem::cases::torque_box::{PANEL_COUNT, dynamic_points};
 use corfem::cases::{Case, run_case_with};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::DynamicModel;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::check;

@@ -18,7 +18,7 @@ use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalProblem;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::step::StepRule;
 

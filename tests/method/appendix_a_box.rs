@@ -8,7 +8,7 @@ use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_a::{condense, unit_share};
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes;
 use nalgebra::DMatrix;
 use proptest::prelude::*;

@@ -7,7 +7,7 @@ use crate::common::complex_pencils::{
 };
 use crate::common::strategies;
 use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::complex_modes::{LeftRightModes, solve};
+use corfem::method::appendix_c::general::complex_modes::{LeftRightModes, solve};
 use corfem::method::appendix_c::{ModalChange, general};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};

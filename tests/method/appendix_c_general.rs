@@ -2,7 +2,7 @@
 
 use crate::common::appendix_c::{ascending, errors, four_modes, separate_change, three_mass_chain};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
+use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
 use corfem::method::appendix_c::{
     ModalChange, UpdateRule, eigensolution, eigensolution_with_mass, general, normalize_with_mass,
     perturb, perturb_with_mass, recursive,

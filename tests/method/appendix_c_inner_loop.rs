@@ -4,7 +4,7 @@ use crate::common::appendix_c::three_mass_chain;
 use crate::common::tolerances::EIGEN_ROUND_OFF;
 use corfem::method::appendix_c::{CloseRootsSettings, UpdateRule};
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, ModalProblem};
+use corfem::method::model::{DynamicModel, ModalProblem};
 use nalgebra::DMatrix;
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
@@ -22,7 +22,7 @@ fn chain() -> ModalProblem {
         shares: grounds
             .into_iter()
             .chain(betweens)
-            .map(corfem::method::modal::Share::Stiffness)
+            .map(corfem::method::model::Share::Stiffness)
             .collect(),
     };
     ModalProblem::new(&model, &test, 3).expect("a held chain")

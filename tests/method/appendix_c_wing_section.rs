@@ -6,7 +6,7 @@ use crate::common::complex_pencils::{
 };
 use crate::common::log_log_slope;
 use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::complex_modes::{LeftRightModes, solve};
+use corfem::method::appendix_c::general::complex_modes::{LeftRightModes, solve};
 use corfem::method::appendix_c::{ModalChange, general};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector};

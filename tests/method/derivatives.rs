@@ -11,7 +11,7 @@ use corfem::method::derivatives::{
     DERIVATIVE_STEP, Workspace, error_changes_into, error_derivatives,
 };
 use corfem::method::error::Error;
-use corfem::method::modal::{ModalProblem, ModalState};
+use corfem::method::model::{ModalProblem, ModalState};
 use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.

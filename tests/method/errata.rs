@@ -8,7 +8,7 @@ use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_c::{UpdateRule, eigensolution, recursive_1_converged};
 use corfem::method::derivatives::error_derivatives;
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalProblem;
 use corfem::method::step::{StepRule, unlimited_factors};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;

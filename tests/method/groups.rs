@@ -3,7 +3,7 @@
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::method::error::Error;
-use corfem::method::parameters::Scaled;
+use corfem::method::model::Scaled;
 
 fn grouped(number: usize) -> CaseResult {
     let mut case = Case::new(number).expect("a case");

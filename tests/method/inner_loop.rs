@@ -9,8 +9,8 @@ use crate::common::loops::{
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::ModalProblem;
-use corfem::method::step::Range;
+use corfem::method::model::ModalProblem;
+use corfem::method::model::Range;
 use proptest::prelude::*;
 
 /// A run as given; where roots are so close that no first step settles there is nothing to look at.

@@ -5,7 +5,7 @@ use crate::common::vibrations::Chain;
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(

@@ -4,7 +4,7 @@ use crate::common::tolerances::ROUND_OFF;
 use corfem::method::appendix_c::{CloseRootsSettings, LARGEST_UNSETTLED_CHANGE, UpdateRule};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::modal::{DynamicModel, ModalProblem, Share};
+use corfem::method::model::{DynamicModel, ModalProblem, Share};
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use nalgebra::{DMatrix, dmatrix};

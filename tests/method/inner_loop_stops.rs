@@ -8,7 +8,7 @@ use corfem::cases::Case;
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::{DynamicModel, ModalProblem, Share};
+use corfem::method::model::{DynamicModel, ModalProblem, Share};
 use corfem::method::modes::solve;
 use corfem::method::step::{Limit, Range};
 use nalgebra::dmatrix;

@@ -3,7 +3,7 @@
 use crate::common::tolerances::ROUND_OFF;
 use crate::method::mass_parameters::{DENSITY, both, boxed, modes, point_masses};
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::parameters::Parameter;
+use corfem::method::model::Parameter;
 
 #[test]
 fn wrong_point_masses_are_found() {

@@ -10,10 +10,10 @@ use corfem::method::assembly::{FactorizedStiffness, element_matrices};
 use corfem::method::derivatives::{DERIVATIVE_STEP, error_derivatives};
 use corfem::method::elements::mass::corner_volumes;
 use corfem::method::error::Error;
-use corfem::method::modal::{ModalProblem, Share};
+use corfem::method::model::{ModalProblem, Share};
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{Modes, solve};
-use corfem::method::parameters::{Parameter, Scaled};
+use corfem::method::model::{Parameter, Scaled};
 use corfem::method::structure::Structure;
 use nalgebra::DMatrix;
 

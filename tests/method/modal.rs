@@ -5,7 +5,7 @@ use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, ModalProblem, Share};
+use corfem::method::model::{DynamicModel, ModalProblem, Share};
 use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;

@@ -6,9 +6,9 @@ use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalProblem;
 use corfem::method::outer_loop::{Check, Settings, check, correlate};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 use proptest::prelude::*;
 use std::cell::RefCell;
 

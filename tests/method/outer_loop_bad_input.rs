@@ -2,9 +2,9 @@
 
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::DynamicModel;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 

@@ -11,7 +11,7 @@ use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::parameters::Parameter;
+use corfem::method::model::Parameter;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -3,7 +3,7 @@
 use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
 use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::studies::matrix_comparison::{
     COVER_DOUBLER, COVERS, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,

@@ -20,7 +20,6 @@ mod process;
 
 use crate::files::deck::{BulkData, Task, write};
 use crate::method::error::Error;
-use crate::method::modal::DynamicModel;
 use crate::method::model::FiniteElementModel;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -111,16 +110,16 @@ impl Nastran95 {
         }
     }
 
-    /// The finite element analysis at the given parameter factors, as [`FiniteElementModel::analyze`] with NASTRAN's elements.
+    /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`], [`BulkData::of`] and [`FiniteElementModel::analyze`]; [`Error::SolverAnswer`] when
+    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`Error::SolverAnswer`] when
     /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
-    pub fn analyze(
+    pub fn elements(
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
-    ) -> Result<DynamicModel, Error> {
+    ) -> Result<FiniteElementModel, Error> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
@@ -133,6 +132,6 @@ impl Nastran95 {
         let units = matrices::unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;
         matrices::check_assembled(&model, factors, &answer)?;
-        model.analyze(factors)
+        Ok(model)
     }
 }

@@ -4,7 +4,7 @@ use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH,
 use super::heat_map::{HeatMap, percent};
 use crate::cases::CaseResult;
 use crate::method::error::Error;
-use crate::method::outer_loop::Check;
+use crate::method::model::Check;
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
 use nalgebra::DMatrix;
 

@@ -9,9 +9,9 @@ use super::view::{Plan, View};
 use crate::cases::CaseResult;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::Check;
-use crate::method::pairing::matched;
+use crate::method::modes::ModeSet;
+use crate::method::model::Check;
+use crate::method::pairing::paired;
 use crate::present::report::table::Digits;
 use nalgebra::Vector3;
 use plotters::style::WHITE;
@@ -49,14 +49,14 @@ pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
         .passes
         .last()
         .map_or(&correlation.initial, |pass| &pass.check);
-    let paired = |check: &Check| matched(&check.modes, &check.pairing);
+    let paired = |check: &Check| paired(&check.modes, &check.pairing);
     let states = [
         result.test.clone(),
         paired(&correlation.initial),
         paired(last),
     ];
     check_shape("mode shapes", &states[0].shapes, 9, result.test.len())?;
-    let state = |modes: &Modes, mode: usize| {
+    let state = |modes: &ModeSet, mode: usize| {
         let column = modes.shapes.column(mode);
         let largest = column.amax();
         let shape = std::array::from_fn(|dof| column[dof] / largest);

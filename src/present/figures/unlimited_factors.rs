@@ -6,7 +6,7 @@ use super::canvas::{
 };
 use crate::cases::CaseResult;
 use crate::method::error::Error;
-use crate::method::step::Range;
+use crate::method::model::Range;
 use crate::present::report::run_tables::factor_table;
 use crate::present::report::table::{Cell, Digits};
 use plotters::prelude::*;

@@ -3,7 +3,8 @@
 use super::json::{PROGRAM, UNITS, VERSION, written};
 use crate::method::error::Error;
 use crate::method::inner_loop::Stop;
-use crate::method::outer_loop::{Check, Pass};
+use crate::method::model::Check;
+use crate::method::outer_loop::Pass;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use serde::Serialize;
