@@ -79,7 +79,9 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, Error> {
             .collect::<Result<Vec<_>, _>>()?;
         let test = case.test_modes()?;
         let model = case.model_with(&gages)?;
-        let solution = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?.exact;
+        let solution = model
+            .analyze(&vec![1.0; model.parameters().len()], &test, None)?
+            .exact;
         columns.push(FitColumn {
             case: case_number,
             column: prefix.to_owned(),

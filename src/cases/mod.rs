@@ -16,10 +16,10 @@ use crate::cases::torque_box::{
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::model::FiniteElementModel;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::Settings;
 use crate::method::model::Parameter;
 use crate::method::model::Range;
+use crate::method::modes::Modes;
+use crate::method::outer_loop::Settings;
 use crate::method::structure::ElementKind;
 
 /// Numbers of the paper's cases.

@@ -4,9 +4,9 @@ use super::Case;
 use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
+use crate::method::model::Range;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
-use crate::method::model::Range;
 
 /// How many widths of the factor bounds beyond them an unlimited factor must lie to be reported as an anomaly.
 ///

@@ -46,9 +46,10 @@ pub fn error_changes(
 ) -> Result<Vec<f64>, Error> {
     match rule {
         DerivativeRule::Definition => by_definition(model, state),
-        DerivativeRule::Gradient => {
-            Ok(gradient(model, state).into_iter().map(|slope| DERIVATIVE_STEP * slope).collect())
-        }
+        DerivativeRule::Gradient => Ok(gradient(model, state)
+            .into_iter()
+            .map(|slope| DERIVATIVE_STEP * slope)
+            .collect()),
     }
 }
 
@@ -82,7 +83,12 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
         };
         Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
     };
-    model.shares.iter().zip(&state.factors).map(of_parameter).collect()
+    model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(of_parameter)
+        .collect()
 }
 
 /// Takes the coupling of close modes out of a generalized change.
@@ -113,7 +119,10 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
     let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
     // The shares are those of the exact modes, so the sensitivity goes to them and not each share to the present modes.
     let to_stiffness = p * &sensitivity * p.transpose();
-    let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
+    let has_mass = model
+        .shares
+        .iter()
+        .any(|share| matches!(share, Share::Mass(_)));
     let to_mass = has_mass.then(|| {
         let mut weighted = sensitivity;
         for (mut column, k) in weighted.column_iter_mut().zip(k.iter()) {
@@ -125,7 +134,12 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
         (Share::Mass(matrix), Some(to_mass)) => to_mass.dot(matrix),
         (share, _) => to_stiffness.dot(share.matrix()),
     };
-    model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
+    model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(|(share, factor)| factor * slope(share))
+        .collect()
 }
 
 /// $\partial e_S/\partial \beta$ at the present modes (n × n), the adjoint sweep over the test modes.

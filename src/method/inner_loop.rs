@@ -120,11 +120,7 @@ pub fn run(
 ) -> Result<InnerRun, Error> {
     check_settings(settings)?;
     check_length("parameter factors", base.len(), model.shares.len())?;
-    check_length(
-        "parameter limits",
-        total_ranges.len(),
-        model.shares.len(),
-    )?;
+    check_length("parameter limits", total_ranges.len(), model.shares.len())?;
     for range in total_ranges.iter().flatten() {
         Range::positive("parameter limits", range.lower, range.upper)?;
     }
@@ -143,8 +139,7 @@ pub fn run(
         } else {
             settings.relaxation
         };
-        let unlimited =
-            unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
+        let unlimited = unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }

@@ -33,11 +33,20 @@ impl ModeSet {
         if frequencies_hz.is_empty() {
             return Err(Error::Empty { what: "test modes" });
         }
-        check_shape("test mode shapes", shapes, shapes.nrows(), frequencies_hz.len())?;
+        check_shape(
+            "test mode shapes",
+            shapes,
+            shapes.nrows(),
+            frequencies_hz.len(),
+        )?;
         check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || test_mode(mode), frequency)?;
-            positive("largest component", || test_mode(mode), shapes.column(mode).amax())?;
+            positive(
+                "largest component",
+                || test_mode(mode),
+                shapes.column(mode).amax(),
+            )?;
         }
         let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
         Ok(Self {
@@ -58,7 +67,10 @@ impl ModeSet {
 
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz.
     pub fn frequencies_hz(&self) -> Vec<f64> {
-        self.omega_squared.iter().map(|omega_squared| omega_squared.sqrt() / (2.0 * PI)).collect()
+        self.omega_squared
+            .iter()
+            .map(|omega_squared| omega_squared.sqrt() / (2.0 * PI))
+            .collect()
     }
 
     /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
@@ -120,7 +132,10 @@ impl Modes {
     /// Orthonormal modes in ascending order, their signs by the rule.
     pub(crate) fn ascending(omega_squared: DVector<f64>, mut shapes: DMatrix<f64>) -> Self {
         apply_sign_rule(&mut shapes);
-        Self(ModeSet { omega_squared, shapes })
+        Self(ModeSet {
+            omega_squared,
+            shapes,
+        })
     }
 
     /// The lowest `count` modes.
@@ -138,7 +153,11 @@ fn check_count(count: usize, available: usize) -> Result<(), Error> {
         return Err(Error::Empty { what: "modes" });
     }
     if count > available {
-        return Err(Error::TooMany { what: "modes", available, requested: count });
+        return Err(Error::TooMany {
+            what: "modes",
+            available,
+            requested: count,
+        });
     }
     Ok(())
 }

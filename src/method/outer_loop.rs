@@ -116,7 +116,11 @@ pub fn correlate<E: From<Error>>(
             *factor *= step;
         }
         model = analyze(&factors)?;
-        let pass = Pass { check: model.exact.clone(), factors: factors.clone(), inner };
+        let pass = Pass {
+            check: model.exact.clone(),
+            factors: factors.clone(),
+            inner,
+        };
         converged = meets(&pass.check.errors, settings);
         progress(passes.len() + 1, &pass);
         let stuck = pass.inner.iterations.is_empty();
@@ -126,7 +130,12 @@ pub fn correlate<E: From<Error>>(
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
-    Ok(Correlation { parameter_count: total_ranges.len(), initial, passes, converged })
+    Ok(Correlation {
+        parameter_count: total_ranges.len(),
+        initial,
+        passes,
+        converged,
+    })
 }
 
 fn meets(errors: &Errors, settings: &Settings) -> bool {

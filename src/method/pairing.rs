@@ -102,8 +102,13 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     }
     let analysis_mode: Vec<usize> = partner.into_iter().flatten().collect();
     let pairs = analysis_mode.iter().enumerate();
-    let sign = pairs.map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 }).collect();
-    Ok(Pairing { analysis_mode, sign })
+    let sign = pairs
+        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
+        .collect();
+    Ok(Pairing {
+        analysis_mode,
+        sign,
+    })
 }
 
 /// The paired analysis modes, in the order and with the signs of the test modes.

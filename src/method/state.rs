@@ -77,7 +77,10 @@ impl ModalState {
             }
         }
         let k = &exact.omega_squared;
-        let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
+        let has_mass = model
+            .shares
+            .iter()
+            .any(|share| matches!(share, Share::Mass(_)));
         let whole = || ModalChange::of_vibrations(k, beta.clone(), alpha.clone());
         let perturbed = match rule {
             UpdateRule::Eigensolution => eigensolution(&whole())?,
@@ -88,7 +91,12 @@ impl ModalState {
                 recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed
             }
         };
-        if let Some((mode, &value)) = perturbed.roots.iter().enumerate().find(|(_, root)| **root <= 0.0) {
+        if let Some((mode, &value)) = perturbed
+            .roots
+            .iter()
+            .enumerate()
+            .find(|(_, root)| **root <= 0.0)
+        {
             return Err(Error::LostRoot { mode, value });
         }
         let mut shapes = perturbed.shapes;
@@ -99,6 +107,12 @@ impl ModalState {
             shapes: &exact.shapes * &shapes,
         };
         let errors = errors(&modes, &pairing, &model.test);
-        Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })
+        Ok(Self {
+            factors,
+            modes,
+            generalized_shapes: shapes,
+            pairing,
+            errors,
+        })
     }
 }

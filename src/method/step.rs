@@ -54,7 +54,11 @@ pub fn unlimited_factors(
     let parameters = error_changes.iter().zip(stiffness_changes);
     parameters
         .map(|(&error, &stiffness)| {
-            if stiffness > 0.0 { 1.0 - relaxation * error_sum * error / stiffness } else { 1.0 }
+            if stiffness > 0.0 {
+                1.0 - relaxation * error_sum * error / stiffness
+            } else {
+                1.0
+            }
         })
         .collect()
 }
@@ -88,6 +92,13 @@ pub fn limited_factor(
         Some(range) if !range.contains(base * next) => {
             (range.clamp(base * next) / base, Limit::Total)
         }
-        _ => (next, if factor == step { Limit::None } else { Limit::Factor }),
+        _ => (
+            next,
+            if factor == step {
+                Limit::None
+            } else {
+                Limit::Factor
+            },
+        ),
     }
 }

@@ -53,7 +53,8 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        let elements = |model: &FiniteElementModel, factors: &[f64]| solver.elements(model, factors);
+        let elements =
+            |model: &FiniteElementModel, factors: &[f64]| solver.elements(model, factors);
         results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !arguments.quiet {
                 eprintln!(

@@ -128,7 +128,11 @@ pub(crate) fn mass_weighted(
     Ok(weighted)
 }
 
-fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<(), Error> {
+fn check_problem(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> Result<(), Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_symmetric("dynamic mass", mass)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;

@@ -90,7 +90,7 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
     for number in CASES {
         let case = Case::new(number).expect("a case");
         let model = case.model().expect("a model");
-        let dynamic = model.analyze(&[1.0; 15]).expect("an analysis");
+        let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
         let modes =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let sizes = model.sizes(&[1.0; 15]).expect("sizes");
@@ -132,7 +132,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
         assert!(read.unread.is_empty(), "{:?}", read.unread);
         let found = deck::modes(&read.model).expect("modes");
         let model = Case::new(number).expect("a case").model().expect("a model");
-        let dynamic = model.analyze(&factors).expect("an analysis");
+        let dynamic = model.matrices(&factors).expect("an analysis");
         let expected =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();

@@ -32,7 +32,9 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
     let stored = stored_wing();
     let model = first_model(&wing()).expect("a model");
     assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
-    let start = model.analyze(&stored.initial.factors).expect("an analysis");
+    let start = model
+        .matrices(&stored.initial.factors)
+        .expect("an analysis");
     let test = test_modes(&wing(), &start.mass).expect("test modes");
     // They are the crate's own on both sides, perhaps by another processor.
     assert_near(
@@ -42,7 +44,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
         "test modes",
     );
     for found in stored.checks() {
-        let dynamic = model.analyze(&found.factors).expect("an analysis");
+        let dynamic = model.matrices(&found.factors).expect("an analysis");
         let own = check(&dynamic, &test, 19).expect("modes");
         assert_near(
             &found.frequencies_hz,
@@ -108,7 +110,7 @@ fn another_analysis_is_asked_for_every_model() {
         "another program",
         |model, factors| {
             asked.push(factors.to_vec());
-            model.analyze(factors)
+            model.matrices(factors)
         },
         |pass, _| told.push(pass),
     )
@@ -138,7 +140,7 @@ fn what_an_analysis_cannot_do_is_the_correlations_error() {
                     return Err(Error::SolverInterrupted);
                 }
                 left -= 1;
-                model.analyze(factors)
+                model.matrices(factors)
             },
             |_, _| {},
         );

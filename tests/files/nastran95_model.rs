@@ -9,8 +9,8 @@ use corfem::cases::fit::fit;
 use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::files::deck::BulkData;
 use corfem::method::error::Error;
-use corfem::method::model::Share;
 use corfem::method::model::FiniteElementModel;
+use corfem::method::model::Share;
 use corfem::present::report::json::json;
 use corfem::present::report::render::render;
 use corfem::present::report::run_tables::all_tables;
@@ -164,7 +164,7 @@ fn element_matrices_of_another_origin_must_fit() {
 fn a_case_runs_with_the_analysis_it_is_given() {
     let case = Case::new(2).expect("a case");
     let stiffer = |model: &FiniteElementModel, factors: &[f64]| {
-        let mut dynamic = model.analyze(factors)?;
+        let mut dynamic = model.matrices(factors)?;
         dynamic.stiffness *= 4.0;
         for share in &mut dynamic.shares {
             *share = Share::Stiffness(4.0 * share.matrix());

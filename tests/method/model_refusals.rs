@@ -98,7 +98,7 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
             ([value, 1.0], "parameter wing"),
             ([1.0, value], "parameter 3"),
         ] {
-            let refused = model.analyze(&factors).unwrap_err();
+            let refused = model.matrices(&factors).unwrap_err();
             assert!(
                 matches!(&refused, Error::NotPositive { what: "factor", owner, .. } if owner == name),
                 "{refused:?}"
@@ -200,7 +200,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
     );
     let nothing = with_mass(DMatrix::zeros(3, 0), DMatrix::zeros(0, 0))
         .unwrap()
-        .analyze(&[1.0])
+        .matrices(&[1.0])
         .unwrap_err();
     assert!(
         matches!(
@@ -242,7 +242,7 @@ fn what_is_wrong_with_an_element_or_the_structure_comes_through() {
     let t = DMatrix::identity(2, 1);
     let refused = FiniteElementModel::new(free, t, one, vec![Parameter::element(1, None)])
         .unwrap()
-        .analyze(&[1.0]);
+        .matrices(&[1.0]);
     assert!(
         matches!(
             refused,

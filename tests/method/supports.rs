@@ -9,9 +9,9 @@
 
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::model::Parameter;
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -79,14 +79,14 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
 }
 
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
-fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
+fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
     let truth = chain(TRUE_AREAS, support)
         .expect("a chain")
-        .analyze(&[1.0; 5])
+        .matrices(&[1.0; 5])
         .expect("held");
     let count = truth.mass.nrows();
     let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
-    let test = Modes {
+    let test = ModeSet {
         omega_squared: all.omega_squared.rows(rigid, count - rigid).into_owned(),
         shapes: all.shapes.columns(rigid, count - rigid).into_owned(),
     };
@@ -100,14 +100,13 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     settings.later_inner_tolerance = 0.002;
     let ranges = model.factor_ranges().expect("no bounds");
     let result = correlate(
-        |factors| model.analyze(factors),
-        &test,
+        |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
         |_, _| {},
     )
     .expect("it runs");
-    (result, all)
+    (result, all.into())
 }
 
 fn assert_areas_found(result: &Correlation) {
@@ -168,7 +167,7 @@ fn chain_that_nothing_holds_is_refused() {
     let parameters = vec![Parameter::element(1, None)];
     let model =
         FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
-    let error = model.analyze(&[1.0]).expect_err("it moves as a whole");
+    let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
     assert!(
         matches!(error, Error::SingularStiffness { direction: 'x', .. }),
         "{error}"

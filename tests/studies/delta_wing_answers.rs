@@ -118,8 +118,8 @@ fn modes_are_those_of_the_dense_pencil() {
         }
     }
     let dense = corfem::method::modes::solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
-    let dense = dense.expect("modes").omega_squared;
-    let found = wing().modes().expect("modes").modes.omega_squared;
+    let dense = dense.expect("modes").omega_squared.clone();
+    let found = wing().modes().expect("modes").modes.omega_squared.clone();
     // The dense solution rounds at its highest root; the lowest dozen keep what that leaves.
     let highest = dense.max();
     for (a, b) in dense.iter().zip(found.iter()).take(12) {

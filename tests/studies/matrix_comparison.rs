@@ -20,7 +20,7 @@ pub fn model(case: usize, gages: &[f64]) -> DynamicModel {
     let case = Case::new(case).expect("a case");
     case.model_with(gages)
         .expect("a model")
-        .analyze(&[1.0; 15])
+        .matrices(&[1.0; 15])
         .expect("analyzed")
 }
 

@@ -66,7 +66,10 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
-pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
+pub fn rigid_body_vectors(
+    motions: &[Motion],
+    dofs: &[MeasuringPoint],
+) -> Result<DMatrix<f64>, Error> {
     for (what, count) in [
         ("rigid-body motions", motions.len()),
         ("dynamic degrees of freedom", dofs.len()),

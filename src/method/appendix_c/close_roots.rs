@@ -12,9 +12,9 @@
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
 use super::blocks::{BlockPencil, block_modes};
+use super::general::ModalChange;
 use super::general::QUIET_ORDERS;
 use super::recursive::{check_order, check_root};
-use super::general::ModalChange;
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, symmetric_part};
@@ -106,8 +106,12 @@ pub fn close_roots(
     check_finite("perturbed generalized shapes", &shapes)?;
     apply_sign_rule(&mut shapes);
     Ok(SolvedInBlocks {
-        settled: Settled { perturbed: Perturbed { roots, shapes }, order, last_change }
-            .check(settings.orders)?,
+        settled: Settled {
+            perturbed: Perturbed { roots, shapes },
+            order,
+            last_change,
+        }
+        .check(settings.orders)?,
         blocks: pencil
             .blocks
             .into_iter()

@@ -9,7 +9,9 @@ pub use parameters::{Parameter, Range, Scaled};
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky};
+use crate::method::linear_algebra::{
+    check_finite, check_length, check_shape, check_symmetric, cholesky,
+};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
 use nalgebra::DMatrix;
@@ -106,11 +108,7 @@ impl FiniteElementModel {
     /// [`Error::WrongShape`] for another number of matrices or one that does not fit its element; [`Error::NotFinite`] and
     /// [`Error::NotSymmetric`].
     pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
-        check_length(
-            "element matrices",
-            units.len(),
-            self.element_matrices.len(),
-        )?;
+        check_length("element matrices", units.len(), self.element_matrices.len())?;
         let mut model = self.clone();
         for (element, unit) in model.element_matrices.iter_mut().zip(units) {
             let dof_count = element.dof.len();
@@ -189,7 +187,11 @@ impl FiniteElementModel {
     }
 
     fn first_sizes(&self) -> Vec<f64> {
-        self.structure.elements().iter().map(|element| element.size).collect()
+        self.structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect()
     }
 
     /// `values` of one kind times the factors of the parameters that scale them.
@@ -227,7 +229,10 @@ impl FiniteElementModel {
         let point_factors = self.scaled(vec![1.0; dof_count], MemberKind::PointMass, factors)?;
         let free = self.structure.free_dof();
         let structural = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
-        let Condensed { stiffness, transformation } = condense(&structural, &self.load_distribution)?;
+        let Condensed {
+            stiffness,
+            transformation,
+        } = condense(&structural, &self.load_distribution)?;
         let mut point_mass = self.mass.clone();
         for (dof, factor) in point_factors.iter().enumerate() {
             point_mass[(dof, dof)] *= factor;
@@ -238,7 +243,14 @@ impl FiniteElementModel {
                 mass += size * generalized_mass(&transformation, element);
             }
         }
-        Ok(CondensedModel { stiffness, mass, transformation, sizes, mass_sizes, point_mass })
+        Ok(CondensedModel {
+            stiffness,
+            mass,
+            transformation,
+            sizes,
+            mass_sizes,
+            point_mass,
+        })
     }
 
     /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m), by the rows of each element's own DOF alone:
@@ -289,7 +301,13 @@ impl FiniteElementModel {
     ) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
-        ModalModel::new(&condensed.stiffness, &condensed.mass, test, analysis_modes, through)
+        ModalModel::new(
+            &condensed.stiffness,
+            &condensed.mass,
+            test,
+            analysis_modes,
+            through,
+        )
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d), for those who look at whole matrices.
@@ -300,7 +318,11 @@ impl FiniteElementModel {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
         let shares = self.shares(&condensed, &identity);
-        Ok(DynamicModel { stiffness: condensed.stiffness, mass: condensed.mass, shares })
+        Ok(DynamicModel {
+            stiffness: condensed.stiffness,
+            mass: condensed.mass,
+            shares,
+        })
     }
 
     /// The exact modes at the given parameter factors, at the dynamic DOF.
@@ -309,6 +331,10 @@ impl FiniteElementModel {
     /// Those of [`Self::condense`] and [`solve`].
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
         let condensed = self.condense(factors)?;
-        solve(&condensed.stiffness, &condensed.mass, condensed.mass.nrows())
+        solve(
+            &condensed.stiffness,
+            &condensed.mass,
+            condensed.mass.nrows(),
+        )
     }
 }

@@ -41,9 +41,7 @@ pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, Error> {
         let share = first.shares[e].matrix();
         share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
     });
-    let error_sum = DMatrix::from_fn(rows, 1, |e, _| {
-        error_changes[e] / DERIVATIVE_STEP
-    });
+    let error_sum = DMatrix::from_fn(rows, 1, |e, _| error_changes[e] / DERIVATIVE_STEP);
     Ok(DerivativeMap {
         case: result.case.number,
         parameters: result.parameter_names.clone(),

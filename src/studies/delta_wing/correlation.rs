@@ -17,13 +17,13 @@ mod run;
 pub use run::{Recovered, WingCorrelation, correlate_wing, correlate_wing_with};
 
 use super::DeltaWing;
-use crate::method::state::UpdateRule;
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::model::FiniteElementModel;
+use crate::method::model::Parameter;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
-use crate::method::model::Parameter;
+use crate::method::state::UpdateRule;
 use crate::method::structure::{Element, Material, Structure};
 use nalgebra::DMatrix;
 

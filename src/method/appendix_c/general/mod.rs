@@ -98,9 +98,18 @@ where
         now = coupling.next_order(change, now)?;
         order += 1;
         last_change = largest_change(&before, &now.roots);
-        quiet_orders = if last_change < tolerance { quiet_orders + 1 } else { 0 };
+        quiet_orders = if last_change < tolerance {
+            quiet_orders + 1
+        } else {
+            0
+        };
     }
-    Settled { perturbed: now, order, last_change }.check(orders)
+    Settled {
+        perturbed: now,
+        order,
+        last_change,
+    }
+    .check(orders)
 }
 
 /// $\beta$ and $\alpha$ without their diagonals.
@@ -159,7 +168,10 @@ where
     let mut now = first_order(change)?;
     for _ in 2..=order {
         let roots = explicit_roots(change, &now.shapes)?;
-        now = finite(Perturbed { shapes: shapes_by_linear_solution(change, &roots)?, roots })?;
+        now = finite(Perturbed {
+            shapes: shapes_by_linear_solution(change, &roots)?,
+            roots,
+        })?;
     }
     Ok(now)
 }
@@ -173,7 +185,10 @@ where
     T: ComplexField<RealField = f64> + Copy,
 {
     let Perturbed { shapes, .. } = first_order(change)?;
-    finite(Perturbed { roots: explicit_roots(change, &shapes)?, shapes })
+    finite(Perturbed {
+        roots: explicit_roots(change, &shapes)?,
+        shapes,
+    })
 }
 
 /// Roots from given shapes, $\gamma_i = \lambda_i + (A_i - \lambda_i S_i)/(k_{ii} + S_i)$ (C.24).

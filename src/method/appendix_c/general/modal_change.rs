@@ -165,6 +165,10 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
             return Ok(numerator / difference);
         }
         let separation = difference.modulus() / own;
-        Err(Error::CoalescingModes { first: i, second: j, separation })
+        Err(Error::CoalescingModes {
+            first: i,
+            second: j,
+            separation,
+        })
     }
 }

@@ -80,12 +80,7 @@ pub fn correlate_wing_with(
     let test = test_modes(wing)?;
     let mut analyze = |factors: &[f64]| elements(&model, factors)?.analyze(factors, &test, None);
     let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
-    let correlation = correlate(
-        analyze,
-        &model.factor_ranges()?,
-        &settings(),
-        progress,
-    )?;
+    let correlation = correlate(analyze, &model.factor_ranges()?, &settings(), progress)?;
     let factors = correlation.best_factors();
     let found = GROUPS.iter().zip(factors).zip(shares);
     let groups = found.map(|((group, factor), share)| Recovered {
