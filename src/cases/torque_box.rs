@@ -164,7 +164,7 @@ pub fn structure(
         .map(|(&label, &position)| Grid {
             label,
             position: Vector3::from(position),
-            held: [label >= FIRST_FIXED_GRID; 3],
+            constrained: [label >= FIRST_FIXED_GRID; 3],
         })
         .collect();
     let panels = panels.iter().map(|panel| Element {

@@ -175,12 +175,12 @@ pub enum Error {
         /// What is wrong with it.
         source: Box<Error>,
     },
-    /// Nothing holds some motion of the structure.
+    /// Nothing constrains some motion of the structure.
     #[error(
-        "stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
+        "stiffness: expected every motion constrained, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
     )]
     SingularStiffness {
-        /// The grid that moves most in the motion nothing holds.
+        /// The grid that moves most in the motion that nothing constrains.
         grid: usize,
         /// Its direction: `x`, `y` or `z`.
         direction: char,

@@ -92,7 +92,7 @@ const BAD_FIELDS: &str = "\
 - | MPC,1,2,5,-1.,1,1,1. | 4 | component 1, 2 or 3 | 5
 - | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient that is not zero | 0.
 - | MPC,1,2,1,1,1,1,1. | 5 | a real number with a decimal point | 1
-- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card holds | 1
+- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card constrains | 1
 ";
 
 #[test]

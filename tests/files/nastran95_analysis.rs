@@ -113,10 +113,10 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
 pub fn disordered() -> FiniteElementModel {
     use corfem::method::parameters::Parameter;
     use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-    let grid = |label, position: [f64; 3], held| Grid {
+    let grid = |label, position: [f64; 3], constrained| Grid {
         label,
         position: position.into(),
-        held: [held; 3],
+        constrained: [constrained; 3],
     };
     let light = Material::isotropic(1e7, 0.3).expect("a material");
     let heavy = light.with_density(1e-4).expect("a density");

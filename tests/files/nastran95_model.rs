@@ -41,7 +41,11 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
     let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
     assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
     assert_eq!(labels[7..], (201..=213).collect::<Vec<_>>());
-    assert!(read.grids[7..].iter().all(|grid| grid.held == [true; 3]));
+    assert!(
+        read.grids[7..]
+            .iter()
+            .all(|grid| grid.constrained == [true; 3])
+    );
     let labels: Vec<usize> = read.elements.iter().map(|element| element.label).collect();
     assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
     assert_eq!(read.elements[5].size, 0.2);

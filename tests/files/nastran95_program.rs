@@ -115,7 +115,7 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         let lower = matrices["KAA"]
             .clone()
             .cholesky()
-            .expect("a held structure")
+            .expect("a constrained structure")
             .l();
         let half = lower
             .solve_lower_triangular(&matrices["MAA"])

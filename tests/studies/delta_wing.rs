@@ -109,7 +109,7 @@ fn grids_lie_behind_the_leading_edge_at_half_the_depth() {
             _ if z == 0.0 => [true, true, false],
             _ => [false; 3],
         };
-        assert_eq!(grid.held, expected, "grid {}", grid.label);
+        assert_eq!(grid.constrained, expected, "grid {}", grid.label);
     }
 }
 

@@ -56,7 +56,7 @@ impl Constraints {
         Ok(true)
     }
 
-    /// Marks what is held.
+    /// Marks what is constrained.
     ///
     /// # Errors
     /// [`Error::DeckField`] for a grid that does not exist.
@@ -92,8 +92,8 @@ impl Constraints {
                 let mut is_known = false;
                 for (_, grid) in grids.range_mut(first..=last) {
                     is_known = true;
-                    for (held, direction) in grid.held.iter_mut().zip(directions) {
-                        *held |= direction;
+                    for (constrained, direction) in grid.constrained.iter_mut().zip(directions) {
+                        *constrained |= direction;
                     }
                 }
                 if !is_known {
@@ -107,7 +107,7 @@ impl Constraints {
     /// The equations, by dependent DOF; `grid` checks the grid named in a field of a card.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a DOF that does not exist, a dependent DOF that is held, has another equation or stands in one
+    /// [`Error::DeckField`] for a DOF that does not exist, a dependent DOF that is constrained, has another equation or stands in one
     /// as a term, and a zero coefficient of a dependent DOF.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, Error> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
@@ -120,8 +120,11 @@ impl Constraints {
                 return Err(card.error(5, "a coefficient that is not zero"));
             }
             let key = (dependent.grid, dependent.direction);
-            if grids.get(&key.0).is_some_and(|grid| grid.held[key.1]) {
-                return Err(card.error(3, "a degree of freedom that no SPC1 card holds"));
+            if grids
+                .get(&key.0)
+                .is_some_and(|grid| grid.constrained[key.1])
+            {
+                return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
             }
             let tie = Tie {
                 dependent,

@@ -2,7 +2,7 @@
 
 use super::card::Card;
 use super::model::PointMass;
-use super::number::held_by_field;
+use super::number::nearest_in_field;
 use super::numbered::{Kept, Numbered};
 use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Material};
@@ -141,8 +141,8 @@ fn material(card: &Card) -> Result<Material, Error> {
     // A number that is worked out is rounded to what a deck can hold, so that writing it loses nothing.
     let (e, nu) = match (e, g, nu) {
         (Some(e), _, Some(nu)) => (e, nu),
-        (Some(e), Some(g), None) => (e, held_by_field(e / (2.0 * g) - 1.0)),
-        (None, Some(g), Some(nu)) => (held_by_field(2.0 * g * (1.0 + nu)), nu),
+        (Some(e), Some(g), None) => (e, nearest_in_field(e / (2.0 * g) - 1.0)),
+        (None, Some(g), Some(nu)) => (nearest_in_field(2.0 * g * (1.0 + nu)), nu),
         _ => return Err(card.error(3, "two of E, G and NU")),
     };
     let derived = Material::isotropic(e, nu).map_err(|error| match error {

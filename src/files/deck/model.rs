@@ -66,7 +66,7 @@ impl BulkData {
     /// A finite element model as a deck can hold it, its parameters scaled by `factors`.
     ///
     /// Every dynamic DOF becomes the z of a grid of its own at the position given in `points` (in), numbered after the
-    /// next multiple of a hundred above every grid and element, with the other directions held. Its MPC equation is its column of $T$:
+    /// next multiple of a hundred above every grid and element, with the other directions constrained. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm}\, u_s = 0 $$
     ///
@@ -101,12 +101,12 @@ impl BulkData {
                 return Err(Error::CoupledMass { dof: column });
             }
             let label = base + column;
-            let mut held = [true; 3];
-            held[DYNAMIC_DIRECTION] = false;
+            let mut constrained = [true; 3];
+            constrained[DYNAMIC_DIRECTION] = false;
             grids.push(Grid {
                 label,
                 position,
-                held,
+                constrained,
             });
             let free = structure.free_dof().iter().copied();
             ties.push(Tie {
@@ -161,7 +161,7 @@ impl BulkData {
         let mut grids = self.grids.clone();
         for grid in &mut grids {
             for direction in 0..3 {
-                grid.held[direction] |= tied.contains(&(grid.label, direction));
+                grid.constrained[direction] |= tied.contains(&(grid.label, direction));
             }
         }
         Structure::new(grids, self.elements.clone())
@@ -170,7 +170,7 @@ impl BulkData {
     /// The DOF with mass, free or dependent: masses of CMASS2 and CONM2 cards and the lumped ones of elements with a density.
     ///
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
-    /// Masses on held DOF do not move.
+    /// Masses on constrained DOF do not move.
     ///
     /// # Errors
     /// The geometry errors of elements with a density.
@@ -204,7 +204,7 @@ impl BulkData {
             let mut column = DVector::zeros(structure.free_dof().len());
             if let Some(tie) = tie_of.get(&(grid, direction)) {
                 for (term, coefficient) in &tie.terms {
-                    // A held DOF does not move and adds nothing.
+                    // A constrained DOF does not move and adds nothing.
                     if let Some(row) = structure.free_dof_index(term.grid, term.direction) {
                         column[row] -= coefficient / tie.coefficient;
                     }

@@ -129,6 +129,6 @@ fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, Error
     Ok(Grid {
         label,
         position: Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?),
-        held: chosen(8).directions(8)?,
+        constrained: chosen(8).directions(8)?,
     })
 }

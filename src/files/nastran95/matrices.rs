@@ -37,7 +37,7 @@ pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
             all.grids.push(Grid {
                 label,
                 position: *corner,
-                held: [true; 3],
+                constrained: [true; 3],
             });
         }
         all.elements.push(Element {

@@ -17,7 +17,7 @@ pub struct StructuralPoint {
     pub grid: usize,
     /// Position, in: x aft, y outboard, z up.
     pub position: Vector3<f64>,
-    /// Whether it is held in all directions.
+    /// Whether it is constrained in all directions.
     pub fixed: bool,
 }
 
@@ -45,7 +45,7 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
         .map(|grid| StructuralPoint {
             grid: grid.label,
             position: grid.position,
-            fixed: grid.held == [true; 3],
+            fixed: grid.constrained == [true; 3],
         })
         .collect();
     let dynamic = Planform::of(&case.reconstruction)

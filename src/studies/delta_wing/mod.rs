@@ -150,12 +150,12 @@ impl DeltaWing {
                 grids.push(Grid {
                     label: mid_grid(line, station),
                     position: Vector3::new(x, y, 0.0),
-                    held: [true, true, false],
+                    constrained: [true, true, false],
                 });
                 grids.push(Grid {
                     label: upper_grid(line, station),
                     position: Vector3::new(x, y, depth),
-                    held: [station == 0, false, station == SUPPORTED_STATION],
+                    constrained: [station == 0, false, station == SUPPORTED_STATION],
                 });
             }
         }
