@@ -1,6 +1,7 @@
 //! A case from its first gages to its last exact check.
 
 use super::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
 use crate::method::modal::DynamicModel;
@@ -70,8 +71,9 @@ impl CaseResult {
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.
-pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
-    run_case_with(case, BUILT_IN, FiniteElementModel::analyze, progress)
+pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, CaseError> {
+    let analyze = |model: &FiniteElementModel, factors: &[f64]| Ok(model.analyze(factors)?);
+    run_case_with(case, BUILT_IN, analyze, progress)
 }
 
 /// Correlates a case with another finite element analysis than the crate's own: `solver` is its name for the report,
@@ -80,12 +82,12 @@ pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseR
 ///
 /// # Errors
 /// Those of `analyze` and of [`run_case`].
-pub fn run_case_with(
+pub fn run_case_with<E: From<CaseError> + From<Error>>(
     case: &Case,
     solver: &'static str,
-    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<CaseResult, Error> {
+) -> Result<CaseResult, E> {
     let model = case.model()?;
     let test = case.test_modes_with(&mut analyze)?;
     let correlation = correlate(

@@ -18,3 +18,4 @@ pub mod pairing;
 pub mod parameters;
 pub mod step;
 pub mod structure;
+pub mod whole_modes;

@@ -11,6 +11,11 @@ use crate::method::structure::Structure;
 use nalgebra::DMatrix;
 
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
+///
+/// A stiffness parameter scales stiffness alone. An element keeps the mass of its first size, times the factor of a mass
+/// parameter if there is one: in the paper, too, the mass is known and never changes. So a gage that a correlation finds is
+/// a factor on what the element resists, and does not make it heavier. [`Self::sizes`], [`Self::mass_sizes`] and
+/// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
     structure: Structure,
@@ -158,18 +163,39 @@ impl FiniteElementModel {
             .collect()
     }
 
-    /// Gage or area of every element at the given parameter factors, in the structure's order.
+    /// Gage or area of every element for its stiffness at the given parameter factors, in the structure's order.
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        let first = self
-            .structure
-            .elements()
-            .iter()
-            .map(|element| element.size)
-            .collect();
-        self.scaled(first, MemberKind::Stiffness, factors)
+        self.scaled(self.first_sizes(), MemberKind::Stiffness, factors)
+    }
+
+    /// The same for its mass: the first size times the factors of mass parameters alone.
+    ///
+    /// # Errors
+    /// Those of [`Self::sizes`].
+    pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        self.scaled(self.first_sizes(), MemberKind::ElementMass, factors)
+    }
+
+    /// The dynamic mass $M$ without that of elements at the given parameter factors, lbf·s²/in (d × d).
+    ///
+    /// # Errors
+    /// Those of [`Self::sizes`].
+    pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
+        let ones = vec![1.0; self.mass.nrows()];
+        let scaled = self.scaled(ones, MemberKind::PointMass, factors)?;
+        let mut mass = self.mass.clone();
+        for (dof, factor) in scaled.iter().enumerate() {
+            mass[(dof, dof)] *= factor;
+        }
+        Ok(mass)
+    }
+
+    fn first_sizes(&self) -> Vec<f64> {
+        let elements = self.structure.elements().iter();
+        elements.map(|element| element.size).collect()
     }
 
     /// `values` of one kind times the factors of the parameters that scale them.
@@ -198,7 +224,9 @@ impl FiniteElementModel {
     /// The finite element analysis at the given parameter factors: $K_S$ anew, a new $B$, and with it $K_D$, $M$ and each
     /// parameter's present share of them.
     ///
-    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e s_e B M_e B^t $$
+    /// With $s_e$ of [`Self::sizes`], $m_e$ of [`Self::mass_sizes`] and $M_{points}$ of [`Self::point_masses`]:
+    ///
+    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e m_e B M_e B^t $$
     ///
     /// # Errors
     /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
@@ -207,20 +235,9 @@ impl FiniteElementModel {
         let structural =
             FactorizedStiffness::new(&self.element_matrices, &sizes, self.structure.free_dof())?;
         let condensed = condense(&structural, &self.load_distribution)?;
-        // An element's mass is that of its first size: stiffness and mass are scaled by parameters of their own.
-        let first = self
-            .structure
-            .elements()
-            .iter()
-            .map(|element| element.size)
-            .collect();
-        let mass_sizes = self.scaled(first, MemberKind::ElementMass, factors)?;
-        let point_factors =
-            self.scaled(vec![1.0; self.mass.nrows()], MemberKind::PointMass, factors)?;
-        let mut mass = self.mass.clone();
-        for (dof, factor) in point_factors.iter().enumerate() {
-            mass[(dof, dof)] *= factor;
-        }
+        let mass_sizes = self.mass_sizes(factors)?;
+        let points = self.point_masses(factors)?;
+        let mut mass = points.clone();
         for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
             if element.unit_mass.amax() > 0.0 {
                 mass += size * unit_mass_share(&condensed.transformation, element);
@@ -229,7 +246,7 @@ impl FiniteElementModel {
         let shares = self
             .members
             .iter()
-            .map(|members| self.share(members, &condensed, &sizes, &mass_sizes, &point_factors))
+            .map(|members| self.share(members, &condensed, &sizes, &mass_sizes, &points))
             .collect();
         Ok(DynamicModel {
             stiffness: condensed.stiffness,
@@ -245,7 +262,7 @@ impl FiniteElementModel {
         condensed: &Condensed,
         sizes: &[f64],
         mass_sizes: &[f64],
-        point_factors: &[f64],
+        points: &DMatrix<f64>,
     ) -> Share {
         let dof_count = self.mass.nrows();
         let mut share = DMatrix::zeros(dof_count, dof_count);
@@ -261,7 +278,7 @@ impl FiniteElementModel {
                     share += mass_sizes[row] * unit;
                 }
                 MemberKind::PointMass => {
-                    share[(row, row)] += self.mass[(row, row)] * point_factors[row]
+                    share[(row, row)] += points[(row, row)];
                 }
             }
         }

@@ -120,13 +120,13 @@ impl Correlation {
 /// # Errors
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
-pub fn correlate(
-    mut analyze: impl FnMut(&[f64]) -> Result<DynamicModel, Error>,
+pub fn correlate<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<DynamicModel, E>,
     test: &Modes,
     total_ranges: &[Option<Range>],
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
-) -> Result<Correlation, Error> {
+) -> Result<Correlation, E> {
     check_settings(settings)?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
@@ -147,7 +147,7 @@ pub fn correlate(
             {
                 break;
             }
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
         };
         for (factor, step) in factors.iter_mut().zip(&inner.last.factors) {
             *factor *= step;

@@ -3,9 +3,9 @@
 use clap::{Args, ValueEnum};
 use corfem::cases::BUILT_IN;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
-use corfem::method::error::Error;
 use corfem::method::modal::DynamicModel;
 use corfem::method::model::FiniteElementModel;
+use corfem::present::error::PresentError;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -42,7 +42,7 @@ pub enum Solver {
 
 impl Solver {
     /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
-    pub fn of(arguments: &SolverArguments) -> Result<Self, Error> {
+    pub fn of(arguments: &SolverArguments) -> Result<Self, PresentError> {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self::BuiltIn);
         }
@@ -69,10 +69,10 @@ impl Solver {
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
-    ) -> Result<DynamicModel, Error> {
-        match self {
-            Self::BuiltIn => model.analyze(factors),
-            Self::Nastran95(nastran) => nastran.analyze(model, factors),
-        }
+    ) -> Result<DynamicModel, PresentError> {
+        Ok(match self {
+            Self::BuiltIn => model.analyze(factors)?,
+            Self::Nastran95(nastran) => nastran.analyze(model, factors)?,
+        })
     }
 }

@@ -4,6 +4,7 @@ use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
 use corfem::method::appendix_c::UpdateRule;
 use corfem::method::derivatives::error_derivatives;
+use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
 use corfem::method::modal::{ModalProblem, ModalState};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
@@ -252,7 +253,7 @@ pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>]
 pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
     let ranges = vec![None; truth.len()];
     correlate(
-        |factors| Ok(chain.model(factors)),
+        |factors| Ok::<_, Error>(chain.model(factors)),
         &chain.modes(truth),
         &ranges,
         settings,

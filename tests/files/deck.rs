@@ -7,6 +7,7 @@ use corfem::cases::{CASES, Case};
 use corfem::files::deck::number::nearest_in_field;
 use corfem::files::deck::write::bulk_data as written;
 use corfem::files::deck::{self, BulkData, Task};
+use corfem::method::assembly::element_matrices;
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 
@@ -177,7 +178,8 @@ fn mpc_cards_are_the_load_distribution() {
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let dynamic = read.dynamic_dof(&structure).expect("dynamic DOF");
+    let elements = element_matrices(&structure).expect("elements");
+    let dynamic = read.mass_dof(&structure, &elements).expect("masses");
     assert_eq!(dynamic.load_distribution.shape(), (36, 9));
     for (read, meant) in dynamic
         .load_distribution

@@ -3,7 +3,7 @@
 use crate::common::tolerances::ROUND_OFF;
 use corfem::files::deck::write::bulk_data;
 use corfem::files::deck::{self, Reason, Unread};
-use corfem::method::error::Error;
+use corfem::files::error::FileError;
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
 const ROD: &str = "\
@@ -50,7 +50,10 @@ fn unknown_cards_are_listed_in_the_order_of_the_file() {
         "PARAM,WTMASS,2.\n{ROD}CMASS2,8,.4,2,1\nCBAR,9,1,1,2,1.,0.,0.\nEIGR,1,INV\n+X,MAX\n"
     );
     let error = deck::read("test", &deck).expect_err("+X continues nothing");
-    assert!(matches!(error, Error::DeckLine { line: 12, .. }), "{error}");
+    assert!(
+        matches!(error, FileError::DeckLine { line: 12, .. }),
+        "{error}"
+    );
     let read = deck::read("test", &deck.replace("+X,MAX\n", "")).expect("it reads");
     let unknown = |card: &str, line| Unread {
         card: card.into(),
@@ -125,7 +128,7 @@ fn mat1_derives_what_is_blank() {
     ] {
         let error = with(fields).expect_err(fields);
         assert!(
-            matches!(&error, Error::DeckField { card, line: 5, field: found, .. } if card == "MAT1" && *found == field),
+            matches!(&error, FileError::DeckField { card, line: 5, field: found, .. } if card == "MAT1" && *found == field),
             "{fields}: {error}"
         );
     }

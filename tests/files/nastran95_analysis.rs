@@ -6,6 +6,7 @@ use crate::common::fake_solver::{fake, output5, solver};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::cases::Case;
 use corfem::files::deck::BulkData;
+use corfem::files::error::FileError;
 use corfem::files::nastran95::Matrices;
 use corfem::method::error::Error;
 use corfem::method::modal::{DynamicModel, Share};
@@ -170,7 +171,7 @@ fn an_answer_to_another_question_is_refused() {
         let mut answer = good.clone();
         change(&mut answer);
         match solver(&answering(&answer)).analyze(&model, &[1.0, 1.0]) {
-            Err(Error::SolverAnswer { expected, found }) => (expected, found),
+            Err(FileError::SolverAnswer { expected, found }) => (expected, found),
             other => panic!("{other:?}"),
         }
     };
@@ -220,11 +221,11 @@ fn an_answer_to_another_question_is_refused() {
     }
     assert!(matches!(
         BulkData::of(&model, &[1.0, 1.0], &[]),
-        Err(Error::WrongShape {
+        Err(FileError::Method(Error::WrongShape {
             what: "positions of dynamic points",
             expected_rows: 2,
             rows: 0,
             ..
-        })
+        }))
     ));
 }

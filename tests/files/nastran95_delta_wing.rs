@@ -6,8 +6,8 @@
 use crate::common::outer_loop::{assert_near, stored_wing};
 use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
 use corfem::cases::BUILT_IN;
+use corfem::files::error::FileError;
 use corfem::files::nastran95::NAME;
-use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::outer_loop::check;
 use corfem::present::report::delta_wing_json::delta_wing_json;
@@ -135,14 +135,17 @@ fn what_an_analysis_cannot_do_is_the_correlations_error() {
             NAME,
             |model: &FiniteElementModel, factors: &[f64]| {
                 if left == 0 {
-                    return Err(Error::SolverInterrupted);
+                    return Err(FileError::SolverInterrupted);
                 }
                 left -= 1;
-                model.analyze(factors)
+                Ok(model.analyze(factors)?)
             },
             |_, _| {},
         );
-        assert!(matches!(error, Err(Error::SolverInterrupted)), "{answered}");
+        assert!(
+            matches!(error, Err(FileError::SolverInterrupted)),
+            "{answered}"
+        );
     }
 }
 

@@ -5,9 +5,11 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
 use crate::files::nastran95_analysis::disordered;
+use corfem::cases::error::CaseError;
 use corfem::cases::fit::fit;
 use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::files::deck::BulkData;
+use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::method::modal::Share;
 use corfem::method::model::FiniteElementModel;
@@ -23,7 +25,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
     let error = solver(&home)
         .analyze(&model, &[2.0, 1.0])
         .expect_err("no answer");
-    assert!(matches!(error, Error::SolverAnswer { .. }), "{error}");
+    assert!(matches!(error, FileError::SolverAnswer { .. }), "{error}");
     let text = std::fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
     for line in [
         "INSERT READ,-1 $",
@@ -81,7 +83,10 @@ fn a_deck_holds_point_masses_alone() {
     )
     .expect("a model");
     let error = BulkData::of(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
-    assert!(matches!(error, Err(Error::CoupledMass { dof: 0 })));
+    assert!(matches!(
+        error,
+        Err(FileError::Method(Error::CoupledMass { dof: 0 }))
+    ));
 }
 
 #[test]
@@ -173,7 +178,7 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         for share in &mut dynamic.shares {
             *share = Share::Stiffness(4.0 * share.matrix());
         }
-        Ok(dynamic)
+        Ok::<_, CaseError>(dynamic)
     };
     let own = run_case(&case, |_, _| ()).expect("a run");
     let other = run_case_with(&case, "a stiffer box", stiffer, |_, _| ()).expect("a run");

@@ -13,6 +13,7 @@ use corfem::method::modal::DynamicModel;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::check;
+use corfem::present::error::PresentError;
 use corfem::present::report::delta_wing_tables::delta_wing_tables;
 use corfem::present::report::render::render_tables;
 use corfem::studies::delta_wing::DeltaWing;
@@ -71,7 +72,7 @@ fn nastran_answers_as_stored() {
     let run = run_case_with(
         &case,
         NAME,
-        |model, factors| nastran.analyze(model, factors),
+        |model, factors| Ok::<_, PresentError>(nastran.analyze(model, factors)?),
         |_, _| (),
     )
     .expect("a run");
@@ -214,7 +215,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
     let run = correlate_wing_with(
         &DeltaWing::embedded().expect("the wing"),
         NAME,
-        |model, factors| nastran.analyze(model, factors),
+        |model, factors| Ok::<_, PresentError>(nastran.analyze(model, factors)?),
         |_, _| (),
     )
     .expect("a run");

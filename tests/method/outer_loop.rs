@@ -47,7 +47,7 @@ proptest! {
         let found = correlate(
             |factors| {
                 asked.borrow_mut().push(factors.to_vec());
-                Ok(chain.model(factors))
+                Ok::<_, Error>(chain.model(factors))
             },
             &test,
             &ranges,

@@ -4,6 +4,7 @@ use crate::common::loops::{chain_problem, correlate_chain};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::cases::Case;
+use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
 use corfem::method::outer_loop::{Settings, check, correlate};
 
@@ -121,7 +122,7 @@ fn analysis_modes_may_be_fewer_than_degrees_of_freedom() {
             ..Settings::default()
         };
         correlate(
-            |factors| Ok(chain.model(factors)),
+            |factors| Ok::<_, Error>(chain.model(factors)),
             &test,
             &[None; 5],
             &settings,
@@ -212,7 +213,7 @@ fn of_equal_passes_the_first_is_best() {
         ..Settings::default()
     };
     let found = correlate(
-        |_| Ok(model.clone()),
+        |_| Ok::<_, Error>(model.clone()),
         &test,
         &[None; 3],
         &settings,

@@ -3,7 +3,7 @@
 use super::card::{Entry, write_card};
 use super::elements::ELEMENT_CARDS;
 use super::model::{BulkData, PointMass};
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use crate::method::structure::{Grid, Material};
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
@@ -31,7 +31,7 @@ pub enum Task {
 ///
 /// # Errors
 /// Those of [`bulk_data`].
-pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, Error> {
+pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
     let mut text = String::from(
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n",
     );
@@ -81,9 +81,9 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, Error
 ///
 /// # Errors
 /// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
-pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
+pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError> {
     let mut text = String::new();
-    let mut put = |name: &str, entries: &[Entry], large: bool| -> Result<(), Error> {
+    let mut put = |name: &str, entries: &[Entry], large: bool| -> Result<(), FileError> {
         text.push_str(&write_card(name, entries, large, tag)?);
         Ok(())
     };

@@ -7,7 +7,7 @@ use super::canvas::{
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use nalgebra::Vector3;
 
 /// A structural grid point.
@@ -36,7 +36,7 @@ pub struct BoxPoints {
 ///
 /// # Errors
 /// Those of [`Case::model`].
-pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
+pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
     let model = case.model()?;
     let structural: Vec<StructuralPoint> = model
         .structure()
@@ -78,7 +78,7 @@ impl BoxPoints {
     ///
     /// # Errors
     /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box: structural and dynamic points";
         svg("box_points", title, (WIDTH, 480.0), |area| self.on(area))
     }

@@ -4,7 +4,7 @@ use super::correlation_tables::column;
 use super::table::{Cell, Digits, Row, Table};
 use crate::cases::table_1::{problems, table_1};
 use crate::method::appendix_c::UpdateRule;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 
 /// Orders shown.
 const ORDERS: usize = 6;
@@ -15,7 +15,7 @@ const ORDERS: usize = 6;
 ///
 /// # Errors
 /// Those of [`table_1`].
-pub fn root_error_table() -> Result<Table, Error> {
+pub fn root_error_table() -> Result<Table, PresentError> {
     let table = table_1(&problems(), ORDERS)?;
     let mut columns = vec![column("Coupling", ""), column("Change", "")];
     columns.extend(

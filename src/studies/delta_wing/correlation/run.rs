@@ -70,12 +70,12 @@ pub fn correlate_wing(
 ///
 /// # Errors
 /// Those of `analyze` and of [`correlate_wing`].
-pub fn correlate_wing_with(
+pub fn correlate_wing_with<E: From<Error>>(
     wing: &DeltaWing,
     solver: &'static str,
-    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<WingCorrelation, Error> {
+) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
     let start = analyze(&model, &[1.0; GROUPS.len()])?;
     let test = test_modes(wing, &start.mass)?;
