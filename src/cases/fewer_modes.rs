@@ -5,6 +5,7 @@
 //! started with. The exact check afterwards shows what that costs.
 
 use crate::cases::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::{PANEL_COUNT, gage_rms};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -106,7 +107,7 @@ pub fn fewer_modes_run(
     case: &Case,
     test_modes: usize,
     analysis_modes: usize,
-) -> Result<FewerModesRun, Error> {
+) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
@@ -124,7 +125,7 @@ pub fn fewer_modes_run(
         |_, _| {},
     )?;
     let [pass] = correlation.passes.as_slice() else {
-        return Err(Error::Empty { what: "passes" });
+        return Err(Error::Empty { what: "passes" }.into());
     };
     let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
@@ -156,7 +157,7 @@ pub fn fewer_modes_run(
 ///
 /// # Errors
 /// Those of [`fewer_modes_run`].
-pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
+pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     PUBLISHED_RUNS
         .iter()
         .map(|&(test, analysis)| fewer_modes_run(case, test, analysis))
@@ -167,7 +168,7 @@ pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
 ///
 /// # Errors
 /// Those of [`fewer_modes_run`].
-pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
+pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     let most = case.reconstruction.masses.len();
     (1..=most)
         .flat_map(|test| (test..=most).map(move |analysis| (test, analysis)))

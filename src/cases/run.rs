@@ -1,10 +1,11 @@
 //! A case from its first gages to its last exact check.
 
 use super::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
-use crate::method::model::Range;
+use crate::method::model::{ModalModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 
@@ -69,7 +70,7 @@ impl CaseResult {
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.
-pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
+pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, CaseError> {
     run_case_with(case, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
@@ -80,16 +81,18 @@ pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseR
 ///
 /// # Errors
 /// Those of `elements` and of [`run_case`].
-pub fn run_case_with(
+pub fn run_case_with<E: From<CaseError> + From<Error>>(
     case: &Case,
     solver: &'static str,
-    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, Error>,
+    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<CaseResult, Error> {
+) -> Result<CaseResult, E> {
     let model = case.model()?;
     let test = ModeSet::from(case.test_modes_with(&mut elements)?);
     let correlation = correlate(
-        |factors| elements(&model, factors)?.analyze(factors, &test, None),
+        |factors| -> Result<ModalModel, E> {
+            Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+        },
         &model.factor_ranges()?,
         &case.settings,
         progress,

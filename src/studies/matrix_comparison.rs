@@ -5,6 +5,7 @@
 //! no part of the test: thicker covers. The truth is the box with the right gages.
 
 use crate::cases::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
@@ -92,7 +93,7 @@ pub struct MatrixComparison {
 ///
 /// # Errors
 /// Those of the model, the loops and the corrections.
-pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparison, Error> {
+pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparison, CaseError> {
     let first = case.first_gages();
     let start = analysis(case, &first)?;
     let all = case.test_modes()?;
@@ -113,7 +114,8 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let berman_nagy = berman_nagy_stiffness(&start.stiffness, &corrected_mass, &read)?;
 
     let truth = [TEST_GAGE; PANEL_COUNT];
-    let doubled = |gages: &[f64]| Ok::<_, Error>(analysis(case, &with_doublers(gages))?.stiffness);
+    let doubled =
+        |gages: &[f64]| Ok::<_, CaseError>(analysis(case, &with_doublers(gages))?.stiffness);
     let design_change = doubled(&first)? - &start.stiffness;
     let mass = &start.mass;
     let candidates = [
@@ -177,9 +179,9 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
 }
 
 /// The dynamic model of a case at other gages.
-fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, Error> {
+fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, CaseError> {
     let model = case.model_with(gages)?;
-    model.matrices(&vec![1.0; model.parameters().len()])
+    Ok(model.matrices(&vec![1.0; model.parameters().len()])?)
 }
 
 fn with_doublers(gages: &[f64]) -> Vec<f64> {

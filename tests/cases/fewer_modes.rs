@@ -4,6 +4,7 @@ use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{
     EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF,
 };
+use corfem::cases::error::CaseError;
 use corfem::cases::fewer_modes::{
     Agreement, FewerModesRun, ITERATIONS, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
 };
@@ -162,23 +163,26 @@ fn a_single_pass_is_made_whatever_the_case_asks_for() {
 #[test]
 fn numbers_of_modes_out_of_range_are_errors() {
     let error = |test, analysis| fewer_modes_run(&case_2(), test, analysis).unwrap_err();
-    assert!(matches!(error(0, 9), Error::Empty { what: "modes" }));
+    assert!(matches!(
+        error(0, 9),
+        CaseError::Method(Error::Empty { what: "modes" })
+    ));
     match error(10, 10) {
-        Error::TooMany {
+        CaseError::Method(Error::TooMany {
             what,
             available,
             requested,
-        } => {
+        }) => {
             assert_eq!((what, available, requested), ("modes", 9, 10));
         }
         other => panic!("{other:?}"),
     }
     match error(5, 4) {
-        Error::TooMany {
+        CaseError::Method(Error::TooMany {
             what,
             available,
             requested,
-        } => {
+        }) => {
             assert_eq!((what, available, requested), ("test modes", 4, 5));
         }
         other => panic!("{other:?}"),

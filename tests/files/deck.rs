@@ -4,9 +4,10 @@ use crate::common::decks::{bulk_data, restyled, style};
 use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{CASES, Case};
-use corfem::files::deck::number::held_by_field;
+use corfem::files::deck::number::nearest_in_field;
 use corfem::files::deck::write::bulk_data as written;
 use corfem::files::deck::{self, BulkData, Task};
+use corfem::method::assembly::element_matrices;
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 
@@ -69,7 +70,11 @@ fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
 fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    let lower = stiffness.clone().cholesky().expect("a held structure").l();
+    let lower = stiffness
+        .clone()
+        .cholesky()
+        .expect("a constrained structure")
+        .l();
     let half = lower
         .solve_lower_triangular(mass)
         .expect("a nonzero diagonal");
@@ -173,14 +178,15 @@ fn mpc_cards_are_the_load_distribution() {
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let dynamic = read.dynamic_dof(&structure).expect("dynamic DOF");
+    let elements = element_matrices(&structure).expect("elements");
+    let dynamic = read.mass_dof(&structure, &elements).expect("masses");
     assert_eq!(dynamic.load_distribution.shape(), (36, 9));
     for (read, meant) in dynamic
         .load_distribution
         .iter()
         .zip(model.load_distribution().iter())
     {
-        assert_eq!(*read, held_by_field(*meant));
+        assert_eq!(*read, nearest_in_field(*meant));
     }
     assert_eq!(DMatrix::from_diagonal(&dynamic.mass), *model.mass());
     assert_eq!(read.ties.len(), 9);

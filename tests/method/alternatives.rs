@@ -1,4 +1,4 @@
-//! The named alternatives to the primary step and update rules, on the torque box: why the primary ones are primary.
+//! The alternatives to the primary step and update rules, on the torque box: why the primary ones are primary.
 //!
 //! Statements, not histories: how the alternatives compare on this box, with room for another machine's last digit.
 //! First passes of Cases 1, 2 and 3, iterations and error sum reached:
@@ -84,39 +84,24 @@ fn plain_steepest_descent_stops_far_from_the_test() {
             settings.halvings = 0;
         });
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!(
-            (3..=6).contains(&run.iterations.len()),
-            "{}",
-            run.iterations.len()
-        );
+        let (count, gages) = (run.iterations.len(), gage_error(number, &run));
+        assert!((3..=6).contains(&count), "{count}");
         assert!(run.last.errors.sum() > 0.06, "{}", run.last.errors.sum());
         // Where the primary rules leave 6, 5 and 13 %.
-        assert!(
-            gage_error(number, &run) > 0.17,
-            "{}",
-            gage_error(number, &run)
-        );
+        assert!(gages > 0.17, "{gages}");
     }
 }
 
 #[test]
 fn steepest_descent_with_halvings_creeps() {
-    // Whether it reaches the tolerance in the end hangs on the last digit; that twice the primary rule's iterations are not
-    // enough does not.
+    // Whether it ever reaches the tolerance hangs on the last digit. That it does not with twice the iterations of the
+    // primary rule does not: it stands at 3.5, 3.9 and 2.9 % then.
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
         let run = first_pass(number, |settings| {
             settings.step = StepRule::SteepestDescent;
             settings.iterations = 2 * primary.iterations.len();
         });
-        eprintln!(
-            "MEASURE {number} {:?} {} {} gage {} {}",
-            run.stop,
-            run.iterations.len(),
-            run.last.errors.sum(),
-            gage_error(number, &run),
-            gage_error(number, &primary)
-        );
         assert_eq!(run.stop, Stop::Iterations);
         assert!(run.last.errors.sum() > 0.025);
         assert!(gage_error(number, &run) > gage_error(number, &primary));
@@ -234,44 +219,15 @@ fn largest_frequency_error(case: &Case, problem: &ModalModel, table: usize, orde
 #[test]
 fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
     // Percent, to the last digit that an independent program gave for the same changes.
+    let orders = [1, 2, 3, 4, 6];
     for (number, table, expected) in [
-        (
-            1,
-            4,
-            [
-                (1, "0.96"),
-                (2, "0.043"),
-                (3, "0.013"),
-                (4, "0.0004"),
-                (6, "0.00001"),
-            ],
-        ),
-        (
-            2,
-            6,
-            [
-                (1, "0.085"),
-                (2, "0.0013"),
-                (3, "0.00009"),
-                (4, "0.000003"),
-                (6, "0.000000"),
-            ],
-        ),
-        (
-            3,
-            8,
-            [
-                (1, "2.3"),
-                (2, "0.094"),
-                (3, "0.14"),
-                (4, "0.007"),
-                (6, "0.0008"),
-            ],
-        ),
+        (1, 4, ["0.96", "0.043", "0.013", "0.0004", "0.00001"]),
+        (2, 6, ["0.085", "0.0013", "0.00009", "0.000003", "0.000000"]),
+        (3, 8, ["2.3", "0.094", "0.14", "0.007", "0.0008"]),
     ] {
         let case = Case::new(number).unwrap();
         let problem = problem_of(&case);
-        for (order, printed) in expected {
+        for (order, printed) in orders.into_iter().zip(expected) {
             let digits = printed.len() - 1 - printed.find('.').unwrap();
             let last_digit = 0.1_f64.powi(i32::try_from(digits).unwrap());
             let found = largest_frequency_error(&case, &problem, table, order);

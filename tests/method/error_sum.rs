@@ -45,7 +45,7 @@ proptest! {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test);
         let (mut scaled, mut scaled_test, mut pairing) =
-            (analysis.clone(), test.clone(), in_order(test.len()));
+            (ModeSet::from(analysis.clone()), ModeSet::from(test.clone()), in_order(test.len()));
         for (mode, (scale, flip, test_scale)) in scales.into_iter().take(test.len()).enumerate() {
             let sign = if flip { -1.0 } else { 1.0 };
             scaled.shapes.column_mut(mode).scale_mut(sign * scale);

@@ -28,8 +28,8 @@ pub fn boxed(
     density: f64,
     point_factors: [f64; 9],
 ) -> Result<FiniteElementModel, Error> {
-    let case = Case::new(2)?;
-    let model = case.model_with(&[0.010; 15])?;
+    let case = Case::new(2).expect("a case");
+    let model = case.model_with(&[0.010; 15]).expect("a model");
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
         element.material = element.material.with_density(density)?;

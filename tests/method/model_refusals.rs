@@ -2,6 +2,7 @@
 
 use crate::common::structures::{chain_model as chain, group, spring_chain, unit_material};
 use corfem::cases::Case;
+use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::model::Parameter;
@@ -126,12 +127,12 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     assert!(
         matches!(
             refused,
-            Error::NotFinite {
+            CaseError::Method(Error::NotFinite {
                 what: "dynamic mass",
                 row: 4,
                 column: 4,
                 ..
-            }
+            })
         ),
         "{refused:?}"
     );

@@ -6,7 +6,7 @@ use crate::common::pairings::{
 use crate::common::strategies::orthogonal;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain, pencil};
-use corfem::method::modes::{ModeSet, Modes, solve};
+use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{Pairing, cross_orthogonality, modal_assurance, pair_modes, paired};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;

@@ -31,7 +31,7 @@ enum Support {
 /// Rods between joints 1 to 6 along x, joint 1 and 6 supported as asked.
 fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error> {
     let material = Material::isotropic(1.0e7, 0.3)?;
-    let held = |label| match support {
+    let constrained = |label| match support {
         Support::FixedFree => label == 1,
         Support::FixedFixed => label == 1 || label == 6,
         Support::SoftSuspension => false,
@@ -40,7 +40,7 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         .map(|label| Grid {
             label,
             position: Vector3::new(10.0 * label as f64, 0.0, 0.0),
-            held: [held(label), true, true],
+            constrained: [constrained(label), true, true],
         })
         .collect();
     let rod = |label: usize, ends: [usize; 2], size| Element {
@@ -60,7 +60,7 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
             grids.push(Grid {
                 label,
                 position: Vector3::new(x, 0.0, 0.0),
-                held: [true; 3],
+                constrained: [true; 3],
             });
             elements.push(rod(label, [joint, label], SOFT_AREA));
         }
@@ -158,7 +158,7 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
 fn chain_that_nothing_holds_is_refused() {
     let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
     let grids = model.structure().grids().iter().map(|grid| Grid {
-        held: [false, true, true],
+        constrained: [false, true, true],
         ..grid.clone()
     });
     let free = Structure::new(grids.collect(), model.structure().elements().to_vec())

@@ -2,6 +2,7 @@
 
 use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
+use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
@@ -241,14 +242,14 @@ fn numbers_of_test_modes_out_of_range_are_errors() {
     let case = Case::new(2).unwrap();
     assert!(matches!(
         compare_matrices(&case, 0),
-        Err(Error::Empty { what: "modes" })
+        Err(CaseError::Method(Error::Empty { what: "modes" }))
     ));
     assert!(matches!(
         compare_matrices(&case, 10),
-        Err(Error::TooMany {
+        Err(CaseError::Method(Error::TooMany {
             what: "modes",
             available: 9,
             requested: 10
-        })
+        }))
     ));
 }

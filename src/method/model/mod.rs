@@ -35,6 +35,11 @@ pub struct CondensedModel {
 }
 
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
+///
+/// A stiffness parameter scales stiffness alone. An element keeps the mass of its first size, times the factor of a mass
+/// parameter if there is one: in the paper, too, the mass is known and never changes. So a gage that a correlation finds is
+/// a factor on what the element resists, and does not make it heavier. [`Self::sizes`], [`Self::mass_sizes`] and
+/// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
     structure: Structure,
@@ -178,12 +183,37 @@ impl FiniteElementModel {
             .collect()
     }
 
-    /// Gage or area of every element at the given parameter factors, in the structure's order.
+    /// Gage or area of every element for its stiffness at the given parameter factors, in the structure's order.
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
         self.scaled(self.first_sizes(), MemberKind::Stiffness, factors)
+    }
+
+    /// The same for its mass: the first size times the factors of mass parameters alone.
+    ///
+    /// # Errors
+    /// Those of [`Self::sizes`].
+    pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        self.scaled(self.first_sizes(), MemberKind::ElementMass, factors)
+    }
+
+    /// The dynamic mass $M$ without that of elements at the given parameter factors, lbf·s²/in (d × d).
+    ///
+    /// # Errors
+    /// Those of [`Self::sizes`].
+    pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
+        let ones = vec![1.0; self.mass.nrows()];
+        let mut mass = self.mass.clone();
+        for (dof, factor) in self
+            .scaled(ones, MemberKind::PointMass, factors)?
+            .iter()
+            .enumerate()
+        {
+            mass[(dof, dof)] *= factor;
+        }
+        Ok(mass)
     }
 
     fn first_sizes(&self) -> Vec<f64> {
@@ -218,25 +248,22 @@ impl FiniteElementModel {
 
     /// The structure condensed to the dynamic DOF at the given parameter factors: $K_S$ anew, with it $B$, $K_D$ and $M$.
     ///
-    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e s_e B M_e B^t $$
+    /// With $s_e$ of [`Self::sizes`], $m_e$ of [`Self::mass_sizes`] and $M_{points}$ of [`Self::point_masses`]:
+    ///
+    /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e m_e B M_e B^t $$
     ///
     /// # Errors
     /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
         let sizes = self.sizes(factors)?;
-        let mass_sizes = self.scaled(self.first_sizes(), MemberKind::ElementMass, factors)?;
-        let dof_count = self.mass.nrows();
-        let point_factors = self.scaled(vec![1.0; dof_count], MemberKind::PointMass, factors)?;
+        let mass_sizes = self.mass_sizes(factors)?;
+        let point_mass = self.point_masses(factors)?;
         let free = self.structure.free_dof();
         let structural = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
         let Condensed {
             stiffness,
             transformation,
         } = condense(&structural, &self.load_distribution)?;
-        let mut point_mass = self.mass.clone();
-        for (dof, factor) in point_factors.iter().enumerate() {
-            point_mass[(dof, dof)] *= factor;
-        }
         let mut mass = point_mass.clone();
         for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
             if element.unit_mass.amax() > 0.0 {

@@ -4,8 +4,8 @@ use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH,
 use super::heat_map::HeatMap;
 use crate::cases::CaseResult;
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
-use crate::method::error::Error;
 use crate::method::state::ModalState;
+use crate::present::error::PresentError;
 use nalgebra::DMatrix;
 
 /// What the figure shows.
@@ -31,7 +31,7 @@ pub struct DerivativeMap {
 ///
 /// # Errors
 /// Those of the model, its analysis and [`by_definition`].
-pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, Error> {
+pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, PresentError> {
     let model = result.case.model()?;
     let first = model.analyze(&vec![1.0; result.parameter_names.len()], &result.test, None)?;
     let error_changes = by_definition(&first, &ModalState::start(&first))?;
@@ -55,7 +55,7 @@ impl DerivativeMap {
     ///
     /// # Errors
     /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_derivatives", self.case);
         let title = format!("Case {}: derivatives of the first model", self.case);
         let height = 106.0 + 26.0 * self.parameters.len() as f64;

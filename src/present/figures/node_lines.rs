@@ -7,11 +7,11 @@ use super::canvas::{
 use super::planform::{PlanPoint, Planform, RibShape};
 use super::view::{Plan, View};
 use crate::cases::CaseResult;
-use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
 use crate::method::model::Check;
 use crate::method::modes::ModeSet;
 use crate::method::pairing::paired;
+use crate::present::error::PresentError;
 use crate::present::report::table::Digits;
 use nalgebra::Vector3;
 use plotters::style::WHITE;
@@ -42,7 +42,7 @@ pub struct NodeLines {
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless the modes have nine DOF.
-pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
+pub fn node_lines(result: &CaseResult) -> Result<NodeLines, PresentError> {
     let planform = Planform::of(&result.case.reconstruction);
     let correlation = &result.correlation;
     let last = correlation
@@ -100,8 +100,8 @@ impl NodeLines {
     /// The node lines in plan as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_node_lines", self.case);
         let title = format!("Case {}: node lines", self.case);
         let size = (WIDTH, HEAD + CELL.1 * self.rows());
@@ -123,8 +123,8 @@ impl NodeLines {
     /// The mode shapes in the quasi-isometric view as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw_shapes(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw_shapes(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_mode_shapes", self.case);
         let title = format!("Case {}: mode shapes", self.case);
         let size = (WIDTH, HEAD + CELL.1 * self.rows());

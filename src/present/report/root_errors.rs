@@ -5,7 +5,7 @@ use super::table::{Cell, Digits, Row, Table};
 use crate::cases::table_1::{problems, table_1};
 
 use crate::cases::table_1::Formula;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 
 /// Orders shown.
 const ORDERS: usize = 6;
@@ -16,7 +16,7 @@ const ORDERS: usize = 6;
 ///
 /// # Errors
 /// Those of [`table_1`].
-pub fn root_error_table() -> Result<Table, Error> {
+pub fn root_error_table() -> Result<Table, PresentError> {
     let table = table_1(&problems(), ORDERS)?;
     let mut columns = vec![column("Coupling", ""), column("Change", "")];
     columns.extend(

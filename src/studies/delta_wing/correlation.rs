@@ -100,7 +100,7 @@ pub fn settings() -> Settings {
 pub fn measured_grids(structure: &Structure) -> Vec<usize> {
     let grids = structure.grids().iter();
     grids
-        .filter(|grid| grid.position.z > 0.0 && !grid.held[Z])
+        .filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z])
         .map(|grid| grid.label)
         .collect()
 }

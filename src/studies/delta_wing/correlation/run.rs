@@ -3,7 +3,7 @@
 use super::{GROUPS, Group, first_model, settings, test_modes};
 use crate::cases::BUILT_IN;
 use crate::method::error::Error;
-use crate::method::model::FiniteElementModel;
+use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::studies::delta_wing::DeltaWing;
@@ -70,15 +70,17 @@ pub fn correlate_wing(
 ///
 /// # Errors
 /// Those of `elements` and of [`correlate_wing`].
-pub fn correlate_wing_with(
+pub fn correlate_wing_with<E: From<Error>>(
     wing: &DeltaWing,
     solver: &'static str,
-    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, Error>,
+    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<WingCorrelation, Error> {
+) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
     let test = test_modes(wing)?;
-    let mut analyze = |factors: &[f64]| elements(&model, factors)?.analyze(factors, &test, None);
+    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
+        Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+    };
     let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
     let correlation = correlate(analyze, &model.factor_ranges()?, &settings(), progress)?;
     let factors = correlation.best_factors();
