@@ -19,12 +19,7 @@ use std::time::Duration;
 /// Eigensolutions by every rival.
 fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: &[DMatrix<f64>]) {
     type Solve = fn(&mut Rivals, &[DMatrix<f64>]);
-    let solvers: [Solve; 4] = [
-        Rivals::jacobi,
-        Rivals::nalgebra,
-        Rivals::nalgebra_fixed,
-        Rivals::faer,
-    ];
+    let solvers: [Solve; 4] = [Rivals::jacobi, Rivals::nalgebra, Rivals::nalgebra_fixed, Rivals::faer];
     let mut storage = Rivals::new(NINE);
     for matrix in matrices {
         assert!(storage.disagreement(matrix) < 1e-9, "the rivals disagree");
@@ -46,11 +41,7 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     group.bench_function(summary::DEFINITION, |bencher| {
         bencher.iter(|| by_definition(black_box(problem), black_box(state)).expect("separate"));
     });
-    eigensolutions(
-        &mut group,
-        summary::EIGENSOLUTION,
-        &setting.element_matrices,
-    );
+    eigensolutions(&mut group, summary::EIGENSOLUTION, &setting.element_matrices);
     group.finish();
 }
 
@@ -63,11 +54,7 @@ fn update(criterion: &mut Criterion, setting: &Setting) {
             bencher.iter(|| formula(black_box(k), black_box(&setting.beta)).expect("separate"));
         });
     }
-    eigensolutions(
-        &mut group,
-        summary::EIGENSOLUTION,
-        std::slice::from_ref(&setting.step_matrix),
-    );
+    eigensolutions(&mut group, summary::EIGENSOLUTION, std::slice::from_ref(&setting.step_matrix));
     let from_modes = DMatrix::from_diagonal(k) + &setting.beta;
     eigensolutions(&mut group, summary::FROM_MODES, &[from_modes]);
     group.finish();
@@ -79,22 +66,10 @@ fn cases(criterion: &mut Criterion, passes: &[PassSetting]) {
     for pass in passes {
         let label = |what: &str| format!("{} {what}", pass.label());
         group.bench_function(label("inner loop"), |bencher| {
-            bencher.iter(|| {
-                run(
-                    black_box(&pass.start),
-                    &pass.factors,
-                    &pass.ranges,
-                    &pass.settings,
-                )
-                .expect("it runs")
-            });
+            bencher.iter(|| run(black_box(&pass.start), &pass.factors, &pass.ranges, &pass.settings).expect("it runs"));
         });
         group.bench_function(label("analysis"), |bencher| {
-            bencher.iter(|| {
-                pass.model
-                    .analyze(black_box(&pass.factors), &pass.test, None)
-                    .expect("analyzed")
-            });
+            bencher.iter(|| pass.model.analyze(black_box(&pass.factors), &pass.test, None).expect("analyzed"));
         });
     }
     for number in corfem::cases::CASES {

@@ -21,16 +21,7 @@ use serde::Serialize;
 pub const PUBLISHED_CASE: usize = 2;
 
 /// Test and analysis modes of the paper's runs, in the order of its Tables 10, 11 and 12.
-pub const PUBLISHED_RUNS: [(usize, usize); 8] = [
-    (7, 7),
-    (7, 9),
-    (5, 5),
-    (5, 7),
-    (5, 9),
-    (3, 5),
-    (3, 7),
-    (3, 9),
-];
+pub const PUBLISHED_RUNS: [(usize, usize); 8] = [(7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)];
 
 /// Most iterations of a run: those of the paper that did not reach the tolerance stand at thirty in its tables.
 pub const ITERATIONS: usize = 30;
@@ -103,27 +94,15 @@ pub struct FewerModesRun {
 /// # Errors
 /// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF; those of
 /// the model, the analysis and the loops.
-pub fn fewer_modes_run(
-    case: &Case,
-    test_modes: usize,
-    analysis_modes: usize,
-) -> Result<FewerModesRun, CaseError> {
+pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
-    let mut settings = Settings {
-        least_passes: 1,
-        most_passes: 1,
-        ..case.settings.clone()
-    };
+    let mut settings = Settings { least_passes: 1, most_passes: 1, ..case.settings.clone() };
     settings.inner.iterations = ITERATIONS;
     let ranges = model.factor_ranges()?;
-    let correlation = correlate(
-        |factors| model.analyze(factors, &test, Some(analysis_modes)),
-        &ranges,
-        &settings,
-        |_, _| {},
-    )?;
+    let correlation =
+        correlate(|factors| model.analyze(factors, &test, Some(analysis_modes)), &ranges, &settings, |_, _| {})?;
     let [pass] = correlation.passes.as_slice() else {
         return Err(Error::Empty { what: "passes" }.into());
     };
@@ -137,12 +116,7 @@ pub fn fewer_modes_run(
         test_frequencies_hz: test.frequencies_hz(),
         iterations: pass.inner.iterations.len(),
         stop: pass.inner.stop,
-        inner_error_sums: pass
-            .inner
-            .iterations
-            .iter()
-            .map(|iteration| iteration.errors.sum())
-            .collect(),
+        inner_error_sums: pass.inner.iterations.iter().map(|iteration| iteration.errors.sum()).collect(),
         initial: Agreement::of(&correlation.initial),
         inner: Agreement::new(&last.modes, &last.pairing, &last.errors),
         exact: Agreement::of(&pass.check),
@@ -158,10 +132,7 @@ pub fn fewer_modes_run(
 /// # Errors
 /// Those of [`fewer_modes_run`].
 pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
-    PUBLISHED_RUNS
-        .iter()
-        .map(|&(test, analysis)| fewer_modes_run(case, test, analysis))
-        .collect()
+    PUBLISHED_RUNS.iter().map(|&(test, analysis)| fewer_modes_run(case, test, analysis)).collect()
 }
 
 /// Every pair of numbers of modes, 1 ≤ test ≤ analysis ≤ DOF, by test and then by analysis modes.

@@ -44,10 +44,7 @@ pub struct FitColumn {
 impl FitColumn {
     /// Relative differences of the computed frequencies from the published.
     pub fn differences(&self) -> impl Iterator<Item = f64> + '_ {
-        self.frequencies_hz
-            .iter()
-            .zip(&self.published_hz)
-            .map(|(computed, published)| computed / published - 1.0)
+        self.frequencies_hz.iter().zip(&self.published_hz).map(|(computed, published)| computed / published - 1.0)
     }
 }
 
@@ -79,9 +76,7 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
             .collect::<Result<Vec<_>, _>>()?;
         let test = case.test_modes()?;
         let model = case.model_with(&gages)?;
-        let solution = model
-            .analyze(&vec![1.0; model.parameters().len()], &test, None)?
-            .exact;
+        let solution = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?.exact;
         columns.push(FitColumn {
             case: case_number,
             column: prefix.to_owned(),
@@ -105,10 +100,5 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
             }
         }
     }
-    Ok(Fit {
-        columns,
-        rms: (sum / f64::max(count, 1.0)).sqrt(),
-        largest,
-        largest_at,
-    })
+    Ok(Fit { columns, rms: (sum / f64::max(count, 1.0)).sqrt(), largest, largest_at })
 }

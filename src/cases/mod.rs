@@ -12,9 +12,7 @@ pub use run::{Anomaly, BUILT_IN, CaseResult, anomalies, run_case, run_case_with}
 
 use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{
-    PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
-};
+use crate::cases::torque_box::{PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure};
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
@@ -41,11 +39,8 @@ pub enum Grouping {
 }
 
 /// The box's substructures and their panels.
-const SUBSTRUCTURES: [(&str, &[usize]); 3] = [
-    ("covers", &[2, 4, 8, 9, 11, 15]),
-    ("spars", &[1, 3, 5, 6, 10, 14]),
-    ("ribs", &[7, 12, 13]),
-];
+const SUBSTRUCTURES: [(&str, &[usize]); 3] =
+    [("covers", &[2, 4, 8, 9, 11, 15]), ("spars", &[1, 3, 5, 6, 10, 14]), ("ribs", &[7, 12, 13])];
 
 /// A case: what the structure really is, what the model says it is, and how it is correlated.
 #[derive(Debug, Clone)]
@@ -102,19 +97,11 @@ impl Case {
                         });
                     }
                 };
-                Ok(Panel {
-                    label,
-                    grids,
-                    kind,
-                    gage: table.required(&row, &gage_heading)?,
-                })
+                Ok(Panel { label, grids, kind, gage: table.required(&row, &gage_heading)? })
             })
             .collect::<Result<Vec<_>, CaseError>>()?;
         // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
-        let gage_range = (number == 3).then_some(Range {
-            lower: 0.007,
-            upper: 0.013,
-        });
+        let gage_range = (number == 3).then_some(Range { lower: 0.007, upper: 0.013 });
         Ok(Self {
             number,
             reconstruction,
@@ -132,15 +119,8 @@ impl Case {
     /// [`Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
     pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
         check_length("panel gages", gages.len(), self.panels.len())?;
-        let panels: Vec<Panel> = self
-            .panels
-            .iter()
-            .zip(gages)
-            .map(|(panel, &gage)| Panel {
-                gage,
-                ..panel.clone()
-            })
-            .collect();
+        let panels: Vec<Panel> =
+            self.panels.iter().zip(gages).map(|(panel, &gage)| Panel { gage, ..panel.clone() }).collect();
         Ok(FiniteElementModel::new(
             structure(&self.reconstruction, &panels, self.rod_area)?,
             load_distribution(&self.reconstruction)?,
@@ -152,19 +132,16 @@ impl Case {
     /// What is scaled: single panels or substructures.
     fn parameters(&self) -> Vec<Parameter> {
         match self.grouping {
-            Grouping::Elements => self
-                .panels
-                .iter()
-                .map(|panel| Parameter::element(panel.label, self.gage_range))
-                .collect(),
+            Grouping::Elements => {
+                self.panels.iter().map(|panel| Parameter::element(panel.label, self.gage_range)).collect()
+            }
             Grouping::Substructures => SUBSTRUCTURES
                 .iter()
                 .map(|&(name, elements)| Parameter {
                     // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
-                    factor_range: self.gage_range.map(|range| Range {
-                        lower: range.lower / range.upper,
-                        upper: range.upper / range.lower,
-                    }),
+                    factor_range: self
+                        .gage_range
+                        .map(|range| Range { lower: range.lower / range.upper, upper: range.upper / range.lower }),
                     ..Parameter::group(name, elements)
                 })
                 .collect(),
@@ -202,9 +179,7 @@ impl Case {
     ) -> Result<Modes, E> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
         let factors = vec![1.0; model.parameters().len()];
-        Ok(elements(&model, &factors)?
-            .modes(&factors)
-            .map_err(CaseError::from)?)
+        Ok(elements(&model, &factors)?.modes(&factors).map_err(CaseError::from)?)
     }
 }
 
@@ -220,10 +195,7 @@ fn published_settings(number: usize) -> Settings {
     };
     let iterations = if number == 4 { 1 } else { 100 };
     Settings {
-        inner: InnerSettings {
-            iterations,
-            ..InnerSettings::default()
-        },
+        inner: InnerSettings { iterations, ..InnerSettings::default() },
         least_passes: passes,
         most_passes: passes,
         ..Settings::default()

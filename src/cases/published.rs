@@ -49,11 +49,7 @@ impl PublishedTable {
         let name = format!("paper/tables/table_{number}.csv");
         match TABLES.iter().find(|(known, _)| *known == number) {
             Some((_, text)) => Self::parse(number, &name, text),
-            None => Err(CaseError::Table {
-                name,
-                expected: "a table from 2 to 13".into(),
-                found: number.to_string(),
-            }),
+            None => Err(CaseError::Table { name, expected: "a table from 2 to 13".into(), found: number.to_string() }),
         }
     }
 
@@ -67,16 +63,8 @@ impl PublishedTable {
             expected: "rows of equal length under a heading".into(),
             found: error.to_string(),
         };
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let headings: Vec<String> = reader
-            .headers()
-            .map_err(malformed)?
-            .iter()
-            .skip(1)
-            .map(str::to_owned)
-            .collect();
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+        let headings: Vec<String> = reader.headers().map_err(malformed)?.iter().skip(1).map(str::to_owned).collect();
         let (mut labels, mut cells) = (Vec::new(), HashMap::new());
         for record in reader.records() {
             let record = record.map_err(malformed)?;
@@ -92,22 +80,12 @@ impl PublishedTable {
             .filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)))
             .map(str::to_owned)
             .collect();
-        Ok(Self {
-            number,
-            remarks,
-            name: name.to_owned(),
-            headings,
-            labels,
-            cells,
-        })
+        Ok(Self { number, remarks, name: name.to_owned(), headings, labels, cells })
     }
 
     /// A cell's text; `None` where the paper prints nothing or has no such row or column.
     pub fn text(&self, label: &str, heading: &str) -> Option<&str> {
-        self.cells
-            .get(&(label.to_owned(), heading.to_owned()))
-            .map(String::as_str)
-            .filter(|cell| !cell.is_empty())
+        self.cells.get(&(label.to_owned(), heading.to_owned())).map(String::as_str).filter(|cell| !cell.is_empty())
     }
 
     /// A cell's number; `None` where there is none.

@@ -49,10 +49,7 @@ pub struct CaseResult {
 impl CaseResult {
     /// Unlimited factors of the first iteration, one per parameter.
     pub fn unlimited_factors(&self) -> &[f64] {
-        self.correlation
-            .passes
-            .first()
-            .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
+        self.correlation.passes.first().map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
     /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
@@ -90,9 +87,7 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     let model = case.model()?;
     let test = ModeSet::from(case.test_modes_with(&mut elements)?);
     let correlation = correlate(
-        |factors| -> Result<ModalModel, E> {
-            Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
-        },
+        |factors| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) },
         &model.factor_ranges()?,
         &case.settings,
         progress,
@@ -104,21 +99,9 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
         .collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
     let anomalies = correlation.passes.first().map_or_else(Vec::new, |pass| {
-        anomalies(
-            &parameter_names,
-            &pass.inner.first_unlimited_factors,
-            case.settings.inner.factor_range,
-        )
+        anomalies(&parameter_names, &pass.inner.first_unlimited_factors, case.settings.inner.factor_range)
     });
-    Ok(CaseResult {
-        case: case.clone(),
-        solver,
-        test,
-        correlation,
-        parameter_names,
-        pass_gages,
-        anomalies,
-    })
+    Ok(CaseResult { case: case.clone(), solver, test, correlation, parameter_names, pass_gages, anomalies })
 }
 
 /// Parameters whose unlimited factors lie far outside the bounds of one iteration, largest first.

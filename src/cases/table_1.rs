@@ -78,11 +78,7 @@ impl TwoMasses {
             ("change", self.change, -1.0, "a finite number above -1"),
         ] {
             if !(value > lowest && value.is_finite()) {
-                return Err(Error::Setting {
-                    name,
-                    expected,
-                    found: value,
-                });
+                return Err(Error::Setting { name, expected, found: value });
             }
         }
         let exact = self.exact_roots();
@@ -144,8 +140,5 @@ pub fn table_1(problems: &[TwoMasses], orders: usize) -> Result<Table1, Error> {
 pub fn problems() -> Vec<TwoMasses> {
     let couplings = [0.25, 0.5, 1.0, 2.0];
     let changes = [-0.5, -0.2, 0.1, 0.2, 0.5, 1.0];
-    couplings
-        .into_iter()
-        .flat_map(|coupling| changes.map(|change| TwoMasses { coupling, change }))
-        .collect()
+    couplings.into_iter().flat_map(|coupling| changes.map(|change| TwoMasses { coupling, change })).collect()
 }

@@ -47,10 +47,7 @@ impl Reconstruction {
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
     pub fn embedded() -> Result<Self, CaseError> {
-        Self::parse(
-            "paper/reconstruction.toml",
-            include_str!("../../paper/reconstruction.toml"),
-        )
+        Self::parse("paper/reconstruction.toml", include_str!("../../paper/reconstruction.toml"))
     }
 
     /// Reads a box from TOML text; `name` stands in error messages.
@@ -65,17 +62,13 @@ impl Reconstruction {
             expected: "a torque box: material, masses and grids",
             source: Box::new(source),
         })?;
-        for (what, found, expected) in [
-            ("box grids", read.grids.len(), GRID_COUNT),
-            ("box masses", read.masses.len(), 3 * FREE_RIBS),
-        ] {
+        for (what, found, expected) in
+            [("box grids", read.grids.len(), GRID_COUNT), ("box masses", read.masses.len(), 3 * FREE_RIBS)]
+        {
             check_length(what, found, expected)?;
         }
         if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
-            return Err(CaseError::MissingGrid {
-                grid,
-                count: GRID_COUNT,
-            });
+            return Err(CaseError::MissingGrid { grid, count: GRID_COUNT });
         }
         if !(read.mid_chord_fraction > 0.0 && read.mid_chord_fraction < 1.0) {
             return Err(Error::Setting {
@@ -146,13 +139,8 @@ fn rib_grids(rib: usize) -> [usize; 4] {
 ///
 /// # Errors
 /// Those of [`Material::isotropic`] and [`Structure::new`].
-pub fn structure(
-    reconstruction: &Reconstruction,
-    panels: &[Panel],
-    rod_area: f64,
-) -> Result<Structure, Error> {
-    let material =
-        Material::isotropic(reconstruction.youngs_modulus, reconstruction.poissons_ratio)?;
+pub fn structure(reconstruction: &Reconstruction, panels: &[Panel], rod_area: f64) -> Result<Structure, Error> {
+    let material = Material::isotropic(reconstruction.youngs_modulus, reconstruction.poissons_ratio)?;
     let grids = reconstruction
         .grids
         .iter()
@@ -169,16 +157,13 @@ pub fn structure(
         size: panel.gage,
         material,
     });
-    let rods = rod_ends()
-        .into_iter()
-        .enumerate()
-        .map(|(row, ends)| Element {
-            label: PANEL_COUNT + 1 + row,
-            kind: ElementKind::Rod,
-            grids: ends.to_vec(),
-            size: rod_area,
-            material,
-        });
+    let rods = rod_ends().into_iter().enumerate().map(|(row, ends)| Element {
+        label: PANEL_COUNT + 1 + row,
+        kind: ElementKind::Rod,
+        grids: ends.to_vec(),
+        size: rod_area,
+        material,
+    });
     Structure::new(grids, panels.chain(rods).collect())
 }
 
@@ -211,10 +196,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
             .grids
             .get(&grid)
             .map(|&position| Vector3::from(position))
-            .ok_or(CaseError::MissingGrid {
-                grid,
-                count: GRID_COUNT,
-            })
+            .ok_or(CaseError::MissingGrid { grid, count: GRID_COUNT })
     };
     let mut t = DMatrix::zeros(3 * RIB_GRIDS * FREE_RIBS, 3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {
@@ -242,11 +224,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
 }
 
 fn nonzero(length: f64) -> Result<f64, Error> {
-    if length > 0.0 {
-        Ok(length)
-    } else {
-        Err(Error::ZeroLength { length })
-    }
+    if length > 0.0 { Ok(length) } else { Err(Error::ZeroLength { length }) }
 }
 
 /// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
@@ -256,10 +234,7 @@ fn nonzero(length: f64) -> Result<f64, Error> {
 pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, CaseError> {
     let at = |grid: usize| match reconstruction.grids.get(&grid) {
         Some(&position) => Ok(Vector3::from(position)),
-        None => Err(CaseError::MissingGrid {
-            grid,
-            count: GRID_COUNT,
-        }),
+        None => Err(CaseError::MissingGrid { grid, count: GRID_COUNT }),
     };
     let mut points = Vec::with_capacity(3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {

@@ -23,10 +23,7 @@ use nalgebra::{DMatrix, DVector};
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
 /// [`Error::NotPositiveDefinite`] naming the DOF for a mass that is not.
-pub fn squared_frequencies(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-) -> Result<[f64; 2], Error> {
+pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<[f64; 2], Error> {
     check_shape("stiffness", stiffness, 2, 2)?;
     check_symmetric("stiffness", stiffness)?;
     check_shape("mass", mass, 2, 2)?;
@@ -34,8 +31,7 @@ pub fn squared_frequencies(
     let [k11, k12, k22] = entries(stiffness);
     let [m11, m12, m22] = entries(mass);
     let b = k11 * m22 + k22 * m11 - 2.0 * k12 * m12;
-    let discriminant =
-        (k11 * m22 - k22 * m11).powi(2) + 4.0 * (k12 * m11 - k11 * m12) * (k12 * m22 - k22 * m12);
+    let discriminant = (k11 * m22 - k22 * m11).powi(2) + 4.0 * (k12 * m11 - k11 * m12) * (k12 * m22 - k22 * m12);
     // The discriminant of a symmetric pencil is never negative; round-off may make it so.
     let numerator = (b + discriminant.max(0.0).sqrt().copysign(b)) / 2.0;
     if numerator == 0.0 {
@@ -60,10 +56,7 @@ pub fn squared_frequencies(
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotAVibration`] for bad input;
 /// [`Error::LostRoot`] when the change leaves no positive root.
-pub fn perturbed(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
+pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
     check_shape("generalized stiffness change", beta, 2, 2)?;
     check_symmetric("generalized stiffness change", beta)?;
     check_input(generalized_stiffness, beta)?;
@@ -80,10 +73,7 @@ pub fn perturbed(
     for (mode, &root) in roots.iter().enumerate() {
         check_root(mode, root)?;
     }
-    Ok(Perturbed {
-        roots,
-        shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]),
-    })
+    Ok(Perturbed { roots, shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]) })
 }
 
 /// The three entries of a symmetric 2 × 2 matrix: first diagonal, off-diagonal, second diagonal.

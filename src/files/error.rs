@@ -39,9 +39,7 @@ pub enum FileError {
         found: String,
     },
     /// An element at a degree of freedom that an MPC equation makes dependent.
-    #[error(
-        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
-    )]
+    #[error("element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}")]
     TiedElement {
         /// The element.
         element: usize,
@@ -105,10 +103,6 @@ impl FileError {
     /// Turns the operating system's error about a file into this one, for `map_err`.
     pub fn of_file(path: &Path, action: &'static str) -> impl Fn(std::io::Error) -> Self + use<> {
         let path = path.to_owned();
-        move |source| Self::File {
-            path: path.clone(),
-            action,
-            source,
-        }
+        move |source| Self::File { path: path.clone(), action, source }
     }
 }

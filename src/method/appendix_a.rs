@@ -28,34 +28,22 @@ pub struct Condensed {
 /// # Errors
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::DependentDynamicDof`] when a dynamic DOF is a combination of those before it.
-pub fn condense(
-    structural: &FactorizedStiffness,
-    load_distribution: &DMatrix<f64>,
-) -> Result<Condensed, Error> {
+pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let t = load_distribution;
     if t.ncols() == 0 {
-        return Err(Error::Empty {
-            what: "dynamic degrees of freedom",
-        });
+        return Err(Error::Empty { what: "dynamic degrees of freedom" });
     }
     let deflections = structural.solve(t)?;
     let flexibility = crate::method::linear_algebra::symmetric_part(&t.tr_mul(&deflections));
-    let lower = cholesky(
-        "dynamic flexibility",
-        &flexibility,
-        SMALLEST_FLEXIBILITY_PIVOT,
-    )
-    .map_err(|error| match error {
-        Error::NotPositiveDefinite { dof, .. } => Error::DependentDynamicDof { dof },
-        other => other,
-    })?;
+    let lower =
+        cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT).map_err(|error| match error {
+            Error::NotPositiveDefinite { dof, .. } => Error::DependentDynamicDof { dof },
+            other => other,
+        })?;
     let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
     solve_lower(&lower, &mut inverse_factor);
     let stiffness = inverse_factor.tr_mul(&inverse_factor);
-    Ok(Condensed {
-        transformation: deflections * &stiffness,
-        stiffness,
-    })
+    Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }
 
 /// Generalized stiffness of an element for unit size, $V_e^t K_e V_e$ with $V_e$ the rows of `shapes` (free SDOF × m) at the

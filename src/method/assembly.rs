@@ -47,14 +47,10 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
                 .iter()
                 .flat_map(|&grid| (0..3).map(move |direction| (grid, direction)))
                 .enumerate()
-                .filter_map(|(local, (grid, direction))| {
-                    Some((local, structure.free_dof_index(grid, direction)?))
-                })
+                .filter_map(|(local, (grid, direction))| Some((local, structure.free_dof_index(grid, direction)?)))
                 .unzip();
             let volumes = corner_volumes(element.kind, &corners)?;
-            let unit_mass = local
-                .iter()
-                .map(|&row| element.material.density * volumes[row / 3]);
+            let unit_mass = local.iter().map(|&row| element.material.density * volumes[row / 3]);
             Ok(ElementMatrix {
                 label: element.label,
                 unit_mass: DVector::from_iterator(dof.len(), unit_mass),
@@ -71,11 +67,7 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless there is one size per element.
-pub fn dense_stiffness(
-    elements: &[ElementMatrix],
-    sizes: &[f64],
-    dof_count: usize,
-) -> Result<DMatrix<f64>, Error> {
+pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
     for_each_entry(elements, sizes, |row, column, value| {
         stiffness[(row, column)] += value;
@@ -121,18 +113,12 @@ impl FactorizedStiffness {
     /// [`Error::SingularStiffness`] naming the grid and direction that nothing constrains, when the smallest
     /// eigenvalue of the unit-diagonal stiffness is within round-off of zero; [`Error::NotPositiveDefinite`] for
     /// element matrices that are not semidefinite.
-    pub fn new(
-        elements: &[ElementMatrix],
-        sizes: &[f64],
-        free: &[StructuralDof],
-    ) -> Result<Self, Error> {
+    pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
         for (element, &size) in elements.iter().zip(sizes) {
             positive("size", || format!("element {}", element.label), size)?;
         }
         if free.is_empty() {
-            return Err(Error::Empty {
-                what: "free degrees of freedom",
-            });
+            return Err(Error::Empty { what: "free degrees of freedom" });
         }
         let mut diagonal = DVector::<f64>::zeros(free.len());
         for_each_entry(elements, sizes, |row, column, value| {
@@ -157,10 +143,7 @@ impl FactorizedStiffness {
         match factorize(SINGULAR_SHIFT)? {
             Some(factor) => {
                 let (smallest, motion) = weakest_motion(&factor, free.len());
-                Err(singular(
-                    free[most_moved(&motion, &scale)],
-                    smallest - SINGULAR_SHIFT,
-                ))
+                Err(singular(free[most_moved(&motion, &scale)], smallest - SINGULAR_SHIFT))
             }
             None => {
                 let what = "structural stiffness";
@@ -177,15 +160,10 @@ impl FactorizedStiffness {
     pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", loads, self.scale.len(), loads.ncols())?;
         crate::method::linear_algebra::check_finite("loads", loads)?;
-        let mut right = faer::Mat::from_fn(loads.nrows(), loads.ncols(), |row, column| {
-            self.scale[row] * loads[(row, column)]
-        });
+        let mut right =
+            faer::Mat::from_fn(loads.nrows(), loads.ncols(), |row, column| self.scale[row] * loads[(row, column)]);
         self.factor.solve_in_place(&mut right);
-        Ok(DMatrix::from_fn(
-            loads.nrows(),
-            loads.ncols(),
-            |row, column| self.scale[row] * right[(row, column)],
-        ))
+        Ok(DMatrix::from_fn(loads.nrows(), loads.ncols(), |row, column| self.scale[row] * right[(row, column)]))
     }
 }
 
@@ -201,18 +179,11 @@ fn factorize_scaled(
     let mut triplets: Vec<_> = (0..size).map(|i| Triplet::new(i, i, shift)).collect();
     for_each_entry(elements, sizes, |row, column, value| {
         if row >= column {
-            triplets.push(Triplet::new(
-                row,
-                column,
-                value * scale[row] * scale[column],
-            ));
+            triplets.push(Triplet::new(row, column, value * scale[row] * scale[column]));
         }
     })?;
-    let matrix = SparseColMat::try_new_from_triplets(size, size, &triplets).map_err(|_| {
-        Error::NoConvergence {
-            what: "sparse assembly",
-        }
-    })?;
+    let matrix = SparseColMat::try_new_from_triplets(size, size, &triplets)
+        .map_err(|_| Error::NoConvergence { what: "sparse assembly" })?;
     Ok(matrix.sp_cholesky(Side::Lower).ok())
 }
 
@@ -240,9 +211,5 @@ fn most_moved(motion: &DVector<f64>, scale: &DVector<f64>) -> usize {
 }
 
 fn singular(dof: StructuralDof, ratio: f64) -> Error {
-    Error::SingularStiffness {
-        grid: dof.grid,
-        direction: DIRECTIONS[dof.direction],
-        ratio,
-    }
+    Error::SingularStiffness { grid: dof.grid, direction: DIRECTIONS[dof.direction], ratio }
 }

@@ -39,17 +39,12 @@ pub enum DerivativeRule {
 ///
 /// # Errors
 /// Those of [`by_definition`].
-pub fn error_changes(
-    model: &ModalModel,
-    state: &ModalState,
-    rule: DerivativeRule,
-) -> Result<Vec<f64>, Error> {
+pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRule) -> Result<Vec<f64>, Error> {
     match rule {
         DerivativeRule::Definition => by_definition(model, state),
-        DerivativeRule::Gradient => Ok(gradient(model, state)
-            .into_iter()
-            .map(|slope| DERIVATIVE_STEP * slope)
-            .collect()),
+        DerivativeRule::Gradient => {
+            Ok(gradient(model, state).into_iter().map(|slope| DERIVATIVE_STEP * slope).collect())
+        }
     }
 }
 
@@ -77,18 +72,11 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
         for (mode, &root) in perturbed.roots.iter().enumerate() {
             check_root(mode, root)?;
         }
-        let modes = ModeSet {
-            omega_squared: perturbed.roots.map(f64::recip),
-            shapes: &state.modes.shapes * perturbed.shapes,
-        };
+        let modes =
+            ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &state.modes.shapes * perturbed.shapes };
         Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
     };
-    model
-        .shares
-        .iter()
-        .zip(&state.factors)
-        .map(of_parameter)
-        .collect()
+    model.shares.iter().zip(&state.factors).map(of_parameter).collect()
 }
 
 /// Takes the coupling of close modes out of a generalized change.
@@ -119,10 +107,7 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
     let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
     // The shares are those of the exact modes, so the sensitivity goes to them and not each share to the present modes.
     let to_stiffness = p * &sensitivity * p.transpose();
-    let has_mass = model
-        .shares
-        .iter()
-        .any(|share| matches!(share, Share::Mass(_)));
+    let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
     let to_mass = has_mass.then(|| {
         let mut weighted = sensitivity;
         for (mut column, k) in weighted.column_iter_mut().zip(k.iter()) {
@@ -134,12 +119,7 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
         (Share::Mass(matrix), Some(to_mass)) => to_mass.dot(matrix),
         (share, _) => to_stiffness.dot(share.matrix()),
     };
-    model
-        .shares
-        .iter()
-        .zip(&state.factors)
-        .map(|(share, factor)| factor * slope(share))
-        .collect()
+    model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
 }
 
 /// $\partial e_S/\partial \beta$ at the present modes (n × n), the adjoint sweep over the test modes.

@@ -77,9 +77,7 @@ pub enum Error {
         element: usize,
     },
     /// An element refers to a grid point that does not exist.
-    #[error(
-        "element {element}: expected an existing grid, found grid {grid}, which is not defined"
-    )]
+    #[error("element {element}: expected an existing grid, found grid {grid}, which is not defined")]
     UnknownGrid {
         /// The element.
         element: usize,
@@ -87,9 +85,7 @@ pub enum Error {
         grid: usize,
     },
     /// A parameter refers to an element that does not exist.
-    #[error(
-        "parameter {parameter}: expected an existing element, found element {element}, which is not defined"
-    )]
+    #[error("parameter {parameter}: expected an existing element, found element {element}, which is not defined")]
     UnknownElement {
         /// The parameter.
         parameter: String,
@@ -97,9 +93,7 @@ pub enum Error {
         element: usize,
     },
     /// A parameter refers to a dynamic DOF that does not exist.
-    #[error(
-        "parameter {parameter}: expected a dynamic degree of freedom below {count}, found {found}"
-    )]
+    #[error("parameter {parameter}: expected a dynamic degree of freedom below {count}, found {found}")]
     UnknownDynamicDof {
         /// The parameter.
         parameter: String,
@@ -109,17 +103,13 @@ pub enum Error {
         count: usize,
     },
     /// A point mass to be scaled is coupled to another degree of freedom.
-    #[error(
-        "dynamic mass: expected a point mass at degree of freedom {dof} (from zero), found it coupled to others"
-    )]
+    #[error("dynamic mass: expected a point mass at degree of freedom {dof} (from zero), found it coupled to others")]
     CoupledMass {
         /// The DOF, from zero.
         dof: usize,
     },
     /// An element stands in two parameters.
-    #[error(
-        "element {element}: expected in one parameter at most, found in {first} and in {second}"
-    )]
+    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
     SharedElement {
         /// The element.
         element: usize,
@@ -143,17 +133,13 @@ pub enum Error {
         length: f64,
     },
     /// A triangle or panel without area.
-    #[error(
-        "expected a panel with area, found {area:.3e} of the square of its longest diagonal or side"
-    )]
+    #[error("expected a panel with area, found {area:.3e} of the square of its longest diagonal or side")]
     ZeroArea {
         /// Area over the square of the longest side or diagonal.
         area: f64,
     },
     /// A quadrilateral with a corner of 180 degrees or more.
-    #[error(
-        "expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}"
-    )]
+    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}")]
     NotConvex {
         /// The corner, 1 to 4 in the order given.
         corner: usize,
@@ -369,9 +355,6 @@ pub enum Error {
 impl Error {
     /// Wraps an error with the number of the element it belongs to.
     pub(crate) fn in_element(self, element: usize) -> Self {
-        Self::InElement {
-            element,
-            source: Box::new(self),
-        }
+        Self::InElement { element, source: Box::new(self) }
     }
 }

@@ -52,11 +52,7 @@ pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
         unit_shape_difference(analyzed, pairing.sign[j], tested, &mut difference);
         shape += difference.norm_squared() / dof_count as f64;
     }
-    Errors {
-        frequency: frequency.sqrt(),
-        shape: shape.sqrt(),
-        mode_count: test.len(),
-    }
+    Errors { frequency: frequency.sqrt(), shape: shape.sqrt(), mode_count: test.len() }
 }
 
 /// $\pm v/|v|_\infty - w/|w|_\infty$, the difference (d) of two shapes scaled to unit largest component.

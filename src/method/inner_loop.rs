@@ -39,10 +39,7 @@ impl Default for InnerSettings {
         Self {
             first_relaxation: 0.8,
             relaxation: 1.0,
-            factor_range: Range {
-                lower: 0.55,
-                upper: 1.50,
-            },
+            factor_range: Range { lower: 0.55, upper: 1.50 },
             tolerance: 0.025,
             halvings: 5,
             iterations: 100,
@@ -134,11 +131,7 @@ pub fn run(
         }
         let changes = error_changes(model, &state, settings.derivatives)?;
         let stiffnesses = stiffness_changes(model, &state, &changes, settings.step);
-        let relaxation = if iterations.is_empty() {
-            settings.first_relaxation
-        } else {
-            settings.relaxation
-        };
+        let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
         let unlimited = unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
@@ -164,13 +157,7 @@ pub fn run(
             break Stop::Tolerance;
         }
     };
-    Ok(InnerRun {
-        start,
-        iterations,
-        last: state,
-        first_unlimited_factors,
-        stop,
-    })
+    Ok(InnerRun { start, iterations, last: state, first_unlimited_factors, stop })
 }
 
 /// What became of a step and its halvings.
@@ -198,13 +185,7 @@ fn lowering_step(
         let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
             .map(|e| {
                 let step = 1.0 + fraction * (unlimited[e] - 1.0);
-                limited_factor(
-                    state.factors[e],
-                    base[e],
-                    step,
-                    settings.factor_range,
-                    total_ranges[e],
-                )
+                limited_factor(state.factors[e], base[e], step, settings.factor_range, total_ranges[e])
             })
             .unzip();
         match ModalState::at(model, factors, settings.update) {
@@ -226,24 +207,11 @@ fn lowering_step(
 }
 
 fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
-    let InnerSettings {
-        first_relaxation,
-        relaxation,
-        tolerance,
-        factor_range,
-        ..
-    } = settings;
-    for (name, value) in [
-        ("first_relaxation", first_relaxation),
-        ("relaxation", relaxation),
-        ("tolerance", tolerance),
-    ] {
+    let InnerSettings { first_relaxation, relaxation, tolerance, factor_range, .. } = settings;
+    for (name, value) in [("first_relaxation", first_relaxation), ("relaxation", relaxation), ("tolerance", tolerance)]
+    {
         if !(*value > 0.0 && value.is_finite()) {
-            return Err(Error::Setting {
-                name,
-                expected: "a positive finite number",
-                found: *value,
-            });
+            return Err(Error::Setting { name, expected: "a positive finite number", found: *value });
         }
     }
     Range::positive("factor limits", factor_range.lower, factor_range.upper)?;

@@ -45,13 +45,7 @@ pub fn check_shape<T>(
     if (rows, columns) == (expected_rows, expected_columns) {
         Ok(())
     } else {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        })
+        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns })
     }
 }
 
@@ -63,13 +57,7 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
     if found == expected {
         return Ok(());
     }
-    Err(Error::WrongShape {
-        what,
-        expected_rows: expected,
-        expected_columns: 1,
-        rows: found,
-        columns: 1,
-    })
+    Err(Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 })
 }
 
 /// Refuses matrices that are not square, finite and symmetric to working precision.
@@ -92,12 +80,7 @@ pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), 
     if worst.2 <= LARGEST_ASYMMETRY * largest {
         return Ok(());
     }
-    Err(Error::NotSymmetric {
-        what,
-        row: worst.0,
-        column: worst.1,
-        difference: worst.2 / largest,
-    })
+    Err(Error::NotSymmetric { what, row: worst.0, column: worst.1, difference: worst.2 / largest })
 }
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation.
@@ -111,22 +94,14 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
-pub fn cholesky(
-    what: &'static str,
-    matrix: &DMatrix<f64>,
-    smallest_pivot: f64,
-) -> Result<DMatrix<f64>, Error> {
+pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) -> Result<DMatrix<f64>, Error> {
     check_symmetric(what, matrix)?;
     let size = matrix.nrows();
     let lower = match to_faer(matrix).llt(Side::Lower) {
         Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
             // A pivot before it may have been too small already.
-            cholesky(
-                what,
-                &matrix.view((0, 0), (index, index)).into_owned(),
-                smallest_pivot,
-            )?;
+            cholesky(what, &matrix.view((0, 0), (index, index)).into_owned(), smallest_pivot)?;
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };
@@ -152,15 +127,10 @@ pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NoConvergence`].
-pub fn symmetric_eigen(
-    what: &'static str,
-    matrix: &DMatrix<f64>,
-) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
     let size = matrix.nrows();
-    let eigen = to_faer(matrix)
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| Error::NoConvergence { what })?;
+    let eigen = to_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence { what })?;
     let values = DVector::from_fn(size, |i, _| eigen.S()[i]);
     let vectors = DMatrix::from_fn(size, size, |row, column| eigen.U()[(row, column)]);
     Ok((values, vectors))
@@ -168,7 +138,5 @@ pub fn symmetric_eigen(
 
 /// The same matrix, real or complex, for faer.
 pub(crate) fn to_faer<T: Copy>(matrix: &DMatrix<T>) -> Mat<T> {
-    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
-        matrix[(row, column)]
-    })
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| matrix[(row, column)])
 }

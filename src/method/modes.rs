@@ -2,8 +2,8 @@
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
-    symmetric_eigen, symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
+    symmetric_part,
 };
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -33,26 +33,14 @@ impl ModeSet {
         if frequencies_hz.is_empty() {
             return Err(Error::Empty { what: "test modes" });
         }
-        check_shape(
-            "test mode shapes",
-            shapes,
-            shapes.nrows(),
-            frequencies_hz.len(),
-        )?;
+        check_shape("test mode shapes", shapes, shapes.nrows(), frequencies_hz.len())?;
         check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || test_mode(mode), frequency)?;
-            positive(
-                "largest component",
-                || test_mode(mode),
-                shapes.column(mode).amax(),
-            )?;
+            positive("largest component", || test_mode(mode), shapes.column(mode).amax())?;
         }
         let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
-        Ok(Self {
-            omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared),
-            shapes: shapes.clone(),
-        })
+        Ok(Self { omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared), shapes: shapes.clone() })
     }
 
     /// Number of modes.
@@ -67,18 +55,12 @@ impl ModeSet {
 
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz.
     pub fn frequencies_hz(&self) -> Vec<f64> {
-        self.omega_squared
-            .iter()
-            .map(|omega_squared| omega_squared.sqrt() / (2.0 * PI))
-            .collect()
+        self.omega_squared.iter().map(|omega_squared| omega_squared.sqrt() / (2.0 * PI)).collect()
     }
 
     /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
     pub(crate) fn select(&self, places: &[usize]) -> Self {
-        Self {
-            omega_squared: self.omega_squared.select_rows(places),
-            shapes: self.shapes.select_columns(places),
-        }
+        Self { omega_squared: self.omega_squared.select_rows(places), shapes: self.shapes.select_columns(places) }
     }
 
     /// The same modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;
@@ -132,10 +114,7 @@ impl Modes {
     /// Orthonormal modes in ascending order, their signs by the rule.
     pub(crate) fn ascending(omega_squared: DVector<f64>, mut shapes: DMatrix<f64>) -> Self {
         apply_sign_rule(&mut shapes);
-        Self(ModeSet {
-            omega_squared,
-            shapes,
-        })
+        Self(ModeSet { omega_squared, shapes })
     }
 
     /// The lowest `count` modes.
@@ -153,11 +132,7 @@ fn check_count(count: usize, available: usize) -> Result<(), Error> {
         return Err(Error::Empty { what: "modes" });
     }
     if count > available {
-        return Err(Error::TooMany {
-            what: "modes",
-            available,
-            requested: count,
-        });
+        return Err(Error::TooMany { what: "modes", available, requested: count });
     }
     Ok(())
 }
@@ -182,13 +157,9 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
     solve_lower(&lower, &mut reduced);
     reduced.transpose_mut();
     solve_lower(&lower, &mut reduced);
-    let (omega_squared, mut shapes) =
-        symmetric_eigen("dynamic stiffness", &symmetric_part(&reduced))?;
+    let (omega_squared, mut shapes) = symmetric_eigen("dynamic stiffness", &symmetric_part(&reduced))?;
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
-        return Err(Error::NotAVibration {
-            mode,
-            value: omega_squared[mode],
-        });
+        return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
     }
     solve_lower_transposed(&lower, &mut shapes);
     Modes::ascending(omega_squared, shapes).lowest(count)
@@ -198,9 +169,7 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
 pub fn apply_sign_rule(shapes: &mut DMatrix<f64>) {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
-        let first = shape
-            .iter()
-            .find(|component| component.abs() >= (1.0 - SIGN_TIE) * largest);
+        let first = shape.iter().find(|component| component.abs() >= (1.0 - SIGN_TIE) * largest);
         if first.is_some_and(|&component| component < 0.0) {
             shape.neg_mut();
         }

@@ -99,15 +99,11 @@ pub fn correlate<E: From<Error>>(
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&initial.errors, settings);
-    while passes.len() < settings.most_passes
-        && (passes.len() < settings.least_passes || !converged)
-    {
+    while passes.len() < settings.most_passes && (passes.len() < settings.least_passes || !converged) {
         let inner = match run(&model, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
-            Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })
-                if !passes.is_empty() =>
-            {
+            Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. }) if !passes.is_empty() => {
                 break;
             }
             Err(error) => return Err(error.into()),
@@ -116,11 +112,7 @@ pub fn correlate<E: From<Error>>(
             *factor *= step;
         }
         model = analyze(&factors)?;
-        let pass = Pass {
-            check: model.exact.clone(),
-            factors: factors.clone(),
-            inner,
-        };
+        let pass = Pass { check: model.exact.clone(), factors: factors.clone(), inner };
         converged = meets(&pass.check.errors, settings);
         progress(passes.len() + 1, &pass);
         let stuck = pass.inner.iterations.is_empty();
@@ -130,12 +122,7 @@ pub fn correlate<E: From<Error>>(
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
-    Ok(Correlation {
-        parameter_count: total_ranges.len(),
-        initial,
-        passes,
-        converged,
-    })
+    Ok(Correlation { parameter_count: total_ranges.len(), initial, passes, converged })
 }
 
 fn meets(errors: &Errors, settings: &Settings) -> bool {
@@ -152,11 +139,7 @@ fn check_settings(settings: &Settings) -> Result<(), Error> {
         ("shape_tolerance", settings.shape_tolerance),
     ] {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::Setting {
-                name,
-                expected: "a positive finite number",
-                found: value,
-            });
+            return Err(Error::Setting { name, expected: "a positive finite number", found: value });
         }
     }
     Ok(())

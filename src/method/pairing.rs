@@ -20,19 +20,10 @@ pub struct Pairing {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
-pub fn cross_orthogonality(
-    analysis: &ModeSet,
-    test: &ModeSet,
-    mass: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
+pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
     check_shape("dynamic mass", mass, dof_count, dof_count)?;
-    check_shape(
-        "analysis mode shapes",
-        &analysis.shapes,
-        dof_count,
-        analysis.len(),
-    )?;
+    check_shape("analysis mode shapes", &analysis.shapes, dof_count, analysis.len())?;
     check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
     Ok(analysis.shapes.tr_mul(&(mass * &test.shapes)))
 }
@@ -45,10 +36,7 @@ pub fn cross_orthogonality(
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero.
 ///
 /// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
-pub fn modal_assurance(
-    shapes: &DMatrix<f64>,
-    others: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
+pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
         for (mode, shape) in shapes.column_iter().enumerate() {
@@ -77,11 +65,7 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
         return Err(Error::Empty { what: "test modes" });
     }
     if test_count > analysis_count {
-        return Err(Error::TooMany {
-            what: "test modes",
-            available: analysis_count,
-            requested: test_count,
-        });
+        return Err(Error::TooMany { what: "test modes", available: analysis_count, requested: test_count });
     }
     crate::method::linear_algebra::check_finite("cross-orthogonality", cross)?;
     let mut partner: Vec<Option<usize>> = vec![None; test_count];
@@ -102,13 +86,8 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     }
     let analysis_mode: Vec<usize> = partner.into_iter().flatten().collect();
     let pairs = analysis_mode.iter().enumerate();
-    let sign = pairs
-        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
-        .collect();
-    Ok(Pairing {
-        analysis_mode,
-        sign,
-    })
+    let sign = pairs.map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 }).collect();
+    Ok(Pairing { analysis_mode, sign })
 }
 
 /// The paired analysis modes, in the order and with the signs of the test modes.

@@ -77,42 +77,23 @@ impl ModalState {
             }
         }
         let k = &exact.omega_squared;
-        let has_mass = model
-            .shares
-            .iter()
-            .any(|share| matches!(share, Share::Mass(_)));
+        let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
         let whole = || ModalChange::of_vibrations(k, beta.clone(), alpha.clone());
         let perturbed = match rule {
             UpdateRule::Eigensolution => eigensolution(&whole())?,
             UpdateRule::Recursive1 if has_mass => {
                 general::recursive_1_converged(&whole(), ROOT_TOLERANCE, MOST_ORDERS)?.perturbed
             }
-            UpdateRule::Recursive1 => {
-                recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed
-            }
+            UpdateRule::Recursive1 => recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed,
         };
-        if let Some((mode, &value)) = perturbed
-            .roots
-            .iter()
-            .enumerate()
-            .find(|(_, root)| **root <= 0.0)
-        {
+        if let Some((mode, &value)) = perturbed.roots.iter().enumerate().find(|(_, root)| **root <= 0.0) {
             return Err(Error::LostRoot { mode, value });
         }
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = pair_modes(&shapes.tr_mul(&model.cross))?;
-        let modes = ModeSet {
-            omega_squared: perturbed.roots.map(f64::recip),
-            shapes: &exact.shapes * &shapes,
-        };
+        let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &exact.shapes * &shapes };
         let errors = errors(&modes, &pairing, &model.test);
-        Ok(Self {
-            factors,
-            modes,
-            generalized_shapes: shapes,
-            pairing,
-            errors,
-        })
+        Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })
     }
 }

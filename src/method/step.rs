@@ -20,12 +20,7 @@ pub enum StepRule {
 }
 
 /// $\Delta k_e$ of every parameter for a change of 0.1 % at the present state (12), dimensionless.
-pub fn stiffness_changes(
-    model: &ModalModel,
-    state: &ModalState,
-    error_changes: &[f64],
-    rule: StepRule,
-) -> Vec<f64> {
+pub fn stiffness_changes(model: &ModalModel, state: &ModalState, error_changes: &[f64], rule: StepRule) -> Vec<f64> {
     let shares = model.test_shares.iter().zip(&state.factors);
     shares
         .map(|(share, factor)| match rule {
@@ -53,13 +48,11 @@ pub fn unlimited_factors(
 ) -> Vec<f64> {
     let parameters = error_changes.iter().zip(stiffness_changes);
     parameters
-        .map(|(&error, &stiffness)| {
-            if stiffness > 0.0 {
-                1.0 - relaxation * error_sum * error / stiffness
-            } else {
-                1.0
-            }
-        })
+        .map(
+            |(&error, &stiffness)| {
+                if stiffness > 0.0 { 1.0 - relaxation * error_sum * error / stiffness } else { 1.0 }
+            },
+        )
         .collect()
 }
 
@@ -89,16 +82,7 @@ pub fn limited_factor(
     let factor = factor_range.clamp(step);
     let next = total * factor;
     match total_range {
-        Some(range) if !range.contains(base * next) => {
-            (range.clamp(base * next) / base, Limit::Total)
-        }
-        _ => (
-            next,
-            if factor == step {
-                Limit::None
-            } else {
-                Limit::Factor
-            },
-        ),
+        Some(range) if !range.contains(base * next) => (range.clamp(base * next) / base, Limit::Total),
+        _ => (next, if factor == step { Limit::None } else { Limit::Factor }),
     }
 }

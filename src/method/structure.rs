@@ -151,19 +151,11 @@ impl Structure {
             for (direction, index) in index.iter_mut().enumerate() {
                 let value = grid.position[direction];
                 if !value.is_finite() {
-                    return Err(Error::NotFinite {
-                        what: "grid coordinates",
-                        row,
-                        column: direction,
-                        value,
-                    });
+                    return Err(Error::NotFinite { what: "grid coordinates", row, column: direction, value });
                 }
                 if !grid.constrained[direction] {
                     *index = Some(free.len());
-                    free.push(StructuralDof {
-                        grid: grid.label,
-                        direction,
-                    });
+                    free.push(StructuralDof { grid: grid.label, direction });
                 }
             }
             free_index.push(index);
@@ -171,19 +163,11 @@ impl Structure {
         let mut seen = HashSet::new();
         for element in &elements {
             if !seen.insert(element.label) {
-                return Err(Error::DuplicateElement {
-                    element: element.label,
-                });
+                return Err(Error::DuplicateElement { element: element.label });
             }
             check_element(element, &index_of_grid)?;
         }
-        Ok(Self {
-            grids,
-            elements,
-            index_of_grid,
-            free,
-            free_index,
-        })
+        Ok(Self { grids, elements, index_of_grid, free, free_index })
     }
 
     /// The grids, in the order given.
@@ -221,18 +205,11 @@ impl Structure {
 fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Result<(), Error> {
     let expected = element.kind.corner_count();
     if element.grids.len() != expected {
-        return Err(Error::WrongCornerCount {
-            expected,
-            found: element.grids.len(),
-        }
-        .in_element(element.label));
+        return Err(Error::WrongCornerCount { expected, found: element.grids.len() }.in_element(element.label));
     }
     for &grid in &element.grids {
         if !index_of_grid.contains_key(&grid) {
-            return Err(Error::UnknownGrid {
-                element: element.label,
-                grid,
-            });
+            return Err(Error::UnknownGrid { element: element.label, grid });
         }
     }
     let owner = || format!("element {}", element.label);
@@ -242,32 +219,15 @@ fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Re
     if material.density != 0.0 {
         positive("density", owner, material.density)?;
     }
-    check_poissons_ratio(material.poissons_ratio)
-        .map_err(|error| error.in_element(element.label))?;
+    check_poissons_ratio(material.poissons_ratio).map_err(|error| error.in_element(element.label))?;
     positive(element.kind.size_name(), owner, element.size)
 }
 
 fn check_poissons_ratio(value: f64) -> Result<(), Error> {
-    if value > -1.0 && value <= 0.5 {
-        Ok(())
-    } else {
-        Err(Error::PoissonsRatio { value })
-    }
+    if value > -1.0 && value <= 0.5 { Ok(()) } else { Err(Error::PoissonsRatio { value }) }
 }
 
 /// Accepts a positive finite number.
-pub(crate) fn positive(
-    what: &'static str,
-    owner: impl Fn() -> String,
-    value: f64,
-) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::NotPositive {
-            what,
-            owner: owner(),
-            value,
-        })
-    }
+pub(crate) fn positive(what: &'static str, owner: impl Fn() -> String, value: f64) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::NotPositive { what, owner: owner(), value }) }
 }

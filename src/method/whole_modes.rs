@@ -29,11 +29,7 @@ impl MassDof {
     ///
     /// # Errors
     /// [`Error::Empty`] when no element has a density.
-    pub fn of_elements(
-        structure: &Structure,
-        elements: &[ElementMatrix],
-        sizes: &[f64],
-    ) -> Result<Self, Error> {
+    pub fn of_elements(structure: &Structure, elements: &[ElementMatrix], sizes: &[f64]) -> Result<Self, Error> {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, sizes, free.len());
         let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
@@ -90,17 +86,11 @@ pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<Whole
     let (roots, vectors) = symmetric_eigen("weighted dynamic flexibility", &flexibility)?;
     // Ascending roots are descending frequencies.
     let largest = roots[roots.len() - 1];
-    let finite: Vec<usize> = (0..roots.len())
-        .rev()
-        .filter(|&mode| roots[mode] > SMALLEST_ROOT * largest)
-        .collect();
+    let finite: Vec<usize> = (0..roots.len()).rev().filter(|&mode| roots[mode] > SMALLEST_ROOT * largest).collect();
     let mut shapes = vectors.select_columns(&finite);
     for (mut row, root_mass) in shapes.row_iter_mut().zip(&root_mass) {
         row /= *root_mass;
     }
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
-    Ok(WholeModes {
-        dof: at.dof,
-        modes: Modes::ascending(omega_squared, shapes),
-    })
+    Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes) })
 }

@@ -39,11 +39,7 @@ pub struct CasesArguments {
 pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::of(&arguments.solver)?;
-    let numbers = if arguments.cases.is_empty() {
-        CASES.to_vec()
-    } else {
-        arguments.cases.clone()
-    };
+    let numbers = if arguments.cases.is_empty() { CASES.to_vec() } else { arguments.cases.clone() };
     let mut results = Vec::new();
     for number in numbers {
         let mut case = Case::on(number, reconstruction.clone())?;
@@ -53,9 +49,8 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        let elements = |model: &FiniteElementModel, factors: &[f64]| {
-            Ok::<_, PresentError>(solver.elements(model, factors)?)
-        };
+        let elements =
+            |model: &FiniteElementModel, factors: &[f64]| Ok::<_, PresentError>(solver.elements(model, factors)?);
         results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
@@ -69,8 +64,6 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     }
     let fit = fit(&reconstruction)?;
     let tables = all_tables(&results, &fit)?;
-    arguments
-        .report
-        .write(&tables, render::render, || json::json(&results, &fit))?;
+    arguments.report.write(&tables, render::render, || json::json(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

@@ -45,10 +45,7 @@ pub struct ModesArguments {
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
-    let case = Case::on(
-        arguments.case,
-        reconstruction(arguments.box_file.as_deref())?,
-    )?;
+    let case = Case::on(arguments.case, reconstruction(arguments.box_file.as_deref())?)?;
     let model = case.model()?;
     let mut factors = vec![1.0; model.parameters().len()];
     if arguments.pass > 0 {
@@ -56,12 +53,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
         factors = match passes.get(arguments.pass - 1) {
             Some(pass) => pass.factors.clone(),
             None => {
-                return Err(Error::TooMany {
-                    what: "pass",
-                    available: passes.len(),
-                    requested: arguments.pass,
-                }
-                .into());
+                return Err(Error::TooMany { what: "pass", available: passes.len(), requested: arguments.pass }.into());
             }
         };
     }
@@ -75,10 +67,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     };
     let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    put(
-        arguments.output.as_deref(),
-        &deck::write(&bulk, &title, &task)?,
-    )
+    put(arguments.output.as_deref(), &deck::write(&bulk, &title, &task)?)
 }
 
 /// Prints the modes of a deck.
@@ -92,15 +81,8 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let found = modes.modes.len();
     let count = arguments.count.unwrap_or(found);
     if count > found {
-        return Err(Error::TooMany {
-            what: "modes of finite frequency",
-            available: found,
-            requested: count,
-        }
-        .into());
+        return Err(Error::TooMany { what: "modes of finite frequency", available: found, requested: count }.into());
     }
     let tables = deck_tables(&deck, &modes, count);
-    arguments.report.write(&tables, render::render_tables, || {
-        deck_json(&deck, &modes, count)
-    })
+    arguments.report.write(&tables, render::render_tables, || deck_json(&deck, &modes, count))
 }

@@ -23,13 +23,10 @@ pub struct DeltaWingArguments {
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let elements = |model: &FiniteElementModel, factors: &[f64]| {
-        Ok::<_, PresentError>(solver.elements(model, factors)?)
-    };
+    let elements =
+        |model: &FiniteElementModel, factors: &[f64]| Ok::<_, PresentError>(solver.elements(model, factors)?);
     let run = correlate_wing_with(&wing, solver.name(), elements, |_, _| {})?;
     let tables = delta_wing_tables(&wing, &run)?;
-    arguments.report.write(&tables, render::render_tables, || {
-        delta_wing_json(&wing, &run)
-    })?;
+    arguments.report.write(&tables, render::render_tables, || delta_wing_json(&wing, &run))?;
     Ok(run.correlation.converged)
 }

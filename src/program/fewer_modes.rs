@@ -19,7 +19,5 @@ pub fn fewer_modes(arguments: &FewerModesArguments) -> Result<(), PresentError> 
     let case = Case::new(PUBLISHED_CASE)?;
     let runs = all_runs(&case)?;
     let tables = fewer_modes_tables(&case, &published_runs(&case)?, &runs)?;
-    arguments
-        .report
-        .write(&tables, render::render, || json::fewer_modes(&runs))
+    arguments.report.write(&tables, render::render, || json::fewer_modes(&runs))
 }

@@ -25,7 +25,5 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = matrix_tables(&case, &comparison);
-    arguments.report.write(&tables, render::render_tables, || {
-        json::matrices(&comparison)
-    })
+    arguments.report.write(&tables, render::render_tables, || json::matrices(&comparison))
 }

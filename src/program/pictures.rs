@@ -9,9 +9,7 @@ use corfem::files::error::FileError;
 use corfem::present::error::PresentError;
 use corfem::present::figures::{Figure, all_figures, comparison_figures, picture};
 use corfem::present::page::{Contents, page};
-use corfem::studies::matrix_comparison::{
-    MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
-};
+use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `corfem figures`.
@@ -56,10 +54,7 @@ impl Runs {
             Ok(result)
         };
         Ok(Self {
-            cases: CASES
-                .into_iter()
-                .map(run)
-                .collect::<Result<_, PresentError>>()?,
+            cases: CASES.into_iter().map(run).collect::<Result<_, PresentError>>()?,
             fewer_modes: all_runs(&Case::new(PUBLISHED_CASE)?)?,
             matrices: compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?,
         })
@@ -67,11 +62,7 @@ impl Runs {
 
     fn figures(&self) -> Result<Vec<Figure>, PresentError> {
         let mut figures = all_figures(&self.cases)?;
-        figures.extend(comparison_figures(
-            PUBLISHED_CASE,
-            &self.fewer_modes,
-            &self.matrices,
-        )?);
+        figures.extend(comparison_figures(PUBLISHED_CASE, &self.fewer_modes, &self.matrices)?);
         Ok(figures)
     }
 }
@@ -107,10 +98,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), PresentError> {
         figures: &runs.figures()?,
         command: &command,
     })?;
-    put_all(
-        &arguments.out,
-        &[("report.html".to_owned(), html.into_bytes())],
-    )?;
+    put_all(&arguments.out, &[("report.html".to_owned(), html.into_bytes())])?;
     if !arguments.quiet {
         eprintln!("{}", arguments.out.join("report.html").display());
     }

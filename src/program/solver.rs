@@ -65,11 +65,7 @@ impl Solver {
     }
 
     /// The model with the solver's elements, at the given factors on the parameters.
-    pub fn elements(
-        &self,
-        model: &FiniteElementModel,
-        factors: &[f64],
-    ) -> Result<FiniteElementModel, FileError> {
+    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
         match self {
             Self::BuiltIn => Ok(model.clone()),
             Self::Nastran95(nastran) => nastran.elements(model, factors),

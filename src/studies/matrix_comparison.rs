@@ -100,12 +100,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let test = all.lowest(test_modes)?;
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
-    let correlation = correlate(
-        |factors| model.analyze(factors, &test, None),
-        &ranges,
-        &case.settings,
-        |_, _| {},
-    )?;
+    let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &case.settings, |_, _| {})?;
     let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
@@ -114,31 +109,15 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let berman_nagy = berman_nagy_stiffness(&start.stiffness, &corrected_mass, &read)?;
 
     let truth = [TEST_GAGE; PANEL_COUNT];
-    let doubled =
-        |gages: &[f64]| Ok::<_, CaseError>(analysis(case, &with_doublers(gages))?.stiffness);
+    let doubled = |gages: &[f64]| Ok::<_, CaseError>(analysis(case, &with_doublers(gages))?.stiffness);
     let design_change = doubled(&first)? - &start.stiffness;
     let mass = &start.mass;
     let candidates = [
         ("Initial", start.stiffness.clone(), doubled(&first)?, mass),
-        (
-            TRUTH,
-            analysis(case, &truth)?.stiffness,
-            doubled(&truth)?,
-            mass,
-        ),
-        (
-            "Element factors",
-            analysis(case, &found)?.stiffness,
-            doubled(&found)?,
-            mass,
-        ),
+        (TRUTH, analysis(case, &truth)?.stiffness, doubled(&truth)?, mass),
+        ("Element factors", analysis(case, &found)?.stiffness, doubled(&found)?, mass),
         ("Baruch", baruch.clone(), &baruch + &design_change, mass),
-        (
-            "Berman and Nagy",
-            berman_nagy.clone(),
-            &berman_nagy + &design_change,
-            &corrected_mass,
-        ),
+        ("Berman and Nagy", berman_nagy.clone(), &berman_nagy + &design_change, &corrected_mass),
     ];
     let true_modes = solve(&candidates[1].1, mass, mass.nrows())?;
     let true_changed = solve(&candidates[1].2, mass, mass.nrows())?;
@@ -200,19 +179,11 @@ fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    ModeSet {
-        omega_squared: modes.omega_squared.clone(),
-        shapes,
-    }
-    .scaled_with(mass)
+    ModeSet { omega_squared: modes.omega_squared.clone(), shapes }.scaled_with(mass)
 }
 
 /// Relative frequency errors of a model, its modes paired with the true ones.
-fn frequency_errors(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    truth: &Modes,
-) -> Result<Vec<f64>, Error> {
+fn frequency_errors(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, truth: &Modes) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
     let pairs = paired(&modes, &pairing).frequencies_hz();
@@ -251,14 +222,9 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         .clone()
         .svd(true, true)
         .solve(&target, SMALLEST_SINGULAR_VALUE)
-        .map_err(|_| Error::NoConvergence {
-            what: "element shares",
-        })?;
+        .map_err(|_| Error::NoConvergence { what: "element shares" })?;
     let left = (&target - shares * &coefficients).norm();
     let whole = target.norm();
     let factors = coefficients.iter().zip(norms).map(|(c, norm)| c / norm);
-    Ok((
-        factors.collect(),
-        if whole > 0.0 { left / whole } else { 0.0 },
-    ))
+    Ok((factors.collect(), if whole > 0.0 { left / whole } else { 0.0 }))
 }

@@ -9,8 +9,7 @@
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
-    symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_part,
 };
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
@@ -28,11 +27,7 @@ const LARGEST_CROSS_MASS: f64 = 1e-8;
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for test
 /// shapes that are not orthonormal with this mass.
-pub fn baruch_stiffness(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    test: &ModeSet,
-) -> Result<DMatrix<f64>, Error> {
+pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
     // M Φ, and with it the projections M Φ Φᵗ and Φ Φᵗ M.
     let inertia = mass * &test.shapes;
@@ -61,20 +56,16 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DM
     check_finite("test mode shapes", shapes)?;
     let inertia = mass * shapes;
     let generalized = symmetric_part(&shapes.tr_mul(&inertia));
-    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT).map_err(
-        |error| match error {
-            Error::NotPositiveDefinite { dof: mode, .. } => Error::DependentTestShape { mode },
-            other => other,
-        },
-    )?;
+    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT).map_err(|error| match error {
+        Error::NotPositiveDefinite { dof: mode, .. } => Error::DependentTestShape { mode },
+        other => other,
+    })?;
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
     solve_lower(&lower, &mut solved);
     solve_lower_transposed(&lower, &mut solved);
     let missing = DMatrix::identity(shapes.ncols(), shapes.ncols()) - generalized;
-    Ok(symmetric_part(
-        &(mass + solved.tr_mul(&(missing * &solved))),
-    ))
+    Ok(symmetric_part(&(mass + solved.tr_mul(&(missing * &solved)))))
 }
 
 /// Pivot of the generalized mass relative to its diagonal below which a test shape is a combination of others.
@@ -114,10 +105,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
 }
 
 /// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2}\, \Delta\, M^{-1/2}$, and of the same norm.
-pub(crate) fn mass_weighted(
-    change: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
+pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
@@ -128,11 +116,7 @@ pub(crate) fn mass_weighted(
     Ok(weighted)
 }
 
-fn check_problem(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    test: &ModeSet,
-) -> Result<(), Error> {
+fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<(), Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_symmetric("dynamic mass", mass)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
@@ -145,11 +129,7 @@ fn check_problem(
             let found = cross[(first, second)];
             // NaN comes from shapes so large that their products overflow.
             if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
-                return Err(Error::NotOrthonormal {
-                    first,
-                    second,
-                    found,
-                });
+                return Err(Error::NotOrthonormal { first, second, found });
             }
         }
     }

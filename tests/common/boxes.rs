@@ -16,9 +16,7 @@ pub fn problem_of(case: &Case) -> ModalModel {
     let model = case.model().expect("a model");
     let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
     let test = case.test_modes().expect("test modes");
-    dynamic
-        .analyze(&test, Some(dynamic.mass.nrows()))
-        .expect("a problem")
+    dynamic.analyze(&test, Some(dynamic.mass.nrows())).expect("a problem")
 }
 
 /// Case 2's box, of membranes and shear panels, with first gages of 0.008 to 0.013 in: up to 30 % off the test's

@@ -15,10 +15,7 @@ use proptest::prelude::*;
 /// The problem of a chain towards the truth, with all its modes.
 pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
     let count = truth.len();
-    chain
-        .model(&vec![1.0; count])
-        .analyze(&chain.modes(truth), Some(count))
-        .expect("a chain is a problem")
+    chain.model(&vec![1.0; count]).analyze(&chain.modes(truth), Some(count)).expect("a chain is a problem")
 }
 
 /// Everything an inner loop is given.
@@ -39,11 +36,8 @@ pub struct Given {
 /// Settings from cautious to reckless: relaxations from 0.3 to 3, bounds of one factor from narrow to wide, few
 /// iterations so that all three stops occur.
 fn settings() -> impl Strategy<Value = InnerSettings> {
-    let rule = prop_oneof![
-        Just(StepRule::RootSumOfSquares),
-        Just(StepRule::SumOverModes),
-        Just(StepRule::SteepestDescent),
-    ];
+    let rule =
+        prop_oneof![Just(StepRule::RootSumOfSquares), Just(StepRule::SumOverModes), Just(StepRule::SteepestDescent),];
     let update = prop_oneof![Just(UpdateRule::default()), Just(UpdateRule::Eigensolution),];
     let derivatives = prop_oneof![
         3 => Just(DerivativeRule::Definition),
@@ -57,13 +51,7 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
         (derivatives, rule, update),
     )
         .prop_map(
-            |(
-                relaxations,
-                (lower, upper),
-                tolerance,
-                (halvings, iterations),
-                (derivatives, step, update),
-            )| {
+            |(relaxations, (lower, upper), tolerance, (halvings, iterations), (derivatives, step, update))| {
                 InnerSettings {
                     first_relaxation: relaxations.0,
                     relaxation: relaxations.1,
@@ -92,31 +80,14 @@ pub fn given() -> impl Strategy<Value = Given> {
             let total_ranges = ranges[..count]
                 .iter()
                 .zip(&base)
-                .map(|(range, base)| {
-                    range.map(|(lower, upper)| Range {
-                        lower: base * lower,
-                        upper: base * upper,
-                    })
-                })
+                .map(|(range, base)| range.map(|(lower, upper)| Range { lower: base * lower, upper: base * upper }))
                 .collect();
-            Given {
-                base: base[..count].to_vec(),
-                chain,
-                truth,
-                total_ranges,
-                settings,
-            }
+            Given { base: base[..count].to_vec(), chain, truth, total_ranges, settings }
         })
 }
 
 /// New total factor and what limited it, written out case by case.
-fn limited(
-    total: f64,
-    base: f64,
-    step: f64,
-    factor_range: Range,
-    total_range: Option<Range>,
-) -> (f64, Limit) {
+fn limited(total: f64, base: f64, step: f64, factor_range: Range, total_range: Option<Range>) -> (f64, Limit) {
     let (factor, mut limit) = if step < factor_range.lower {
         (factor_range.lower, Limit::Factor)
     } else if step > factor_range.upper {
@@ -149,13 +120,7 @@ fn trial(
         .map(|e| {
             let step = 1.0 + fraction * (unlimited[e] - 1.0);
             let range = given.total_ranges[e];
-            limited(
-                state.factors[e],
-                given.base[e],
-                step,
-                settings.factor_range,
-                range,
-            )
+            limited(state.factors[e], given.base[e], step, settings.factor_range, range)
         })
         .unzip();
     let next = ModalState::at(problem, factors.clone(), settings.update).ok();
@@ -177,11 +142,7 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
         ((errors, stiffnesses), unlimited)
     };
     let relaxation = |number: usize| {
-        if number == 0 {
-            settings.first_relaxation
-        } else {
-            settings.relaxation
-        }
+        if number == 0 { settings.first_relaxation } else { settings.relaxation }
     };
     for (number, iteration) in run.iterations.iter().enumerate() {
         assert!(number == 0 || state.errors.sum() >= settings.tolerance);
@@ -197,8 +158,7 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
             let (_, _, lower) = trial(problem, given, &state, &unlimited, halvings);
             assert!(lower.is_none(), "halved although the longer step was good");
         }
-        let (factors, limits, lower) =
-            trial(problem, given, &state, &unlimited, iteration.halvings);
+        let (factors, limits, lower) = trial(problem, given, &state, &unlimited, iteration.halvings);
         assert_eq!(iteration.factors, factors);
         assert_eq!(iteration.limits, limits);
         state = lower.expect("an accepted step lowers the error sum");
@@ -234,11 +194,7 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
 pub fn assert_error_sum_only_falls(run: &InnerRun) {
     let mut before = run.start.sum();
     for iteration in &run.iterations {
-        assert!(
-            iteration.errors.sum() < before,
-            "{} {before}",
-            iteration.errors.sum()
-        );
+        assert!(iteration.errors.sum() < before, "{} {before}", iteration.errors.sum());
         before = iteration.errors.sum();
     }
 }
@@ -264,11 +220,6 @@ pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>]
 /// Correlates a chain with its truth, without bounds.
 pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
     let (test, ranges) = (chain.modes(truth), vec![None; truth.len()]);
-    correlate(
-        |factors| chain.model(factors).analyze(&test, None),
-        &ranges,
-        settings,
-        |_, _| {},
-    )
-    .expect("a chain can be correlated")
+    correlate(|factors| chain.model(factors).analyze(&test, None), &ranges, settings, |_, _| {})
+        .expect("a chain can be correlated")
 }

@@ -23,11 +23,7 @@ fn case_control_selects_the_sets() {
          MPC,5,3,1,-1.,2,1,3.\nSPC1,2,1,2\nCMASS2,8,.4,3,1\nENDDATA\nnonsense"
     );
     let read = deck::read("test", &deck).expect("it reads");
-    let skipped = |card: &str, line| Unread {
-        card: card.into(),
-        line,
-        reason: Reason::NotSelected,
-    };
+    let skipped = |card: &str, line| Unread { card: card.into(), line, reason: Reason::NotSelected };
     assert_eq!(read.unread, [skipped("MPC", 15), skipped("SPC1", 16)]);
     assert_eq!(read.model.ties.len(), 1);
     assert_eq!(read.model.ties[0].terms[0].1, 1.0);
@@ -36,30 +32,16 @@ fn case_control_selects_the_sets() {
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
     let read = deck::read("test", &loose).expect("it reads");
     assert_eq!(read.unread.len(), 2);
-    assert!(
-        read.model
-            .grids
-            .iter()
-            .all(|grid| grid.constrained == [false; 3])
-    );
+    assert!(read.model.grids.iter().all(|grid| grid.constrained == [false; 3]));
 }
 
 #[test]
 fn unknown_cards_are_listed_in_the_order_of_the_file() {
-    let deck = format!(
-        "PARAM,WTMASS,2.\n{ROD}CMASS2,8,.4,2,1\nCBAR,9,1,1,2,1.,0.,0.\nEIGR,1,INV\n+X,MAX\n"
-    );
+    let deck = format!("PARAM,WTMASS,2.\n{ROD}CMASS2,8,.4,2,1\nCBAR,9,1,1,2,1.,0.,0.\nEIGR,1,INV\n+X,MAX\n");
     let error = deck::read("test", &deck).expect_err("+X continues nothing");
-    assert!(
-        matches!(error, FileError::DeckLine { line: 12, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, FileError::DeckLine { line: 12, .. }), "{error}");
     let read = deck::read("test", &deck.replace("+X,MAX\n", "")).expect("it reads");
-    let unknown = |card: &str, line| Unread {
-        card: card.into(),
-        line,
-        reason: Reason::Unknown,
-    };
+    let unknown = |card: &str, line| Unread { card: card.into(), line, reason: Reason::Unknown };
     assert_eq!(read.unread, [unknown("PARAM", 1), unknown("CBAR", 10)]);
 }
 
@@ -87,15 +69,8 @@ MAT1,1,1.04+7,4.+6
     assert_eq!(model.elements[1].grids, [2, 3]);
     assert_eq!(model.elements[2].grids, [1, 2, 3]);
     assert_eq!(model.elements[3].grids, [1, 2, 3, 1]);
-    assert_eq!(
-        model.grids[2].constrained,
-        [false, false, true],
-        "its own card counts"
-    );
-    assert_eq!(
-        model.grids[0].constrained, [false; 3],
-        "rotations have no place"
-    );
+    assert_eq!(model.grids[2].constrained, [false, false, true], "its own card counts");
+    assert_eq!(model.grids[0].constrained, [false; 3], "rotations have no place");
     let material = model.elements[0].material;
     assert_eq!(material.shear_modulus, 4e6);
     approx::assert_relative_eq!(material.poissons_ratio, 0.3, epsilon = ROUND_OFF);
@@ -111,10 +86,7 @@ fn mat1_derives_what_is_blank() {
     let material = with("1.+7,,.25,3.-4").expect("E and nu");
     assert_eq!((material.shear_modulus, material.density), (4e6, 3e-4));
     let material = with(",4.+6,.25").expect("G and nu");
-    assert_eq!(
-        (material.youngs_modulus, material.shear_modulus),
-        (1e7, 4e6)
-    );
+    assert_eq!((material.youngs_modulus, material.shear_modulus), (1e7, 4e6));
     let material = with("1.+7,3.+6,.25").expect("all three");
     assert_eq!(material.shear_modulus, 3e6);
     for (fields, field) in [
@@ -173,14 +145,7 @@ fn neighbors_held_alike_are_written_as_a_range_and_one_alone_is_not() {
         .filter(|line| line.starts_with("SPC1"))
         .map(|line| line.split_whitespace().skip(2).collect())
         .collect();
-    assert_eq!(
-        constrained,
-        [
-            vec!["12456", "1", "THRU", "2"],
-            vec!["3456", "3"],
-            vec!["456", "4"]
-        ]
-    );
+    assert_eq!(constrained, [vec!["12456", "1", "THRU", "2"], vec!["3456", "3"], vec!["456", "4"]]);
 }
 
 #[test]
@@ -203,13 +168,8 @@ MPC     1       1       1       1.      2       3       .5
 #[test]
 fn what_stands_behind_column_80_does_not_count() {
     let card = format!("{:80}12345678", "GRID    1               1.");
-    let more = format!(
-        "{:80}12345678",
-        "GRID*                  2                              1.              2."
-    );
-    let model = deck::read("test", &format!("{card}\n{more}\n"))
-        .expect("it reads")
-        .model;
+    let more = format!("{:80}12345678", "GRID*                  2                              1.              2.");
+    let model = deck::read("test", &format!("{card}\n{more}\n")).expect("it reads").model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 0.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [1.0, 2.0, 0.0]);
 }

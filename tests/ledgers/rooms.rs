@@ -4,15 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the top down.
-const ROOMS: [&str; 7] = [
-    "method",
-    "closed_forms",
-    "cases",
-    "studies",
-    "files",
-    "present",
-    "program",
-];
+const ROOMS: [&str; 7] = ["method", "closed_forms", "cases", "studies", "files", "present", "program"];
 
 fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -67,15 +59,8 @@ fn every_folder_of_the_source_is_a_room() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for entry in fs::read_dir(source).expect("it reads") {
         let path = entry.expect("an entry").path();
-        let name = path
-            .file_name()
-            .expect("a name")
-            .to_string_lossy()
-            .into_owned();
-        assert!(
-            ROOMS.contains(&name.as_str()) || ["lib.rs", "main.rs"].contains(&name.as_str()),
-            "{name}"
-        );
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        assert!(ROOMS.contains(&name.as_str()) || ["lib.rs", "main.rs"].contains(&name.as_str()), "{name}");
     }
 }
 
@@ -83,8 +68,5 @@ fn every_folder_of_the_source_is_a_room() {
 fn the_check_finds_an_import_from_below() {
     let text = "use crate::method::modes;\nuse crate::{present, cases};\nuse crate::cases::Case;";
     assert_eq!(imports_from_below(0, text), ["", "cases"]);
-    assert_eq!(
-        imports_from_below(2, "use crate::cases::Case; use corfem::method::modes;"),
-        [""; 0]
-    );
+    assert_eq!(imports_from_below(2, "use crate::cases::Case; use corfem::method::modes;"), [""; 0]);
 }

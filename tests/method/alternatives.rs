@@ -16,9 +16,7 @@ use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
-use corfem::method::appendix_c::{
-    Perturbed, first_order, normalize_with_mass, recursive_1, recursive_2,
-};
+use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, recursive_1, recursive_2};
 use corfem::method::error::Error;
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
@@ -41,13 +39,8 @@ fn first_pass(number: usize, change: impl Fn(&mut InnerSettings)) -> InnerRun {
 /// Root mean square error of all gages where an inner loop ended, relative to the test's.
 fn gage_error(number: usize, run: &InnerRun) -> f64 {
     let first = Case::new(number).unwrap().first_gages();
-    let squares: f64 = run
-        .last
-        .factors
-        .iter()
-        .zip(first)
-        .map(|(factor, gage)| (factor * gage / TEST_GAGE - 1.0).powi(2))
-        .sum();
+    let squares: f64 =
+        run.last.factors.iter().zip(first).map(|(factor, gage)| (factor * gage / TEST_GAGE - 1.0).powi(2)).sum();
     (squares / 15.0).sqrt()
 }
 
@@ -113,20 +106,11 @@ fn stopping_at_the_first_rise_stops_early() {
     let at_first_rise = |number| first_pass(number, |settings| settings.halvings = 0);
     // Case 1 never rises; Cases 2 and 3 are left at 6 and 4 %.
     assert_eq!(at_first_rise(1).stop, Stop::Tolerance);
-    assert!(
-        first_pass(1, |_| {})
-            .iterations
-            .iter()
-            .all(|i| i.halvings == 0)
-    );
+    assert!(first_pass(1, |_| {}).iterations.iter().all(|i| i.halvings == 0));
     for (number, error_sum) in [(2, 0.062), (3, 0.040)] {
         let run = at_first_rise(number);
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!(
-            (run.last.errors.sum() - error_sum).abs() < 5e-4,
-            "{}",
-            run.last.errors.sum()
-        );
+        assert!((run.last.errors.sum() - error_sum).abs() < 5e-4, "{}", run.last.errors.sum());
         let halved = first_pass(number, |_| {});
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));
     }
@@ -136,9 +120,7 @@ fn stopping_at_the_first_rise_stops_early() {
 fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
-        let exact = first_pass(number, |settings| {
-            settings.update = UpdateRule::Eigensolution
-        });
+        let exact = first_pass(number, |settings| settings.update = UpdateRule::Eigensolution);
         assert_eq!(primary.iterations.len(), exact.iterations.len());
         for (a, b) in primary.iterations.iter().zip(&exact.iterations) {
             assert_eq!(a.halvings, b.halvings);
@@ -169,20 +151,14 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
             let Perturbed { roots, mut shapes } = found.unwrap();
             normalize_with_mass(&mut shapes, &DMatrix::zeros(k.len(), k.len())).unwrap();
             let pairing = pair_modes(&shapes.tr_mul(&problem.cross)).unwrap();
-            let modes = ModeSet {
-                omega_squared: roots.map(f64::recip),
-                shapes: &problem.exact.modes.shapes * shapes,
-            };
+            let modes = ModeSet { omega_squared: roots.map(f64::recip), shapes: &problem.exact.modes.shapes * shapes };
             let sum = errors(&modes, &pairing, &problem.test).sum();
             (sum - run.last.errors.sum()).abs()
         };
         let first = distance(first_order(k, &beta));
         let second = distance(recursive_1(k, &beta, 2));
         let fourth = distance(recursive_1(k, &beta, 4));
-        assert!(
-            fourth < second && second < first,
-            "{first:e} {second:e} {fourth:e}"
-        );
+        assert!(fourth < second && second < first, "{first:e} {second:e} {fourth:e}");
         let third = distance(recursive_2(k, &beta, 3));
         assert!(third < second);
         assert!(distance(exact(k, &beta)) < ROUND_OFF);
@@ -191,28 +167,18 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
 
 /// Largest error of nine frequencies, in percent, of Recursive 1 at the published total change of a case.
 fn largest_frequency_error(case: &Case, problem: &ModalModel, table: usize, order: usize) -> f64 {
-    let column = if case.number == 3 {
-        "pass_3_in"
-    } else {
-        "pass_1_in"
-    };
+    let column = if case.number == 3 { "pass_3_in" } else { "pass_1_in" };
     let table = PublishedTable::number(table).unwrap();
     let factors: Vec<f64> = case
         .panels
         .iter()
         .map(|panel| table.required(&panel.label.to_string(), column).unwrap() / panel.gage)
         .collect();
-    let (k, beta) = (
-        &problem.exact.modes.omega_squared,
-        change_by(problem, &factors),
-    );
+    let (k, beta) = (&problem.exact.modes.omega_squared, change_by(problem, &factors));
     let exact = exact(k, &beta).unwrap().roots;
     let found = recursive_1(k, &beta, order).unwrap().roots;
     // f is one over the square root of γ.
-    let errors = exact
-        .iter()
-        .zip(found.iter())
-        .map(|(exact, found)| (exact / found).sqrt() - 1.0);
+    let errors = exact.iter().zip(found.iter()).map(|(exact, found)| (exact / found).sqrt() - 1.0);
     100.0 * errors.map(f64::abs).fold(0.0, f64::max)
 }
 
@@ -232,10 +198,7 @@ fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
             let last_digit = 0.1_f64.powi(i32::try_from(digits).unwrap());
             let found = largest_frequency_error(&case, &problem, table, order);
             let expected: f64 = printed.parse().unwrap();
-            assert!(
-                (found - expected).abs() <= last_digit,
-                "case {number}, order {order}: {found} {printed}"
-            );
+            assert!((found - expected).abs() <= last_digit, "case {number}, order {order}: {found} {printed}");
         }
     }
 }

@@ -23,18 +23,12 @@ fn frozen(start: &DynamicModel, factors: &[f64]) -> DMatrix<f64> {
 }
 
 fn frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    modes::solve(stiffness, mass, stiffness.nrows())
-        .unwrap()
-        .frequencies_hz()
+    modes::solve(stiffness, mass, stiffness.nrows()).unwrap().frequencies_hz()
 }
 
 fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
     let below = frequencies(&exact.stiffness, &exact.mass);
-    frequencies(frozen, &exact.mass)
-        .iter()
-        .zip(below)
-        .map(|(f, e)| f / e - 1.0)
-        .fold(0.0, f64::max)
+    frequencies(frozen, &exact.mass).iter().zip(below).map(|(f, e)| f / e - 1.0).fold(0.0, f64::max)
 }
 
 proptest! {
@@ -121,14 +115,9 @@ proptest! {
 #[test]
 fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
     for (number, table, percent) in [(1, 4, "1.4"), (2, 6, "0.6"), (3, 8, "2.6")] {
-        let (case, table) = (
-            Case::new(number).unwrap(),
-            PublishedTable::number(table).unwrap(),
-        );
+        let (case, table) = (Case::new(number).unwrap(), PublishedTable::number(table).unwrap());
         let gages = |column: &str| -> Vec<f64> {
-            (1..=15)
-                .map(|label| table.required(&label.to_string(), column).unwrap())
-                .collect()
+            (1..=15).map(|label| table.required(&label.to_string(), column).unwrap()).collect()
         };
         let (from, to) = (gages("initial_in"), gages("pass_1_in"));
         let factors: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to / from).collect();

@@ -1,11 +1,7 @@
 //! Clusters of roots down to exact repetition, against exact eigensolutions, and the orders of the recursion with blocks.
 
-use crate::common::appendix_c::{
-    Clustered, change_of, clustered, four_modes, separate_change, separate_spectrum,
-};
-use crate::common::close_roots::{
-    changed, repeated_chain, residual, root_error, solved, spring_change,
-};
+use crate::common::appendix_c::{Clustered, change_of, clustered, four_modes, separate_change, separate_spectrum};
+use crate::common::close_roots::{changed, repeated_chain, residual, root_error, solved, spring_change};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
 use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
@@ -107,31 +103,19 @@ proptest! {
 
 /// Four modes, two of them with one root, and a change that couples all of them.
 fn pair_among_four(size: f64) -> ModalChange<f64> {
-    ModalChange::of_vibrations(
-        &dvector![1.0, 4.0, 4.0, 14.0],
-        four_modes(size).beta,
-        DMatrix::zeros(4, 4),
-    )
+    ModalChange::of_vibrations(&dvector![1.0, 4.0, 4.0, 14.0], four_modes(size).beta, DMatrix::zeros(4, 4))
 }
 
 /// Largest change of a root in the last order, whether that is small enough to count as settled or not.
 fn last_change(change: &ModalChange<f64>, orders: usize, tolerance: f64) -> f64 {
-    let settings = CloseRootsSettings {
-        orders,
-        tolerance,
-        ..CloseRootsSettings::default()
-    };
+    let settings = CloseRootsSettings { orders, tolerance, ..CloseRootsSettings::default() };
     match close_roots(change, settings) {
         Ok(found) => {
             assert_eq!(found.settled.order, orders);
             assert!(found.settled.last_change <= LARGEST_UNSETTLED_CHANGE);
             found.settled.last_change
         }
-        Err(Error::UnsettledRoots {
-            largest,
-            orders: found,
-            last_change,
-        }) => {
+        Err(Error::UnsettledRoots { largest, orders: found, last_change }) => {
             assert_eq!((largest, found), (LARGEST_UNSETTLED_CHANGE, orders));
             assert!(last_change > LARGEST_UNSETTLED_CHANGE);
             last_change
@@ -149,10 +133,7 @@ fn every_order_of_the_recursion_with_blocks_moves_the_roots_by_that_order() {
             .map(|size| (size, last_change(&pair_among_four(size), orders, 1e-13)))
             .collect();
         let slope = log_log_slope(&points);
-        assert!(
-            (slope - orders as f64).abs() < 2.0 * ORDER_SLACK,
-            "order {orders}: {slope}"
-        );
+        assert!((slope - orders as f64).abs() < 2.0 * ORDER_SLACK, "order {orders}: {slope}");
     }
 }
 
@@ -165,35 +146,20 @@ fn roots_of_a_block_gain_two_orders_each_time() {
         .into_iter()
         .map(|size| {
             let change = pair_among_four(size);
-            let settings = CloseRootsSettings {
-                orders,
-                ..CloseRootsSettings::default()
-            };
+            let settings = CloseRootsSettings { orders, ..CloseRootsSettings::default() };
             let found = close_roots(&change, settings).unwrap();
             assert_eq!(found.blocks, [vec![1, 2]]);
             assert_eq!(found.settled.order, orders);
-            let exact =
-                corfem::method::modes::solve(&changed(&change).0, &DMatrix::identity(4, 4), 4)
-                    .unwrap();
+            let exact = corfem::method::modes::solve(&changed(&change).0, &DMatrix::identity(4, 4), 4).unwrap();
             let roots = found.settled.perturbed.roots;
             let error = |i: usize| (roots[i] * exact.omega_squared[i] - 1.0).abs();
-            assert!(
-                error(1).max(error(2)) < ROUND_OFF,
-                "{}",
-                error(1).max(error(2))
-            );
+            assert!(error(1).max(error(2)) < ROUND_OFF, "{}", error(1).max(error(2)));
             (size, error(0).max(error(3)))
         })
         .collect();
-    assert!(
-        singles.iter().all(|single| single.1 > 10.0 * ROUND_OFF),
-        "{singles:?}"
-    );
+    assert!(singles.iter().all(|single| single.1 > 10.0 * ROUND_OFF), "{singles:?}");
     let slope = log_log_slope(&singles);
-    assert!(
-        (slope - orders as f64 - 1.0).abs() < 2.0 * ORDER_SLACK,
-        "{slope}"
-    );
+    assert!((slope - orders as f64 - 1.0).abs() < 2.0 * ORDER_SLACK, "{slope}");
 }
 
 /// The recursion stops at its tolerance and says how far the last order moved a root, in blocks too.
@@ -203,10 +169,7 @@ fn recursion_with_blocks_stops_at_its_tolerance() {
     let change = spring_change(&modes, [0.3, 0.0, 0.1], [0.2, 0.0, 0.0]);
     let default = solved(&change).settled;
     assert!(default.last_change < 1e-13 && default.order > 3 && default.order < 60);
-    let loose = CloseRootsSettings {
-        tolerance: 1e-7,
-        ..CloseRootsSettings::default()
-    };
+    let loose = CloseRootsSettings { tolerance: 1e-7, ..CloseRootsSettings::default() };
     let loose = close_roots(&change, loose).unwrap().settled;
     assert!(loose.last_change < 1e-7 && loose.order > 3 && loose.order < default.order);
     // Two quiet orders, and a louder one before them.
@@ -214,12 +177,5 @@ fn recursion_with_blocks_stops_at_its_tolerance() {
     assert!(last_change(&change, loose.order - 2, 1e-7) >= 1e-7);
     // One order alone has nothing to compare with.
     assert_eq!(last_change(&change, 1, 1e-7), 1.0);
-    assert_eq!(
-        CloseRootsSettings::default(),
-        CloseRootsSettings {
-            separation: 0.1,
-            tolerance: 1e-13,
-            orders: 60
-        }
-    );
+    assert_eq!(CloseRootsSettings::default(), CloseRootsSettings { separation: 0.1, tolerance: 1e-13, orders: 60 });
 }

@@ -10,24 +10,15 @@ use nalgebra::{DMatrix, DVector, dvector};
 /// The separation that an error names is the denominator relative to $(k_{ii} + \beta_{ii})\gamma_j$, here ten.
 #[test]
 fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
-    let mut change = ModalChange::of_vibrations(
-        &dvector![1.0, 10.0],
-        DMatrix::zeros(2, 2),
-        DMatrix::zeros(2, 2),
-    );
+    let mut change = ModalChange::of_vibrations(&dvector![1.0, 10.0], DMatrix::zeros(2, 2), DMatrix::zeros(2, 2));
     // A slight coupling, for modes without any may meet.
     change.alpha[(0, 1)] = 1e-12;
     change.alpha[(1, 0)] = 1e-12;
     let meeting_at = |separation: f64| 9.0 - 10.0 * separation;
     change.alpha[(1, 1)] = meeting_at(1e-10);
-    let settings = CloseRootsSettings {
-        separation: 0.0,
-        ..CloseRootsSettings::default()
-    };
-    for result in [
-        general::first_order(&change),
-        close_roots(&change, settings).map(|solved| solved.settled.perturbed),
-    ] {
+    let settings = CloseRootsSettings { separation: 0.0, ..CloseRootsSettings::default() };
+    for result in [general::first_order(&change), close_roots(&change, settings).map(|solved| solved.settled.perturbed)]
+    {
         assert!(
             matches!(
                 result,
@@ -72,11 +63,7 @@ fn roots_that_are_not_positive_are_roots_here() {
 /// Two modes so coupled that the shapes of order two are still numbers and the roots no longer.
 #[test]
 fn a_root_beyond_all_numbers_is_refused() {
-    let mut change = ModalChange::of_vibrations(
-        &dvector![1.0, 4.0],
-        DMatrix::zeros(2, 2),
-        DMatrix::zeros(2, 2),
-    );
+    let mut change = ModalChange::of_vibrations(&dvector![1.0, 4.0], DMatrix::zeros(2, 2), DMatrix::zeros(2, 2));
     change.alpha[(0, 1)] = 1e200;
     change.alpha[(1, 0)] = 1e200;
     match general::recursive_1(&change, 2) {

@@ -4,14 +4,12 @@ use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::counting_allocator::allocations;
 use crate::common::log_log_slope;
 use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE, CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, DERIVATIVE_ROUND_OFF,
-    FIRST_ORDER_REMAINDER, ORDER_SLACK,
+    CENTRAL_DIFFERENCE, CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, DERIVATIVE_ROUND_OFF, FIRST_ORDER_REMAINDER,
+    ORDER_SLACK,
 };
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use crate::method::mass_parameters::both;
-use corfem::method::derivatives::{
-    DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient,
-};
+use corfem::method::derivatives::{DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient};
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
@@ -53,10 +51,7 @@ fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
     let scale = expected.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     for (found, expected) in found.iter().zip(expected) {
         let error = (found - expected).abs();
-        assert!(
-            error <= tolerance * scale,
-            "{found:e} {expected:e} of {scale:e}"
-        );
+        assert!(error <= tolerance * scale, "{found:e} {expected:e} of {scale:e}");
     }
 }
 
@@ -175,10 +170,7 @@ fn derivatives_of_the_box_are_central_differences() {
                 (ahead - behind) / (2.0 * h)
             })
             .collect();
-        let slopes: Vec<f64> = found
-            .iter()
-            .map(|change| change / DERIVATIVE_STEP)
-            .collect();
+        let slopes: Vec<f64> = found.iter().map(|change| change / DERIVATIVE_STEP).collect();
         assert_near(&slopes, &central, CENTRAL_DIFFERENCE);
     }
 }
@@ -196,14 +188,8 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     for (a, b) in found.iter().zip(&expected) {
         assert!((a - b).abs() <= CONVERGED_STATE, "{a:e} {b:e}");
     }
-    for (a, b) in gradient(&problem, &state)
-        .iter()
-        .zip(gradient(&moved, &ModalState::start(&moved)))
-    {
-        assert!(
-            (a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP,
-            "{a:e} {b:e}"
-        );
+    for (a, b) in gradient(&problem, &state).iter().zip(gradient(&moved, &ModalState::start(&moved))) {
+        assert!((a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP, "{a:e} {b:e}");
     }
 }
 
@@ -240,30 +226,19 @@ fn with_smaller_shares(problem: &ModalModel, part: f64) -> ModalModel {
         Share::Stiffness(matrix) => Share::Stiffness(part * matrix),
         Share::Mass(matrix) => Share::Mass(part * matrix),
     };
-    ModalModel {
-        shares: problem.shares.iter().map(smaller).collect(),
-        ..problem.clone()
-    }
+    ModalModel { shares: problem.shares.iter().map(smaller).collect(), ..problem.clone() }
 }
 
 #[test]
 fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
-    for problem in [
-        first_problem(1),
-        first_problem(2),
-        first_problem(3),
-        mass_problem(),
-    ] {
+    for problem in [first_problem(1), first_problem(2), first_problem(3), mass_problem()] {
         let state = ModalState::start(&problem);
         let exact = gradient(&problem, &state);
         let points: Vec<(f64, f64)> = [1.0, 0.3, 0.1, 0.03]
             .into_iter()
             .map(|part| {
                 let found = by_definition(&with_smaller_shares(&problem, part), &state).unwrap();
-                let off = found
-                    .iter()
-                    .zip(&exact)
-                    .map(|(change, slope)| change / (part * DERIVATIVE_STEP) - slope);
+                let off = found.iter().zip(&exact).map(|(change, slope)| change / (part * DERIVATIVE_STEP) - slope);
                 (part, off.map(|off| off * off).sum::<f64>().sqrt())
             })
             .collect();
@@ -280,24 +255,13 @@ fn mass_problem() -> ModalModel {
 
 #[test]
 fn the_gradient_of_boxes_is_a_central_difference() {
-    for problem in [
-        first_problem(1),
-        first_problem(2),
-        first_problem(3),
-        first_problem(4),
-        mass_problem(),
-    ] {
+    for problem in [first_problem(1), first_problem(2), first_problem(3), first_problem(4), mass_problem()] {
         let state = ModalState::start(&problem);
         let h = 1e-5;
         let at = |e: usize, by: f64| exact_error_sum(&problem, with_one(&state.factors, e, by));
-        let central: Vec<f64> = (0..problem.shares.len())
-            .map(|e| (at(e, 1.0 + h) - at(e, 1.0 - h)) / (2.0 * h))
-            .collect();
-        assert_near(
-            &gradient(&problem, &state),
-            &central,
-            CENTRAL_DIFFERENCE_GRADIENT,
-        );
+        let central: Vec<f64> =
+            (0..problem.shares.len()).map(|e| (at(e, 1.0 + h) - at(e, 1.0 - h)) / (2.0 * h)).collect();
+        assert_near(&gradient(&problem, &state), &central, CENTRAL_DIFFERENCE_GRADIENT);
     }
 }
 
@@ -320,11 +284,8 @@ fn derivatives_at_repeated_roots_are_those_of_the_roots() {
     let e_f = f64::hypot(a, b);
     let expected = [a / 1.1 / 2.0 / e_f, (a / 1.1 + b / 1.2) / 4.0 / e_f];
     assert_near(&gradient(&problem, &state), &expected, CONVERGED_STATE);
-    let found: Vec<f64> = by_definition(&problem, &state)
-        .unwrap()
-        .iter()
-        .map(|change| change / DERIVATIVE_STEP)
-        .collect();
+    let found: Vec<f64> =
+        by_definition(&problem, &state).unwrap().iter().map(|change| change / DERIVATIVE_STEP).collect();
     assert_near(&found, &expected, CENTRAL_DIFFERENCE);
 }
 
@@ -332,10 +293,7 @@ fn derivatives_at_repeated_roots_are_those_of_the_roots() {
 fn an_error_of_zero_has_no_slope() {
     // The frequencies agree and the shapes too: the error sum has a kink here, and no direction to go.
     let chain = Chain::uniform(3);
-    let problem = chain
-        .model(&[1.0; 3])
-        .analyze(&chain.modes(&[1.0; 3]), None)
-        .unwrap();
+    let problem = chain.model(&[1.0; 3]).analyze(&chain.modes(&[1.0; 3]), None).unwrap();
     let mut state = ModalState::start(&problem);
     (state.errors.frequency, state.errors.shape) = (0.0, 0.0);
     assert_eq!(gradient(&problem, &state), [0.0; 3]);
@@ -347,10 +305,7 @@ fn the_gradient_allocates_nothing_a_parameter() {
     let state = ModalState::start(&problem);
     let mut twice = problem.clone();
     twice.shares.extend(problem.shares.clone());
-    let double = ModalState {
-        factors: [state.factors.clone(), state.factors.clone()].concat(),
-        ..state.clone()
-    };
+    let double = ModalState { factors: [state.factors.clone(), state.factors.clone()].concat(), ..state.clone() };
     let once = allocations(|| drop(gradient(&problem, &state)));
     assert_eq!(allocations(|| drop(gradient(&twice, &double))), once);
     // The counter counts.
@@ -364,10 +319,7 @@ fn either_rule_gives_changes_for_a_thousandth() {
     let problem = first_problem(2);
     let state = ModalState::start(&problem);
     let changes = |rule| error_changes(&problem, &state, rule).unwrap();
-    assert_eq!(
-        changes(DerivativeRule::Definition),
-        by_definition(&problem, &state).unwrap()
-    );
+    assert_eq!(changes(DerivativeRule::Definition), by_definition(&problem, &state).unwrap());
     let slopes = gradient(&problem, &state);
     for (change, slope) in changes(DerivativeRule::Gradient).iter().zip(slopes) {
         assert_eq!(*change, DERIVATIVE_STEP * slope);

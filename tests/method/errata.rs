@@ -37,11 +37,7 @@ fn root_is_the_reciprocal_of_the_squared_circular_frequency() {
     let problem = first_problem(1);
     let lambda = problem.exact.modes.omega_squared.map(f64::recip);
     for (root, frequency) in lambda.iter().zip(problem.exact.modes.frequencies_hz()) {
-        assert_relative_eq!(
-            root.powf(-0.5) / (2.0 * PI),
-            frequency,
-            max_relative = EIGEN_ROUND_OFF
-        );
+        assert_relative_eq!(root.powf(-0.5) / (2.0 * PI), frequency, max_relative = EIGEN_ROUND_OFF);
         let as_printed = (2.0 * PI * frequency).powi(2);
         assert!((as_printed.powf(-0.5) / (2.0 * PI) / frequency - 1.0).abs() > 0.9);
     }
@@ -88,10 +84,7 @@ fn root_recursion_carries_the_changed_root_not_the_old_one() {
     let mut worst = 0.0_f64;
     for i in 0..9 {
         let lambda = 1.0 / k[i];
-        let sum: f64 = (0..9)
-            .filter(|&j| j != i)
-            .map(|j| beta[(i, j)] * p[(j, i)])
-            .sum();
+        let sum: f64 = (0..9).filter(|&j| j != i).map(|j| beta[(i, j)] * p[(j, i)]).sum();
         let printed = lambda - (beta[(i, i)] * lambda + lambda * sum) / (k[i] + beta[(i, i)]);
         worst = worst.max((printed / exact.roots[i] - 1.0).abs());
     }
@@ -108,19 +101,13 @@ fn shape_recursion_divides_by_the_denominator_with_a_minus_sign() {
     let (mut agree, mut turned) = (0.0_f64, 0.0_f64);
     for j in 0..9 {
         for i in (0..9).filter(|&i| i != j) {
-            let sum: f64 = (0..9)
-                .filter(|&s| s != i && s != j)
-                .map(|s| beta[(i, s)] * ours.shapes[(s, j)])
-                .sum();
+            let sum: f64 = (0..9).filter(|&s| s != i && s != j).map(|s| beta[(i, s)] * ours.shapes[(s, j)]).sum();
             let p = -(beta[(i, j)] + sum) / (k[i] + beta[(i, i)] - 1.0 / ours.roots[j]);
             agree = agree.max((p - exact.shapes[(i, j)]).abs());
             turned = turned.max((-p - exact.shapes[(i, j)]).abs());
         }
     }
-    assert!(
-        agree < 1e3 * EIGEN_ROUND_OFF && turned > 0.001,
-        "{agree} {turned}"
-    );
+    assert!(agree < 1e3 * EIGEN_ROUND_OFF && turned > 0.001, "{agree} {turned}");
 }
 
 #[test]
@@ -146,17 +133,13 @@ fn frequency_error_is_relative() {
     for mode in 1..=9 {
         let row = mode.to_string();
         let percent = table.required(&row, "initial_percent").expect("printed");
-        let difference = table.required(&row, "initial_hz").expect("printed")
-            - table.required(&row, "gvt_hz").expect("printed");
+        let difference =
+            table.required(&row, "initial_hz").expect("printed") - table.required(&row, "gvt_hz").expect("printed");
         relative += (percent / 100.0_f64).powi(2);
         absolute += difference * difference;
     }
     // Nine percentages of one decimal leave 0.0002 to chance.
-    assert!(
-        (relative.sqrt() - 0.3828).abs() < 0.0002,
-        "{}",
-        relative.sqrt()
-    );
+    assert!((relative.sqrt() - 0.3828).abs() < 0.0002, "{}", relative.sqrt());
     assert!(absolute.sqrt() > 1.0);
 }
 
@@ -187,17 +170,10 @@ fn generalized_matrices_obey_g_equals_k_lambda() {
     let model = Case::new(1).expect("a case").model().expect("a model");
     let dynamic = model.matrices(&[1.0; 15]).expect("held");
     let v = &problem.exact.modes.shapes;
-    let (k, g) = (
-        v.tr_mul(&(&dynamic.stiffness * v)),
-        v.tr_mul(&(&dynamic.mass * v)),
-    );
+    let (k, g) = (v.tr_mul(&(&dynamic.stiffness * v)), v.tr_mul(&(&dynamic.mass * v)));
     for i in 0..9 {
         let lambda = 1.0 / problem.exact.modes.omega_squared[i];
-        assert_relative_eq!(
-            g[(i, i)],
-            k[(i, i)] * lambda,
-            max_relative = MATRIX_ROUND_OFF
-        );
+        assert_relative_eq!(g[(i, i)], k[(i, i)] * lambda, max_relative = MATRIX_ROUND_OFF);
         assert!((k[(i, i)] / (g[(i, i)] * lambda) - 1.0).abs() > 0.5);
     }
 }

@@ -3,8 +3,7 @@
 
 use crate::common::boxes::{problem_of, uneven_box};
 use crate::common::loops::{
-    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop,
-    chain_problem, given,
+    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop, chain_problem, given,
 };
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::error::Error;
@@ -26,12 +25,7 @@ fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
 
 /// A single step without halvings, its relaxation a thousandth of the usual.
 fn small_step() -> InnerSettings {
-    InnerSettings {
-        first_relaxation: 1e-3,
-        halvings: 0,
-        iterations: 1,
-        ..InnerSettings::default()
-    }
+    InnerSettings { first_relaxation: 1e-3, halvings: 0, iterations: 1, ..InnerSettings::default() }
 }
 
 proptest! {

@@ -5,8 +5,8 @@ use crate::common::strategies::{orthogonal, positive_definite, symmetric};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
-    symmetric_eigen, symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
+    symmetric_part,
 };
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -161,17 +161,7 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
             cholesky("test matrix", &square, 0.0).unwrap_err(),
             symmetric_eigen("test matrix", &square).unwrap_err(),
         ] {
-            assert!(
-                matches!(
-                    refused,
-                    Error::NotFinite {
-                        row: 2,
-                        column: 1,
-                        ..
-                    }
-                ),
-                "{refused:?}"
-            );
+            assert!(matches!(refused, Error::NotFinite { row: 2, column: 1, .. }), "{refused:?}");
         }
     }
     assert!(check_finite("test matrix", &DMatrix::<f64>::zeros(3, 4)).is_ok());
@@ -196,15 +186,7 @@ fn another_shape_is_refused_with_both() {
         symmetric_eigen("test matrix", &matrix).unwrap_err(),
     ] {
         assert!(
-            matches!(
-                refused,
-                Error::WrongShape {
-                    expected_rows: 3,
-                    expected_columns: 3,
-                    columns: 4,
-                    ..
-                }
-            ),
+            matches!(refused, Error::WrongShape { expected_rows: 3, expected_columns: 3, columns: 4, .. }),
             "{refused:?}"
         );
     }
@@ -213,8 +195,7 @@ fn another_shape_is_refused_with_both() {
 #[test]
 fn asymmetry_beyond_a_part_in_ten_to_the_eighth_is_refused_by_its_worst_pair() {
     let skewed = |by: f64| {
-        let mut matrix =
-            DMatrix::from_fn(4, 4, |row, column| if row == column { 100.0 } else { 1.0 });
+        let mut matrix = DMatrix::from_fn(4, 4, |row, column| if row == column { 100.0 } else { 1.0 });
         matrix[(3, 1)] += by;
         matrix[(0, 2)] -= 0.1 * by;
         matrix

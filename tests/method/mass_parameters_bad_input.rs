@@ -7,58 +7,24 @@ use corfem::method::model::{Parameter, Scaled};
 
 #[test]
 fn bad_mass_parameters_name_the_offender() {
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::PointMass(vec![9]))],
-        DENSITY,
-        [1.0; 9],
-    );
+    let unknown = boxed(vec![Parameter::of("far", Scaled::PointMass(vec![9]))], DENSITY, [1.0; 9]);
     assert!(
         matches!(unknown, Err(Error::UnknownDynamicDof { found: 9, count: 9, ref parameter }) if parameter == "far")
     );
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::ElementMass(vec![40]))],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(
-        matches!(unknown, Err(Error::UnknownElement { element: 40, ref parameter }) if parameter == "far")
-    );
-    let twice = vec![
-        Parameter::of("a", Scaled::PointMass(vec![3])),
-        Parameter::of("b", Scaled::PointMass(vec![4, 3])),
-    ];
+    let unknown = boxed(vec![Parameter::of("far", Scaled::ElementMass(vec![40]))], DENSITY, [1.0; 9]);
+    assert!(matches!(unknown, Err(Error::UnknownElement { element: 40, ref parameter }) if parameter == "far"));
+    let twice = vec![Parameter::of("a", Scaled::PointMass(vec![3])), Parameter::of("b", Scaled::PointMass(vec![4, 3]))];
     let shared = boxed(twice, DENSITY, [1.0; 9]);
     assert!(
         matches!(shared, Err(Error::SharedElement { element: 3, ref first, ref second }) if first == "a" && second == "b")
     );
     // The same element may have its stiffness in one parameter and its mass in another.
-    let both = vec![
-        Parameter::element(3, None),
-        Parameter::of("mass of 3", Scaled::ElementMass(vec![3])),
-    ];
+    let both = vec![Parameter::element(3, None), Parameter::of("mass of 3", Scaled::ElementMass(vec![3]))];
     assert!(boxed(both, DENSITY, [1.0; 9]).is_ok());
-    let empty = boxed(
-        vec![Parameter::of("none", Scaled::PointMass(vec![]))],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(matches!(
-        empty,
-        Err(Error::Empty {
-            what: "members of a parameter"
-        })
-    ));
-    assert!(matches!(
-        boxed(vec![], DENSITY, [1.0; 9]),
-        Err(Error::Empty { what: "parameters" })
-    ));
-    assert!(matches!(
-        boxed(point_masses(), -1.0, [1.0; 9]),
-        Err(Error::NotPositive {
-            what: "density",
-            ..
-        })
-    ));
+    let empty = boxed(vec![Parameter::of("none", Scaled::PointMass(vec![]))], DENSITY, [1.0; 9]);
+    assert!(matches!(empty, Err(Error::Empty { what: "members of a parameter" })));
+    assert!(matches!(boxed(vec![], DENSITY, [1.0; 9]), Err(Error::Empty { what: "parameters" })));
+    assert!(matches!(boxed(point_masses(), -1.0, [1.0; 9]), Err(Error::NotPositive { what: "density", .. })));
 }
 
 #[test]

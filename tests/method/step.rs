@@ -14,10 +14,7 @@ use proptest::prelude::*;
 /// each other.
 fn changes() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
     (1..=6_usize).prop_flat_map(|count| {
-        (
-            prop::collection::vec(-1e-3..1e-3_f64, count),
-            prop::collection::vec(1e-5..1e-3_f64, count),
-        )
+        (prop::collection::vec(-1e-3..1e-3_f64, count), prop::collection::vec(1e-5..1e-3_f64, count))
     })
 }
 
@@ -135,20 +132,13 @@ proptest! {
 /// A chain of as many springs as parameters are wanted, where their stiffness does not matter.
 fn bare(count: usize) -> ModalModel {
     let chain = Chain::uniform(count);
-    chain
-        .model(&vec![1.0; count])
-        .analyze(&chain.modes(&vec![1.1; count]), None)
-        .unwrap()
+    chain.model(&vec![1.0; count]).analyze(&chain.modes(&vec![1.1; count]), None).unwrap()
 }
 
 /// Three parameters on two test modes: relative stiffnesses (3, 4), (6, 8) with a coupling, and none.
 fn by_hand() -> (ModalModel, Vec<f64>) {
     let mut model = bare(3);
-    model.test_shares = vec![
-        dmatrix![3.0, 1.0; 1.0, 4.0],
-        dmatrix![6.0, 2.0; 2.0, 8.0],
-        DMatrix::zeros(2, 2),
-    ];
+    model.test_shares = vec![dmatrix![3.0, 1.0; 1.0, 4.0], dmatrix![6.0, 2.0; 2.0, 8.0], DMatrix::zeros(2, 2)];
     (model, vec![0.002, -0.001, 0.0])
 }
 
@@ -168,58 +158,35 @@ fn assert_close(found: &[f64], expected: [f64; 3]) {
 #[test]
 fn root_sum_of_squares_by_hand() {
     // Δk is 0.005 and 0.010: 1 - 0.8 · 0.5 · 0.002/0.005 and 1 + 0.8 · 0.5 · 0.001/0.010.
-    assert_close(
-        &factors_by_hand(0.5, 0.8, StepRule::RootSumOfSquares),
-        [0.84, 1.04, 1.0],
-    );
+    assert_close(&factors_by_hand(0.5, 0.8, StepRule::RootSumOfSquares), [0.84, 1.04, 1.0]);
     assert_eq!(StepRule::default(), StepRule::RootSumOfSquares);
 }
 
 #[test]
 fn sum_over_modes_by_hand() {
     // Δk is 0.007 and 0.014.
-    assert_close(
-        &factors_by_hand(0.7, 1.0, StepRule::SumOverModes),
-        [0.8, 1.05, 1.0],
-    );
+    assert_close(&factors_by_hand(0.7, 1.0, StepRule::SumOverModes), [0.8, 1.05, 1.0]);
 }
 
 #[test]
 fn steepest_descent_by_hand() {
     // The slopes are 2, -1 and 0, and the sum of their squares 5: 1 - 0.5 · 2/5 and 1 + 0.5 · 1/5.
-    assert_close(
-        &factors_by_hand(0.5, 1.0, StepRule::SteepestDescent),
-        [0.8, 1.1, 1.0],
-    );
+    assert_close(&factors_by_hand(0.5, 1.0, StepRule::SteepestDescent), [0.8, 1.1, 1.0]);
 }
 
 #[test]
 fn a_parameter_without_stiffness_keeps_one() {
     // Also when round-off gives it a derivative.
-    assert_eq!(
-        unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0),
-        [1.0, 1.0]
-    );
+    assert_eq!(unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0), [1.0, 1.0]);
     let model = bare(2);
-    let flat = stiffness_changes(
-        &model,
-        &ModalState::start(&model),
-        &[0.0, 0.0],
-        StepRule::SteepestDescent,
-    );
+    let flat = stiffness_changes(&model, &ModalState::start(&model), &[0.0, 0.0], StepRule::SteepestDescent);
     assert_eq!(unlimited_factors(&[0.0, 0.0], &flat, 0.5, 1.0), [1.0, 1.0]);
 }
 
 #[test]
 fn limits_by_hand() {
-    let factor_range = Range {
-        lower: 0.5,
-        upper: 1.5,
-    };
-    let total_range = Some(Range {
-        lower: 0.7,
-        upper: 1.3,
-    });
+    let factor_range = Range { lower: 0.5, upper: 1.5 };
+    let total_range = Some(Range { lower: 0.7, upper: 1.3 });
     for ((total, base, step, range), expected) in [
         // Nothing in the way, also at the very ends.
         ((1.2, 2.0, 1.25, None), (1.5, Limit::None)),
@@ -239,10 +206,7 @@ fn limits_by_hand() {
         ((1.0, 1.0, 9.0, total_range), (1.3, Limit::Total)),
         ((1.0, 1.0, 0.1, total_range), (0.7, Limit::Total)),
         // The iteration's alone where the total's leaves room.
-        (
-            (0.8, 1.0, 9.0, total_range),
-            (1.2000000000000002, Limit::Factor),
-        ),
+        ((0.8, 1.0, 9.0, total_range), (1.2000000000000002, Limit::Factor)),
     ] {
         let found = limited_factor(total, base, step, factor_range, range);
         assert_eq!(found, expected, "{total} {base} {step} {range:?}");
@@ -251,10 +215,7 @@ fn limits_by_hand() {
 
 #[test]
 fn crossed_ranges_do_not_panic() {
-    let crossed = Range {
-        lower: 2.0,
-        upper: 1.0,
-    };
+    let crossed = Range { lower: 2.0, upper: 1.0 };
     let (next, _) = limited_factor(1.0, 1.0, 1.5, crossed, Some(crossed));
     assert!(next.is_finite());
 }
@@ -263,13 +224,7 @@ fn crossed_ranges_do_not_panic() {
 fn ranges_are_of_positive_finite_numbers_in_order() {
     let range = Range::positive("gage", 0.007, 0.013).unwrap();
     assert_eq!((range.lower, range.upper), (0.007, 0.013));
-    for (low, high) in [
-        (0.0, 1.0),
-        (-1.0, 1.0),
-        (1.0, 1.0),
-        (2.0, 1.0),
-        (1.0, f64::INFINITY),
-    ] {
+    for (low, high) in [(0.0, 1.0), (-1.0, 1.0), (1.0, 1.0), (2.0, 1.0), (1.0, f64::INFINITY)] {
         match Range::positive("gage", low, high) {
             Err(Error::Limits { what, lower, upper }) => {
                 assert_eq!((what.as_str(), lower, upper), ("gage", low, high));

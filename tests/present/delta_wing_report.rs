@@ -14,8 +14,7 @@ use corfem::studies::delta_wing::{DeltaWing, TipLoad};
 use serde_json::Value;
 use std::sync::LazyLock;
 
-static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+static RUN: LazyLock<WingCorrelation> = LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")
@@ -28,10 +27,8 @@ fn tables() -> Vec<Table> {
 #[test]
 fn wing_as_tables() {
     let tables = tables();
-    let names: Vec<(&str, usize, usize)> = tables
-        .iter()
-        .map(|table| (table.name.as_str(), table.rows.len(), table.columns.len()))
-        .collect();
+    let names: Vec<(&str, usize, usize)> =
+        tables.iter().map(|table| (table.name.as_str(), table.rows.len(), table.columns.len())).collect();
     assert_eq!(
         names,
         [
@@ -43,16 +40,8 @@ fn wing_as_tables() {
             ("delta_wing_passes", 3, 4),
         ]
     );
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
-    let rounded = Numbers {
-        relative: 0.0,
-        absolute: 0.0,
-        last_digit: true,
-    };
+    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
     assert_golden("delta_wing", &csv(&tables).expect("written"), numbers);
     assert_golden("delta_wing_text", &render_tables(&tables, false), rounded);
 }
@@ -73,10 +62,7 @@ fn corfem(arguments: &[&str]) -> Vec<u8> {
 fn command_writes_every_format() {
     let expect = |text: String| text.into_bytes();
     assert_eq!(corfem(&[]), expect(render_tables(&tables(), false)));
-    assert_eq!(
-        corfem(&["--format", "markdown"]),
-        expect(render_tables(&tables(), true))
-    );
+    assert_eq!(corfem(&["--format", "markdown"]), expect(render_tables(&tables(), true)));
     let numbers = csv(&tables()).expect("written");
     assert_eq!(corfem(&["--format", "csv"]), expect(numbers.clone()));
     assert!(numbers.lines().all(|line| line.split(',').count() == 6));
@@ -84,15 +70,10 @@ fn command_writes_every_format() {
     let file = folder.path().join("wing.json");
     let name = file.to_str().expect("a name");
     assert!(corfem(&["--format", "json", "--output", name]).is_empty());
-    let json: Value =
-        serde_json::from_slice(&std::fs::read(&file).expect("written")).expect("JSON");
+    let json: Value = serde_json::from_slice(&std::fs::read(&file).expect("written")).expect("JSON");
     assert_eq!(
         (&json["program"], &json["version"], &json["converged"]),
-        (
-            &"corfem".into(),
-            &env!("CARGO_PKG_VERSION").into(),
-            &true.into()
-        )
+        (&"corfem".into(), &env!("CARGO_PKG_VERSION").into(), &true.into())
     );
     for (key, count) in [
         ("measured_grids", 9),
@@ -122,11 +103,9 @@ fn command_writes_every_format() {
         let group = recovered.group;
         assert_eq!(document["name"], group.name);
         assert_eq!(document["elements"], Value::from(group.elements.to_vec()));
-        for (key, value) in [
-            ("true_factor", recovered.true_factor()),
-            ("factor", recovered.factor),
-            ("largest_share", recovered.share),
-        ] {
+        for (key, value) in
+            [("true_factor", recovered.true_factor()), ("factor", recovered.factor), ("largest_share", recovered.share)]
+        {
             assert_numbers(&Value::from(vec![document[key].clone()]), &[value]);
         }
     }
@@ -167,19 +146,7 @@ fn why_a_pass_stopped_is_said_in_words() {
     run.correlation.passes[1].inner.stop = Stop::Iterations;
     let tables = delta_wing_tables(&wing(), &run).expect("tables");
     let passes = tables.iter().find(|table| table.name.contains("passes"));
-    let said: Vec<&Cell> = passes
-        .expect("a table of passes")
-        .rows
-        .iter()
-        .map(|row| &row.cells[1])
-        .collect();
+    let said: Vec<&Cell> = passes.expect("a table of passes").rows.iter().map(|row| &row.cells[1]).collect();
     let word = |word: &str| Cell::Text(word.to_owned());
-    assert_eq!(
-        said,
-        [
-            &word("local minimum"),
-            &word("iterations"),
-            &word("tolerance")
-        ]
-    );
+    assert_eq!(said, [&word("local minimum"), &word("iterations"), &word("tolerance")]);
 }

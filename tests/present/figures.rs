@@ -15,17 +15,14 @@ use corfem::present::figures::{Figure, all_figures, comparison_figures};
 use corfem::present::report::correlation_tables::{frequency_table, gage_table};
 use corfem::present::report::run_tables::{factor_table, iteration_table};
 use corfem::present::report::table::{Cell, Table};
-use corfem::studies::matrix_comparison::{
-    MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
-};
+use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::sync::OnceLock;
 
 /// The four cases, run once for all tests of figures.
 pub fn results() -> &'static [CaseResult] {
     static RESULTS: OnceLock<Vec<CaseResult>> = OnceLock::new();
     RESULTS.get_or_init(|| {
-        let run =
-            |number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
+        let run = |number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
         CASES.into_iter().map(run).collect()
     })
 }
@@ -64,11 +61,7 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
     let at = table.columns.iter().position(named).expect("the column");
     let row = table.rows.iter().find(|r| r.label == row).expect("the row");
     match row.cells[at] {
-        Cell::Number {
-            computed,
-            published,
-            ..
-        } => (computed, published),
+        Cell::Number { computed, published, .. } => (computed, published),
         _ => panic!("no number in row {}, column {column}", row.label),
     }
 }
@@ -85,16 +78,8 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
         let root = (9.0_f64).sqrt();
         let same = |errors: &corfem::method::error_sum::Errors, column: &str| {
             let percent = |row| cell(&table, row, column, "%").0;
-            assert_relative_eq!(
-                100.0 * errors.frequency,
-                root * percent("frequency RMS"),
-                max_relative = ROUND_OFF
-            );
-            assert_relative_eq!(
-                100.0 * errors.shape,
-                root * percent("shape RMS"),
-                max_relative = ROUND_OFF
-            );
+            assert_relative_eq!(100.0 * errors.frequency, root * percent("frequency RMS"), max_relative = ROUND_OFF);
+            assert_relative_eq!(100.0 * errors.shape, root * percent("shape RMS"), max_relative = ROUND_OFF);
         };
         let mut iterations = 0;
         for pass in &data.passes {
@@ -108,10 +93,7 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
             let count = cell(&counts, &case, &format!("Pass {}", pass.pass), "").0;
             iterations += count as usize;
             assert_eq!(pass.inner.len(), count as usize + 1);
-            assert_eq!(
-                (pass.inner[count as usize].iteration, pass.check.iteration),
-                (iterations, iterations)
-            );
+            assert_eq!((pass.inner[count as usize].iteration, pass.check.iteration), (iterations, iterations));
             assert_eq!(pass.tolerance, if pass.pass == 1 { 0.025 } else { 0.015 });
             let steps = &result.correlation.passes[pass.pass - 1].inner.iterations;
             for (moment, step) in pass.inner[1..].iter().zip(steps) {
@@ -133,10 +115,7 @@ fn node_lines_belong_to_the_modes_of_the_tables() {
             for (state, column) in states.iter().zip(["GVT", "Initial", &last]) {
                 let hertz = cell(&table, &row, column, "Hz").0;
                 assert_relative_eq!(state.frequency_hz, hertz, max_relative = ROUND_OFF);
-                let largest = state
-                    .shape
-                    .iter()
-                    .fold(0.0, |most: f64, w| most.max(w.abs()));
+                let largest = state.shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
                 assert_eq!(largest, 1.0);
                 assert_eq!(state.node_lines, data.planform.node_lines(&state.shape));
             }
@@ -147,10 +126,7 @@ fn node_lines_belong_to_the_modes_of_the_tables() {
                 assert!(product > 0.0);
             }
         }
-        assert!(
-            data.modes[0][0].node_lines.is_empty(),
-            "the first bending mode has none"
-        );
+        assert!(data.modes[0][0].node_lines.is_empty(), "the first bending mode has none");
     }
 }
 
@@ -159,10 +135,7 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
     for result in &results()[..3] {
         let data = mode_agreement(result).expect("shapes fit");
         let masses = &result.case.reconstruction.masses;
-        let checks = [
-            &result.correlation.initial,
-            &result.correlation.passes.last().expect("a pass").check,
-        ];
+        let checks = [&result.correlation.initial, &result.correlation.passes.last().expect("a pass").check];
         for (agreement, check) in [&data.before, &data.after].into_iter().zip(checks) {
             assert_eq!(agreement.cross_orthogonality.shape(), (9, 9));
             assert_eq!(agreement.modal_assurance.shape(), (9, 9));
@@ -174,9 +147,7 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                 for i in 0..9 {
                     let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
-                    assert!(
-                        (agreement.cross_orthogonality[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF
-                    );
+                    assert!((agreement.cross_orthogonality[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
                     let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
                     assert!((agreement.modal_assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
                 }
@@ -195,18 +166,11 @@ fn gage_errors_are_those_of_the_tables() {
         let passes = result.correlation.passes.len();
         assert_eq!((data.stages.len(), data.panels.len()), (passes + 1, 15));
         for (pass, stage) in data.stages.iter().enumerate() {
-            let name = if pass == 0 {
-                "Initial".to_owned()
-            } else {
-                format!("Pass {pass}")
-            };
+            let name = if pass == 0 { "Initial".to_owned() } else { format!("Pass {pass}") };
             assert_eq!(stage.name, name);
             for (row, (label, kind)) in data.panels.iter().enumerate() {
                 let (computed, published) = cell(&table, label, &format!("{name} error"), "%");
-                assert_eq!(
-                    (stage.computed[row], stage.published[row]),
-                    (computed, published)
-                );
+                assert_eq!((stage.computed[row], stage.published[row]), (computed, published));
                 assert!(published.is_some());
                 let membrane = result.case.panels[row].kind == ElementKind::Membrane;
                 assert_eq!(kind, if membrane { "M" } else { "S" });
@@ -219,10 +183,7 @@ fn gage_errors_are_those_of_the_tables() {
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
         let data = derivative_map(result).expect("a model");
-        assert_eq!(
-            (data.frequency.shape(), data.error_sum.shape()),
-            ((15, 9), (15, 1))
-        );
+        assert_eq!((data.frequency.shape(), data.error_sum.shape()), ((15, 9), (15, 1)));
         let model = result.case.model().expect("a model");
         let start = &result.correlation.initial;
         let shares = model.matrices(&[1.0; 15]).expect("analyzed").shares;
@@ -231,19 +192,12 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                 let mut factors = [1.0; 15];
                 factors[e] += step;
                 let dynamic = model.matrices(&factors).expect("analyzed");
-                corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9)
-                    .expect("solved")
-                    .frequencies_hz()
+                corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("solved").frequencies_hz()
             };
             // Fourth-order central difference: the eigenvalues' rounding asks for a step that second order cannot afford.
             const STEP: f64 = 2e-3;
-            let stencil = [
-                (8.0, STEP),
-                (-8.0, -STEP),
-                (-1.0, 2.0 * STEP),
-                (1.0, -2.0 * STEP),
-            ]
-            .map(|(weight, step)| (weight, frequencies(step)));
+            let stencil = [(8.0, STEP), (-8.0, -STEP), (-1.0, 2.0 * STEP), (1.0, -2.0 * STEP)]
+                .map(|(weight, step)| (weight, frequencies(step)));
             for j in 0..9 {
                 let i = start.pairing.analysis_mode[j];
                 let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();

@@ -14,9 +14,7 @@ fn words(svg: &str) -> Vec<String> {
 
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {
-    let cases: Vec<Case> = (1..=4)
-        .map(|case| Case::new(case).expect("a case"))
-        .collect();
+    let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
     let words = words(&cover_gages(&cases).draw().expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
     assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
@@ -31,9 +29,7 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
         let words = words(&history.draw().expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
         let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
-        numbers
-            .filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number))
-            .collect()
+        numbers.filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number)).collect()
     };
     let moments = |history: &ErrorHistory| -> Vec<f64> {
         let passes = history.passes.iter();
@@ -61,13 +57,9 @@ fn factor_axis_leaves_room_for_the_numbers() {
     let mut figure = unlimited_factors(&results()[3]);
     let lowest = |figure: &corfem::present::figures::unlimited_factors::UnlimitedFactors| {
         let words = words(&figure.draw().expect("drawn"));
-        let labels = words
-            .iter()
-            .filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
+        let labels = words.iter().filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
         // Labels of the axis are whole tens; a factor has a decimal.
-        labels
-            .filter(|label| label % 10.0 == 0.0)
-            .fold(0.0, f64::min)
+        labels.filter(|label| label % 10.0 == 0.0).fold(0.0, f64::min)
     };
     for factor in &mut figure.factors {
         (factor.computed, factor.published) = (1.0, None);
@@ -81,9 +73,7 @@ fn factor_axis_leaves_room_for_the_numbers() {
 /// What the legend shows is the color of the panels it speaks of.
 #[test]
 fn legend_of_the_gages_has_the_panels_colors() {
-    let cases: Vec<Case> = (1..=4)
-        .map(|case| Case::new(case).expect("a case"))
-        .collect();
+    let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
     let svg = cover_gages(&cases).draw().expect("drawn");
     // The fill of the last polygon before a word.
     let fill = |word: &str| {

@@ -21,11 +21,7 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
         let position: [f64; 3] = point.position.into();
         assert_eq!(position, case.reconstruction.grids[&point.grid]);
     }
-    assert_eq!(
-        data.edges.len(),
-        28,
-        "24 edges that rods run along, and four in the root"
-    );
+    assert_eq!(data.edges.len(), 28, "24 edges that rods run along, and four in the root");
     assert!(data.edges.iter().all(|[from, to]| from < to));
     // A rigid tilt of the structure moves each dynamic point as the plane through it says.
     let model = case.model().expect("a model");
@@ -40,10 +36,7 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
         for (moved, point) in dynamic.iter().zip(&data.dynamic) {
             assert_eq!(point.z, 0.0);
             let plane = a * point.y - b * point.x + c;
-            assert!(
-                (moved - plane).abs() < MATRIX_ROUND_OFF * 40.0,
-                "{moved} for {plane}"
-            );
+            assert!((moved - plane).abs() < MATRIX_ROUND_OFF * 40.0, "{moved} for {plane}");
         }
     }
 }
@@ -59,10 +52,7 @@ fn box_elements_are_the_models_in_three_layers() {
         assert_eq!(drawn.corners, model.structure().corners(element));
     }
     let on = |layer| {
-        let here = data
-            .elements
-            .iter()
-            .filter(move |drawn| drawn.layer == layer);
+        let here = data.elements.iter().filter(move |drawn| drawn.layer == layer);
         here.map(|drawn| drawn.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
@@ -78,18 +68,10 @@ fn cover_gages_are_those_of_table_2() {
     let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
     let data = cover_gages(&cases);
     let table = PublishedTable::number(2).expect("it reads");
-    let names: Vec<&str> = data
-        .configurations
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names: Vec<&str> = data.configurations.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
     for (number, configuration) in data.configurations.iter().enumerate() {
-        let labels: Vec<usize> = configuration
-            .covers
-            .iter()
-            .map(|cover| cover.label)
-            .collect();
+        let labels: Vec<usize> = configuration.covers.iter().map(|cover| cover.label).collect();
         assert_eq!(labels, [2, 4, 8, 9, 11, 15]);
         for cover in &configuration.covers {
             assert_eq!(cover.upper, [4, 9, 15].contains(&cover.label));
@@ -99,17 +81,14 @@ fn cover_gages_are_those_of_table_2() {
                 assert_eq!((cover.gage, cover.kind), (0.010, None));
                 continue;
             }
-            let printed = table
-                .required(&row, &format!("gage_{number}"))
-                .expect("printed");
+            let printed = table.required(&row, &format!("gage_{number}")).expect("printed");
             assert_eq!(cover.gage, printed);
             let kind = match table.text(&row, &format!("type_{number}")) {
                 Some("S") => ElementKind::ShearPanel,
                 _ => ElementKind::Membrane,
             };
             assert_eq!(cover.kind, Some(kind));
-            let [x, y, _] =
-                cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
+            let [x, y, _] = cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
             assert_eq!(cover.corners[0], [x, y]);
         }
     }

@@ -14,10 +14,7 @@ use corfem::present::report::truncation_tables::truncation_tables;
 use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES};
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {
-    tables
-        .iter()
-        .find(|table| table.name == name)
-        .expect("the table")
+    tables.iter().find(|table| table.name == name).expect("the table")
 }
 
 /// A table's number; nothing for a blank cell.
@@ -34,10 +31,7 @@ fn stiffness_changes_are_those_of_the_tables() {
     let data = stiffness_change(comparison());
     assert_eq!((data.case, data.test_modes), (USUAL_CASE, USUAL_TEST_MODES));
     let names: Vec<&str> = data.models.iter().map(|m| m.model.as_str()).collect();
-    assert_eq!(
-        names,
-        ["Truth", "Element factors", "Baruch", "Berman and Nagy"]
-    );
+    assert_eq!(names, ["Truth", "Element factors", "Baruch", "Berman and Nagy"]);
     let tables = matrix_tables(&Case::new(USUAL_CASE).expect("a case"), comparison());
     for model in &data.models {
         let name = model.model.to_lowercase().replace(' ', "_");
@@ -63,17 +57,8 @@ fn predictions_are_the_frequency_errors_of_the_tables() {
     assert_eq!((data.case, data.test_modes), (USUAL_CASE, USUAL_TEST_MODES));
     let tables = matrix_tables(&Case::new(USUAL_CASE).expect("a case"), comparison());
     let names: Vec<&str> = data.models.iter().map(|m| m.model.as_str()).collect();
-    assert_eq!(
-        names,
-        ["Initial", "Element factors", "Baruch", "Berman and Nagy"]
-    );
-    for (state, name) in [
-        "matrix_frequencies_as_tested",
-        "matrix_frequencies_after_a_change",
-    ]
-    .into_iter()
-    .enumerate()
-    {
+    assert_eq!(names, ["Initial", "Element factors", "Baruch", "Berman and Nagy"]);
+    for (state, name) in ["matrix_frequencies_as_tested", "matrix_frequencies_after_a_change"].into_iter().enumerate() {
         let table = named(&tables, name);
         for model in &data.models {
             let at = table.columns.iter().position(|c| c.name == model.model);
@@ -98,10 +83,7 @@ fn predictions_are_drawn_for_errors_of_any_size_and_for_no_others() {
         prediction.after_change = vec![0.02; 9];
     }
     let drawn = predictions(&small).draw().expect("drawn");
-    let words: Vec<String> = crate::common::drawings::written(&drawn)
-        .into_iter()
-        .map(|word| word.text)
-        .collect();
+    let words: Vec<String> = crate::common::drawings::written(&drawn).into_iter().map(|word| word.text).collect();
     let ticks: Vec<&str> = words
         .iter()
         .map(String::as_str)
@@ -115,11 +97,8 @@ fn predictions_are_drawn_for_errors_of_any_size_and_for_no_others() {
     }
     let drawn = predictions(&small).draw().expect("drawn");
     let words = crate::common::drawings::written(&drawn);
-    let ticks: Vec<&str> = words
-        .iter()
-        .map(|word| word.text.as_str())
-        .filter(|word| word.contains('−') || *word == "0")
-        .collect();
+    let ticks: Vec<&str> =
+        words.iter().map(|word| word.text.as_str()).filter(|word| word.contains('−') || *word == "0").collect();
     assert_eq!(ticks, ["−2", "−1", "0"].repeat(2));
     assert!(!words.iter().any(|word| word.text == "10"));
     // Errors of zero still have an axis.
@@ -136,11 +115,7 @@ fn truncation_costs_are_those_of_the_tables() {
     let data = truncation(PUBLISHED_CASE, fewer_modes_runs());
     assert_eq!((data.case, data.costs.len()), (2, 4));
     let tables = truncation_tables(fewer_modes_runs());
-    for (cost, name) in data
-        .costs
-        .iter()
-        .zip(["shear", "membrane", "frequency", "shape"])
-    {
+    for (cost, name) in data.costs.iter().zip(["shear", "membrane", "frequency", "shape"]) {
         let table = named(&tables, &format!("truncation_{name}"));
         assert_eq!(cost.values.shape(), (9, 9));
         for (test, row) in table.rows.iter().enumerate() {
@@ -153,11 +128,8 @@ fn truncation_costs_are_those_of_the_tables() {
         }
     }
     // A pair that was not run has no cell.
-    let runs: Vec<FewerModesRun> = fewer_modes_runs()
-        .iter()
-        .filter(|run| (run.test_modes, run.analysis_modes) != (2, 3))
-        .cloned()
-        .collect();
+    let runs: Vec<FewerModesRun> =
+        fewer_modes_runs().iter().filter(|run| (run.test_modes, run.analysis_modes) != (2, 3)).cloned().collect();
     let data = truncation(PUBLISHED_CASE, &runs);
     assert_eq!(data.costs[0].values[(1, 2)], None);
     assert!(truncation(PUBLISHED_CASE, &[]).costs[0].values.is_empty());

@@ -9,44 +9,20 @@ use corfem::present::figures::picture;
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {
-    let names: Vec<&str> = figures()
-        .iter()
-        .map(|figure| figure.name.as_str())
-        .collect();
-    let mut expected = vec![
-        "box_points".to_owned(),
-        "box_elements".into(),
-        "cover_gages".into(),
-    ];
+    let names: Vec<&str> = figures().iter().map(|figure| figure.name.as_str()).collect();
+    let mut expected = vec!["box_points".to_owned(), "box_elements".into(), "cover_gages".into()];
     for case in 1..=3 {
-        for name in [
-            "errors",
-            "gages",
-            "node_lines",
-            "mode_shapes",
-            "agreement",
-            "derivatives",
-        ] {
+        for name in ["errors", "gages", "node_lines", "mode_shapes", "agreement", "derivatives"] {
             expected.push(format!("case_{case}_{name}"));
         }
     }
     expected.extend(
-        [
-            "case_4_factors",
-            "case_4_derivatives",
-            "truncation",
-            "matrices_stiffness",
-            "matrices_frequencies",
-        ]
-        .map(String::from),
+        ["case_4_factors", "case_4_derivatives", "truncation", "matrices_stiffness", "matrices_frequencies"]
+            .map(String::from),
     );
     assert_eq!(names, expected);
     for figure in figures() {
-        assert!(
-            figure.caption.ends_with('.') && figure.caption.len() > 30,
-            "{}",
-            figure.name
-        );
+        assert!(figure.caption.ends_with('.') && figure.caption.len() > 30, "{}", figure.name);
         if let Some(case) = figure.name.strip_prefix("case_") {
             assert!(figure.caption.starts_with(&format!("Case {}:", &case[..1])));
             assert!(figure.svg.contains(&format!("<title>Case {}:", &case[..1])));
@@ -65,10 +41,7 @@ fn letters_stay_on_the_page_and_off_each_other() {
     for figure in figures() {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
-        let words: Vec<_> = written(&figure.svg)
-            .into_iter()
-            .filter(|word| !word.text.is_empty())
-            .collect();
+        let words: Vec<_> = written(&figure.svg).into_iter().filter(|word| !word.text.is_empty()).collect();
         assert!(words.len() > 10, "{}", figure.name);
         for (row, one) in words.iter().enumerate() {
             let [left, top, right, bottom] = one.bounds;
@@ -88,28 +61,15 @@ fn letters_stay_on_the_page_and_off_each_other() {
 
 #[test]
 fn stored_figures_are_what_the_command_writes() {
-    let numbers = Numbers {
-        relative: 0.0,
-        absolute: 0.0,
-        last_digit: true,
-    };
+    let numbers = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/figures");
     let mut compared = 0;
     for entry in std::fs::read_dir(folder).expect("the folder") {
         let path = entry.expect("a file").path();
-        let name = path
-            .file_stem()
-            .and_then(|name| name.to_str())
-            .expect("a name");
-        let figure = figures()
-            .iter()
-            .find(|figure| figure.name == name)
-            .expect("a figure of that name");
+        let name = path.file_stem().and_then(|name| name.to_str()).expect("a name");
+        let figure = figures().iter().find(|figure| figure.name == name).expect("a figure of that name");
         let stored = std::fs::read_to_string(&path).expect("it reads");
-        assert!(
-            numbers.agree(&stored, &figure.svg),
-            "{name} differs: write it again"
-        );
+        assert!(numbers.agree(&stored, &figure.svg), "{name} differs: write it again");
         compared += 1;
     }
     assert_eq!(compared, 13, "one of every kind");
@@ -130,9 +90,7 @@ fn pictures_have_letters_without_a_font_of_the_system() {
     assert_ne!(words, png(""), "the letters show");
     assert_ne!(words, png("Ωλ 2"));
     let wrong = picture::png("broken", "<svg");
-    assert!(
-        matches!(wrong, Err(PresentError::Method(Error::Drawing { figure, .. })) if figure == "broken")
-    );
+    assert!(matches!(wrong, Err(PresentError::Method(Error::Drawing { figure, .. })) if figure == "broken"));
 }
 
 #[test]
@@ -150,10 +108,7 @@ fn captions_name_the_papers_figures() {
         ("case_2_errors", 7),
         ("case_3_errors", 8),
     ] {
-        assert!(
-            caption(name).contains(&format!("Figure {number})")),
-            "{name}"
-        );
+        assert!(caption(name).contains(&format!("Figure {number})")), "{name}");
     }
     // The paper has node lines of its first case only.
     for name in ["case_2_node_lines", "case_3_node_lines"] {

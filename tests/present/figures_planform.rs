@@ -57,11 +57,7 @@ fn bay_of(planform: &Planform, line: &[PlanPoint]) -> usize {
 /// Displacement at a place of a bay, the root's zero.
 fn displacement(shape: &[f64; 9], mid: f64, bay: usize, (xi, eta): (f64, f64)) -> f64 {
     let rib = |rib: usize| {
-        if rib == 3 {
-            0.0
-        } else {
-            along_rib(&shape[3 * rib..3 * rib + 3], mid, xi)
-        }
+        if rib == 3 { 0.0 } else { along_rib(&shape[3 * rib..3 * rib + 3], mid, xi) }
     };
     (1.0 - eta) * rib(bay) + eta * rib(bay + 1)
 }
@@ -81,10 +77,7 @@ fn dynamic_points_lie_on_the_ribs() {
         }
     }
     let grids = &Reconstruction::embedded().expect("the box").grids;
-    assert_eq!(
-        planform.ribs[3].map(|[x, y]| (x, y)),
-        [(grids[&13][0], 0.0), (grids[&15][0], 0.0)]
-    );
+    assert_eq!(planform.ribs[3].map(|[x, y]| (x, y)), [(grids[&13][0], 0.0), (grids[&15][0], 0.0)]);
 }
 
 #[test]
@@ -213,8 +206,7 @@ fn without_rotations(result: &CaseResult) -> [f64; 9] {
     let model = case.model_with(&[TEST_GAGE; 15]).expect("a model");
     let sizes = model.sizes(&[1.0; 15]).expect("sizes");
     let free = model.structure().free_dof();
-    let structural =
-        FactorizedStiffness::new(model.element_matrices(), &sizes, free).expect("held");
+    let structural = FactorizedStiffness::new(model.element_matrices(), &sizes, free).expect("held");
     let condensed = condense(&structural, model.load_distribution()).expect("condensed");
     let planform = Planform::of(&case.reconstruction);
     let grids = &case.reconstruction.grids;
@@ -255,14 +247,9 @@ fn without_rotations(result: &CaseResult) -> [f64; 9] {
 fn rotations_that_the_nine_points_lack_matter_to_chordwise_bending_alone() {
     let worst = [&results()[0], &results()[1]].map(without_rotations);
     let of = |modes: &[usize]| {
-        let each = worst
-            .iter()
-            .flat_map(|case| modes.iter().map(|mode| case[mode - 1]));
+        let each = worst.iter().flat_map(|case| modes.iter().map(|mode| case[mode - 1]));
         each.fold(0.0, f64::max)
     };
     // As the documentation of the interpolation states.
-    assert_eq!(
-        format!("{:.3} {:.2}", of(&[1, 2, 3, 4, 5]), of(&[6, 7, 8, 9])),
-        "0.037 0.31"
-    );
+    assert_eq!(format!("{:.3} {:.2}", of(&[1, 2, 3, 4, 5]), of(&[6, 7, 8, 9])), "0.037 0.31");
 }

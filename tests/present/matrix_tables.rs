@@ -10,16 +10,8 @@ use corfem::studies::matrix_comparison::compare_matrices;
 
 #[test]
 fn comparison_as_numbers() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
-    let rounded = Numbers {
-        relative: 0.0,
-        absolute: 0.0,
-        last_digit: true,
-    };
+    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
     for case in 1..=3 {
         let tables = matrix_tables(&Case::new(case).unwrap(), &compared(case));
         let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
@@ -37,27 +29,13 @@ fn comparison_as_numbers() {
                 "matrix_factors"
             ]
         );
-        assert_golden(
-            &format!("matrices_case_{case}"),
-            &csv(&tables).unwrap(),
-            numbers,
-        );
+        assert_golden(&format!("matrices_case_{case}"), &csv(&tables).unwrap(), numbers);
         if case == 2 {
             assert_golden("matrices_text", &render_tables(&tables, false), rounded);
         }
     }
     let all = compare_matrices(&Case::new(2).unwrap(), 9).unwrap();
     let tables = matrix_tables(&Case::new(2).unwrap(), &all);
-    let labels = |table: usize| {
-        tables[table]
-            .rows
-            .iter()
-            .map(|row| row.label.as_str())
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(
-        labels(0).last(),
-        Some(&"RMS test modes"),
-        "there are no others"
-    );
+    let labels = |table: usize| tables[table].rows.iter().map(|row| row.label.as_str()).collect::<Vec<_>>();
+    assert_eq!(labels(0).last(), Some(&"RMS test modes"), "there are no others");
 }

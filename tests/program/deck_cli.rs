@@ -6,11 +6,7 @@ use corfem::cases::{Case, run_case};
 use serde_json::Value;
 
 fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts")
+    Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -19,9 +15,7 @@ fn text(bytes: &[u8]) -> String {
 
 fn frequencies(document: &Value) -> Vec<f64> {
     let list = document["frequencies_hz"].as_array().expect("a list");
-    list.iter()
-        .map(|value| value.as_f64().expect("a number"))
-        .collect()
+    list.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
 #[test]
@@ -31,11 +25,7 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
     let path = path.to_str().expect("UTF-8");
     let case = Case::new(2).expect("a case");
     let passes = run_case(&case, |_, _| ()).expect("a run").correlation;
-    let stages = [
-        ("0", &passes.initial),
-        ("1", &passes.passes[0].check),
-        ("2", &passes.passes[1].check),
-    ];
+    let stages = [("0", &passes.initial), ("1", &passes.passes[0].check), ("2", &passes.passes[1].check)];
     for (pass, check) in stages {
         let written = corfem(&["deck", "2", "--pass", pass, "-o", path]);
         assert_eq!(written.status.code(), Some(0), "{}", text(&written.stderr));
@@ -56,19 +46,11 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
             .iter()
             .zip(document["generalized_masses"].as_array().expect("a list"))
         {
-            let shape: Vec<f64> = shape
-                .as_array()
-                .expect("a list")
-                .iter()
-                .map(|x| x.as_f64().expect("a number"))
-                .collect();
+            let shape: Vec<f64> =
+                shape.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect();
             let largest = shape.iter().copied().fold(f64::MIN, f64::max);
             assert_eq!((shape.len(), largest), (9, 1.0));
-            let generalized: f64 = shape
-                .iter()
-                .zip(&case.reconstruction.masses)
-                .map(|(x, m)| m * x * x)
-                .sum();
+            let generalized: f64 = shape.iter().zip(&case.reconstruction.masses).map(|(x, m)| m * x * x).sum();
             approx::assert_relative_eq!(
                 mass.as_f64().expect("a number"),
                 generalized,
@@ -96,23 +78,17 @@ fn a_deck_is_a_whole_run_of_nastran() {
     }
     assert!(deck.contains("TITLE = CORFEM CASE 4, PASS 0\n"));
     assert!(deck.lines().all(|line| line.len() <= 80));
-    let count = |name: &str| {
-        deck.lines()
-            .filter(|line| line[..8.min(line.len())].trim_end_matches([' ', '*']) == name)
-            .count()
-    };
-    let counts = [
-        "GRID", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "MAT1", "CMASS2", "MPC",
-        "SPC1", "EIGR",
-    ]
-    .map(count);
+    let count =
+        |name: &str| deck.lines().filter(|line| line[..8.min(line.len())].trim_end_matches([' ', '*']) == name).count();
+    let counts =
+        ["GRID", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "MAT1", "CMASS2", "MPC", "SPC1", "EIGR"]
+            .map(count);
     assert_eq!(counts, [25, 24, 24, 9, 9, 6, 6, 1, 9, 9, 3, 1]);
     // Nine modes from below the lowest to above the highest of 7.56 to 878 Hz.
+    assert!(deck.contains("EIGR    1       INV     6.      966.    9       9"), "{deck}");
     assert!(
-        deck.contains("EIGR    1       INV     6.      966.    9       9"),
-        "{deck}"
+        deck.contains("GRID*   1                               10.107          32.564          *1\n*1      .2119\n")
     );
-    assert!(deck.contains("GRID*   1                               10.107          32.564          *1\n*1      .2119\n"));
 }
 
 #[test]
@@ -125,32 +101,18 @@ fn modes_are_tables_with_what_was_not_read() {
     let plain = corfem(&["modes", path]);
     assert_eq!(plain.status.code(), Some(0));
     let sentence = "Not read: card PARAM in line 1 is not known here.";
-    assert!(
-        text(&plain.stderr).ends_with(&format!("{sentence}\n")),
-        "{}",
-        text(&plain.stderr)
-    );
+    assert!(text(&plain.stderr).ends_with(&format!("{sentence}\n")), "{}", text(&plain.stderr));
     let report = text(&plain.stdout);
-    assert!(
-        report.starts_with("Natural frequencies at 1 degrees of freedom with mass\n"),
-        "{report}"
-    );
-    assert!(
-        report.contains(" 1       7.957747           0.400000\n"),
-        "{report}"
-    );
+    assert!(report.starts_with("Natural frequencies at 1 degrees of freedom with mass\n"), "{report}");
+    assert!(report.contains(" 1       7.957747           0.400000\n"), "{report}");
     assert!(report.contains(sentence));
     assert!(report.contains(" 2 x    1.00000\n"), "{report}");
     let markdown = text(&corfem(&["modes", path, "-f", "markdown"]).stdout);
-    assert!(
-        markdown.contains("## Shapes of modes 1 to 1, largest component one"),
-        "{markdown}"
-    );
+    assert!(markdown.contains("## Shapes of modes 1 to 1, largest component one"), "{markdown}");
     let csv = text(&corfem(&["modes", path, "-f", "csv"]).stdout);
     assert!(csv.contains("frequencies,1,Frequency,Hz,7.957747"), "{csv}");
     assert!(csv.contains("shapes_1_to_1,2 x,Mode 1,,1,"), "{csv}");
-    let json: Value =
-        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
+    let json: Value = serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
     assert_eq!(json["not_read"][0], sentence);
 }
 
@@ -168,25 +130,15 @@ fn shapes_are_split_into_tables_of_nine_modes() {
     std::fs::write(&path, deck).expect("written");
     let path = path.to_str().expect("UTF-8");
     let report = text(&corfem(&["modes", path]).stdout);
-    assert!(
-        report.contains("Shapes of modes 1 to 9,") && report.contains("Shapes of modes 10 to 11,"),
-        "{report}"
-    );
+    assert!(report.contains("Shapes of modes 1 to 9,") && report.contains("Shapes of modes 10 to 11,"), "{report}");
     let lowest: Value =
-        serde_json::from_slice(&corfem(&["modes", path, "-f", "json", "--count", "2"]).stdout)
-            .expect("JSON");
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json", "--count", "2"]).stdout).expect("JSON");
     assert_eq!(frequencies(&lowest).len(), 2);
     assert_eq!(lowest["shapes"].as_array().map(Vec::len), Some(2));
-    assert_eq!(
-        corfem(&["modes", path, "--count", "11"]).status.code(),
-        Some(0)
-    );
+    assert_eq!(corfem(&["modes", path, "--count", "11"]).status.code(), Some(0));
     let more = corfem(&["modes", path, "--count", "12"]);
     assert_eq!(more.status.code(), Some(2));
-    assert_eq!(
-        text(&more.stderr),
-        "corfem: modes of finite frequency: expected at most 11, found 12\n"
-    );
+    assert_eq!(text(&more.stderr), "corfem: modes of finite frequency: expected at most 11, found 12\n");
 }
 
 #[test]
@@ -196,14 +148,8 @@ fn bad_input_is_exit_status_2() {
     std::fs::write(&path, "GRID,1,,x\n").expect("written");
     let path = path.to_str().expect("UTF-8");
     for (arguments, message) in [
-        (
-            vec!["deck", "7"],
-            "corfem: case: expected 1, 2, 3 or 4, found 7\n".to_owned(),
-        ),
-        (
-            vec!["deck", "4", "--pass", "2"],
-            "corfem: pass: expected at most 1, found 2\n".to_owned(),
-        ),
+        (vec!["deck", "7"], "corfem: case: expected 1, 2, 3 or 4, found 7\n".to_owned()),
+        (vec!["deck", "4", "--pass", "2"], "corfem: pass: expected at most 1, found 2\n".to_owned()),
         (
             vec!["modes", path],
             format!(
@@ -223,11 +169,8 @@ fn bad_input_is_exit_status_2() {
 
 #[test]
 fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
-    let unread = corfem::files::deck::Unread {
-        card: "MPC".into(),
-        line: 7,
-        reason: corfem::files::deck::Reason::NotSelected,
-    };
+    let unread =
+        corfem::files::deck::Unread { card: "MPC".into(), line: 7, reason: corfem::files::deck::Reason::NotSelected };
     assert_eq!(
         corfem::present::report::deck_tables::not_read(&unread),
         "Not read: card MPC in line 7 belongs to a set that case control does not select."

@@ -39,9 +39,7 @@ impl Card {
     /// Text of a field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.
     /// Empty if there is none.
     pub fn text(&self, field: usize) -> &str {
-        self.fields
-            .get(index(field))
-            .map_or("", |field| field.text.as_str())
+        self.fields.get(index(field)).map_or("", |field| field.text.as_str())
     }
 
     /// NASTRAN number of the last field that is not blank; 1 if all are.
@@ -86,9 +84,7 @@ impl Card {
     pub fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
         match self.text(field) {
             "" => Ok(None),
-            text => parse_real(text)
-                .map(Some)
-                .ok_or_else(|| self.error(field, "a real number with a decimal point")),
+            text => parse_real(text).map(Some).ok_or_else(|| self.error(field, "a real number with a decimal point")),
         }
     }
 
@@ -120,10 +116,7 @@ impl Card {
         if text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
             return Ok(());
         }
-        Err(self.error(
-            field,
-            format!("a blank or zero, for the crate has no {meaning}"),
-        ))
+        Err(self.error(field, format!("a blank or zero, for the crate has no {meaning}")))
     }
 
     /// Directions x, y, z named by a list of components such as `123`; 4 to 6, the rotations, are allowed and have no place
@@ -182,22 +175,14 @@ pub enum Entry {
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a number that is not; [`Error::TooMany`] for a label of more than eight digits.
-pub fn write_card(
-    name: &str,
-    entries: &[Entry],
-    large: bool,
-    tag: &mut usize,
-) -> Result<String, FileError> {
+pub fn write_card(name: &str, entries: &[Entry], large: bool, tag: &mut usize) -> Result<String, FileError> {
     let exact = |entry: &Entry| match entry {
         Entry::Real(value) => exact_real(*value, SMALL_FIELD).is_some(),
         _ => true,
     };
     let large = large || !entries.iter().all(exact);
-    let (width, per_line, mark) = if large {
-        (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*")
-    } else {
-        (SMALL_FIELD, FIELDS_PER_LINE, "")
-    };
+    let (width, per_line, mark) =
+        if large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*") } else { (SMALL_FIELD, FIELDS_PER_LINE, "") };
     let mut fields = Vec::with_capacity(entries.len());
     for (column, entry) in entries.iter().enumerate() {
         fields.push(match entry {
@@ -221,10 +206,7 @@ pub fn write_card(
         });
     }
     // NASTRAN-95 takes a line of the large format for half a card and wants the other half too.
-    fields.resize(
-        fields.len().next_multiple_of(FIELDS_PER_LINE),
-        String::new(),
-    );
+    fields.resize(fields.len().next_multiple_of(FIELDS_PER_LINE), String::new());
     let lines: Vec<&[String]> = fields.chunks(per_line).collect();
     let mut text = String::new();
     let mut first = format!("{name}{mark}");

@@ -66,9 +66,7 @@ impl Constraints {
             if card.text(3).is_empty() {
                 return Err(card.error(3, "components from 1 to 6"));
             }
-            let fields: Vec<usize> = (4..=card.last_field())
-                .filter(|&field| !card.text(field).is_empty())
-                .collect();
+            let fields: Vec<usize> = (4..=card.last_field()).filter(|&field| !card.text(field).is_empty()).collect();
             if fields.is_empty() {
                 return Err(card.error(4, "a grid"));
             }
@@ -120,17 +118,10 @@ impl Constraints {
                 return Err(card.error(5, "a coefficient that is not zero"));
             }
             let key = (dependent.grid, dependent.direction);
-            if grids
-                .get(&key.0)
-                .is_some_and(|grid| grid.constrained[key.1])
-            {
+            if grids.get(&key.0).is_some_and(|grid| grid.constrained[key.1]) {
                 return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
             }
-            let tie = Tie {
-                dependent,
-                coefficient,
-                terms: terms.collect(),
-            };
+            let tie = Tie { dependent, coefficient, terms: terms.collect() };
             if let Some((_, first)) = ties.insert(key, (tie, card)) {
                 let line = first.line;
                 let expected = format!("a degree of freedom that line {line} does not tie");
@@ -138,8 +129,7 @@ impl Constraints {
             }
         }
         for (tie, card) in ties.values() {
-            let is_tied =
-                |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
+            let is_tied = |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
             if let Some(row) = tie.terms.iter().position(is_tied) {
                 let expected = "a degree of freedom that no MPC card makes dependent";
                 return Err(card.error(term_field(row + 1), expected));
@@ -150,10 +140,7 @@ impl Constraints {
 }
 
 /// The terms of an equation, the dependent DOF first.
-fn terms(
-    card: &Card,
-    grids: &BTreeMap<usize, Grid>,
-) -> Result<Vec<(StructuralDof, f64)>, FileError> {
+fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDof, f64)>, FileError> {
     let mut terms = Vec::new();
     while term_field(terms.len()) <= card.last_field() {
         let field = term_field(terms.len());

@@ -37,12 +37,7 @@ pub fn cut(file: &str, text: &str) -> Result<Cards, FileError> {
             let name = line.first.trim_end_matches('*').to_owned();
             ends.push(line.tag.clone());
             open = line.tag.is_empty().then_some(cards.len());
-            cards.push(Card {
-                file: file.clone(),
-                line: line.number,
-                name,
-                fields: line.data,
-            });
+            cards.push(Card { file: file.clone(), line: line.number, name, fields: line.data });
         } else if line.own_tag().is_empty() {
             let Some(card) = open else {
                 return Err(no_parent(&file, &line));
@@ -103,10 +98,7 @@ fn append(card: &mut Card, line: &Line) {
     // The second half of a card of the large format may be missing.
     if !line.large {
         let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
-        let blank = Field {
-            text: String::new(),
-            line: line.number,
-        };
+        let blank = Field { text: String::new(), line: line.number };
         card.fields.resize(whole, blank);
     }
     card.fields.extend(line.data.iter().cloned());

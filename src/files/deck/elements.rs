@@ -51,16 +51,11 @@ impl ElementCards {
     /// [`FileError::DeckField`].
     pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
         let starts: &[usize] =
-            if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
-                &[2, 6]
-            } else {
-                &[2]
-            };
+            if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 { &[2, 6] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             if card.name == connection {
                 for &start in starts {
-                    self.connections
-                        .insert(card, start, (kind, Size::Property(row)))?;
+                    self.connections.insert(card, start, (kind, Size::Property(row)))?;
                 }
                 return Ok(true);
             }
@@ -97,48 +92,40 @@ impl ElementCards {
     ///
     /// # Errors
     /// [`FileError::DeckField`] for a property, a material or a grid that does not exist.
-    pub fn elements(
-        &self,
-        grid: impl Fn(&Card, usize) -> Result<usize, FileError>,
-    ) -> Result<Vec<Element>, FileError> {
-        let put_together = |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
-            let Kept { card, start, .. } = kept;
-            let (kind, size) = &kept.value;
-            let (size, material, first_grid) = match size {
-                Size::Own(size) => {
-                    let material = self.materials.referred(card, 5, "MAT1")?;
-                    (*size, material.value, 3)
-                }
-                Size::Property(row) => {
-                    let name = ELEMENT_CARDS[*row].1;
-                    let property = self.properties[*row].referred(card, start + 1, name)?;
-                    let material =
-                        self.materials
-                            .referred(&property.card, property.start + 1, "MAT1")?;
-                    (property.value, material.value, start + 2)
-                }
+    pub fn elements(&self, grid: impl Fn(&Card, usize) -> Result<usize, FileError>) -> Result<Vec<Element>, FileError> {
+        let put_together =
+            |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
+                let Kept { card, start, .. } = kept;
+                let (kind, size) = &kept.value;
+                let (size, material, first_grid) = match size {
+                    Size::Own(size) => {
+                        let material = self.materials.referred(card, 5, "MAT1")?;
+                        (*size, material.value, 3)
+                    }
+                    Size::Property(row) => {
+                        let name = ELEMENT_CARDS[*row].1;
+                        let property = self.properties[*row].referred(card, start + 1, name)?;
+                        let material = self.materials.referred(&property.card, property.start + 1, "MAT1")?;
+                        (property.value, material.value, start + 2)
+                    }
+                };
+                Ok(Element {
+                    label,
+                    kind: *kind,
+                    grids: (first_grid..first_grid + kind.corner_count())
+                        .map(|field| grid(card, field))
+                        .collect::<Result<_, FileError>>()?,
+                    size,
+                    material,
+                })
             };
-            Ok(Element {
-                label,
-                kind: *kind,
-                grids: (first_grid..first_grid + kind.corner_count())
-                    .map(|field| grid(card, field))
-                    .collect::<Result<_, FileError>>()?,
-                size,
-                material,
-            })
-        };
         self.connections.iter().map(put_together).collect()
     }
 }
 
 /// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are.
 fn material(card: &Card) -> Result<Material, FileError> {
-    let (e, g, nu) = (
-        card.optional_real(3)?,
-        card.optional_real(4)?,
-        card.optional_real(5)?,
-    );
+    let (e, g, nu) = (card.optional_real(3)?, card.optional_real(4)?, card.optional_real(5)?);
     // A number that is worked out is rounded to what a deck can hold, so that writing it loses nothing.
     let (e, nu) = match (e, g, nu) {
         (Some(e), _, Some(nu)) => (e, nu),
@@ -158,11 +145,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
     if density < 0.0 {
         return Err(card.error(6, "a density that is not negative"));
     }
-    Ok(Material {
-        shear_modulus,
-        density,
-        ..derived
-    })
+    Ok(Material { shear_modulus, density, ..derived })
 }
 
 /// CMASS2 on one direction of a grid, or CONM2 on all three.
@@ -184,10 +167,5 @@ pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
     for field in 12..=17 {
         card.absent(field, "rotary inertia")?;
     }
-    Ok(PointMass {
-        label,
-        grid: card.label(3)?,
-        direction: None,
-        mass: card.positive(5)?,
-    })
+    Ok(PointMass { label, grid: card.label(3)?, direction: None, mass: card.positive(5)? })
 }

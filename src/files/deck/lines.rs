@@ -54,9 +54,7 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         .filter(|(_, line)| !line.trim().is_empty())
         .collect();
     let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
-    let begin = lines
-        .iter()
-        .position(|(_, line)| words(line) == "BEGIN BULK");
+    let begin = lines.iter().position(|(_, line)| words(line) == "BEGIN BULK");
     let mut selected = begin.map(|_| Selected::default());
     let bulk = begin.map_or(0, |row| row + 1);
     if let Some(selected) = &mut selected {
@@ -120,11 +118,7 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     };
     let first = parts.remove(0);
     let large = first.ends_with('*') || first.starts_with('*');
-    let (width, count) = if large {
-        (LARGE_FIELD, LARGE_FIELDS_PER_LINE)
-    } else {
-        (SMALL_FIELD, FIELDS_PER_LINE)
-    };
+    let (width, count) = if large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE) } else { (SMALL_FIELD, FIELDS_PER_LINE) };
     let named = first.starts_with(|c: char| c.is_ascii_alphabetic());
     if !named && !first.is_empty() && !first.starts_with(['+', '*']) {
         return Err(wrong("a card's name or a continuation", &first));
@@ -135,19 +129,10 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     parts.resize(count + 1, String::new());
     let tag = parts.pop().unwrap_or_default();
     if let Some(long) = parts.iter().find(|part| part.chars().count() > width) {
-        return Err(wrong(
-            "a field of 8 characters, or of 16 with an asterisk",
-            long,
-        ));
+        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", long));
     }
     let data = parts.into_iter().map(|text| Field { text, line: number });
-    Ok(Line {
-        number,
-        first,
-        data: data.collect(),
-        large,
-        tag: tag.trim_start_matches(['+', '*']).to_owned(),
-    })
+    Ok(Line { number, first, data: data.collect(), large, tag: tag.trim_start_matches(['+', '*']).to_owned() })
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.

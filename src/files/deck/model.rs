@@ -82,11 +82,7 @@ impl BulkData {
     /// # Errors
     /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
-    pub fn of(
-        model: &FiniteElementModel,
-        factors: &[f64],
-        points: &[Vector3<f64>],
-    ) -> Result<Self, FileError> {
+    pub fn of(model: &FiniteElementModel, factors: &[f64], points: &[Vector3<f64>]) -> Result<Self, FileError> {
         let structure = model.structure();
         let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
         check_length("positions of dynamic points", points.len(), t.ncols())?;
@@ -105,17 +101,10 @@ impl BulkData {
             let label = base + column;
             let mut constrained = [true; 3];
             constrained[DYNAMIC_DIRECTION] = false;
-            all.grids.push(Grid {
-                label,
-                position,
-                constrained,
-            });
+            all.grids.push(Grid { label, position, constrained });
             let free = structure.free_dof().iter().copied();
             all.ties.push(Tie {
-                dependent: StructuralDof {
-                    grid: label,
-                    direction: DYNAMIC_DIRECTION,
-                },
+                dependent: StructuralDof { grid: label, direction: DYNAMIC_DIRECTION },
                 coefficient: -1.0,
                 terms: free
                     .zip(t.column(column).iter().copied())
@@ -174,8 +163,7 @@ impl BulkData {
     /// The equation of every dependent DOF, by grid and direction.
     fn tie_of(&self) -> HashMap<(usize, usize), &Tie> {
         let ties = self.ties.iter();
-        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie))
-            .collect()
+        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie)).collect()
     }
 
     /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of elements with
@@ -186,11 +174,7 @@ impl BulkData {
     ///
     /// # Errors
     /// [`Error::Empty`] when no mass can move.
-    pub fn mass_dof(
-        &self,
-        structure: &Structure,
-        elements: &[ElementMatrix],
-    ) -> Result<MassDof, FileError> {
+    pub fn mass_dof(&self, structure: &Structure, elements: &[ElementMatrix]) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, &self.sizes(), free.len());
         let mut mass: BTreeMap<(usize, usize), f64> = BTreeMap::new();
@@ -230,11 +214,7 @@ impl BulkData {
             let what = "degrees of freedom with mass";
             return Err(Error::Empty { what }.into());
         }
-        Ok(MassDof {
-            dof,
-            load_distribution: DMatrix::from_columns(&columns),
-            mass: DVector::from_vec(masses),
-        })
+        Ok(MassDof { dof, load_distribution: DMatrix::from_columns(&columns), mass: DVector::from_vec(masses) })
     }
 
     fn sizes(&self) -> Vec<f64> {

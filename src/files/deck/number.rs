@@ -14,9 +14,7 @@ const ALL_DIGITS: usize = 17;
 pub fn parse_real(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| *c != ' ').collect();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(&text);
-    let mantissa_end = unsigned
-        .find(|c: char| !c.is_ascii_digit() && c != '.')
-        .unwrap_or(unsigned.len());
+    let mantissa_end = unsigned.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(unsigned.len());
     let (mantissa, exponent) = unsigned.split_at(mantissa_end);
     let (whole, fraction) = mantissa.split_once('.')?;
     let exponent = match exponent.strip_prefix(['E', 'D', 'e', 'd']) {
@@ -26,9 +24,7 @@ pub fn parse_real(text: &str) -> Option<f64> {
     };
     // What is wrong with the digits on either side, the parser of Rust's own reals finds.
     let sign = if text.starts_with('-') { "-" } else { "" };
-    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}")
-        .parse()
-        .ok()?;
+    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}").parse().ok()?;
     value.is_finite().then_some(value)
 }
 
@@ -53,9 +49,7 @@ pub fn large_real(value: f64) -> Option<String> {
 
 /// The nearest number that a 16-character field can hold; `value` itself if there is none.
 pub fn nearest_in_field(value: f64) -> f64 {
-    large_real(value)
-        .and_then(|text| parse_real(&text))
-        .unwrap_or(value)
+    large_real(value).and_then(|text| parse_real(&text)).unwrap_or(value)
 }
 
 /// The shortest NASTRAN form of a number given as `d.ddde±x`, plain where that is no longer than with an exponent.
@@ -86,8 +80,5 @@ fn layout(scientific: &str) -> Option<String> {
         let (whole, fraction) = digits.split_at(point as usize);
         format!("{whole}.{fraction}{:+}", power - point)
     });
-    std::iter::once(plain)
-        .chain(with_exponent)
-        .min_by_key(String::len)
-        .map(|text| format!("{sign}{text}"))
+    std::iter::once(plain).chain(with_exponent).min_by_key(String::len).map(|text| format!("{sign}{text}"))
 }

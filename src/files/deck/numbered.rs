@@ -33,10 +33,7 @@ impl<T> Numbered<T> {
         let label = card.label(start)?;
         if let Some(first) = self.0.get(&label) {
             let line = first.card.line;
-            return Err(card.error(
-                start,
-                format!("a number other than that of the card in line {line}"),
-            ));
+            return Err(card.error(start, format!("a number other than that of the card in line {line}")));
         }
         let card = card.clone();
         self.0.insert(label, Kept { value, card, start });
@@ -48,9 +45,7 @@ impl<T> Numbered<T> {
     /// # Errors
     /// [`FileError::DeckField`] about that field when there is none; `what` is the card looked for.
     pub fn referred(&self, card: &Card, field: usize, what: &str) -> Result<&Kept<T>, FileError> {
-        self.0
-            .get(&card.label(field)?)
-            .ok_or_else(|| card.error(field, format!("the number of a {what} card")))
+        self.0.get(&card.label(field)?).ok_or_else(|| card.error(field, format!("the number of a {what} card")))
     }
 
     /// All entries, by number.

@@ -36,9 +36,7 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n",
     );
     if *task == Task::Matrices {
-        text.push_str(
-            "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n",
-        );
+        text.push_str("INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n");
     }
     text.push_str(&format!("CEND\nTITLE = {}\n", title.to_ascii_uppercase()));
     text.push_str(&format!("SPC = {SET}\n"));
@@ -94,10 +92,7 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError>
     }
     let mut materials: Vec<Material> = Vec::new();
     for element in &model.elements {
-        let number = match materials
-            .iter()
-            .position(|known| *known == element.material)
-        {
+        let number = match materials.iter().position(|known| *known == element.material) {
             Some(row) => row + 1,
             None => {
                 materials.push(element.material);
@@ -106,11 +101,7 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError>
         };
         let mut connection = vec![Entry::Label(element.label); 2];
         connection.extend(element.grids.iter().map(|&grid| Entry::Label(grid)));
-        let property = [
-            Entry::Label(element.label),
-            Entry::Label(number),
-            Entry::Real(element.size),
-        ];
+        let property = [Entry::Label(element.label), Entry::Label(number), Entry::Real(element.size)];
         for (connection_card, property_card, kind) in ELEMENT_CARDS {
             if kind == element.kind {
                 put(connection_card, &connection, false)?;
@@ -119,19 +110,10 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError>
         }
     }
     for (row, material) in materials.iter().enumerate() {
-        let Material {
-            youngs_modulus: e,
-            poissons_ratio: nu,
-            shear_modulus: g,
-            density,
-        } = *material;
+        let Material { youngs_modulus: e, poissons_ratio: nu, shear_modulus: g, density } = *material;
         let derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
         let optional = |blank: bool, value| {
-            if blank {
-                Entry::Blank
-            } else {
-                Entry::Real(value)
-            }
+            if blank { Entry::Blank } else { Entry::Real(value) }
         };
         let entries = [
             Entry::Label(row + 1),
@@ -142,18 +124,8 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError>
         ];
         put("MAT1", &entries, false)?;
     }
-    for PointMass {
-        label,
-        grid,
-        direction,
-        mass,
-    } in &model.masses
-    {
-        let (label, grid, mass) = (
-            Entry::Label(*label),
-            Entry::Label(*grid),
-            Entry::Real(*mass),
-        );
+    for PointMass { label, grid, direction, mass } in &model.masses {
+        let (label, grid, mass) = (Entry::Label(*label), Entry::Label(*grid), Entry::Real(*mass));
         match direction {
             Some(direction) => {
                 let component = Entry::Label(direction + 1);
@@ -190,15 +162,9 @@ fn constraint_cards(grids: &[Grid]) -> Vec<Vec<Entry>> {
         .map(|run| {
             let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
             let constrained = (0..3).filter(|&direction| first.constrained[direction]);
-            let mut components: String = constrained
-                .map(|direction| (b'1' + direction as u8) as char)
-                .collect();
+            let mut components: String = constrained.map(|direction| (b'1' + direction as u8) as char).collect();
             components.push_str("456");
-            let mut entries = vec![
-                Entry::Label(SET),
-                Entry::Word(components),
-                Entry::Label(first.label),
-            ];
+            let mut entries = vec![Entry::Label(SET), Entry::Word(components), Entry::Label(first.label)];
             if run.len() > 1 {
                 entries.extend([Entry::Word("THRU".into()), Entry::Label(last.label)]);
             }

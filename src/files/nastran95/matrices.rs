@@ -22,27 +22,15 @@ const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
 pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
     let mut all = bulk.clone();
     let base = bulk.first_free_label();
-    let position: HashMap<usize, _> = bulk
-        .grids
-        .iter()
-        .map(|grid| (grid.label, grid.position))
-        .collect();
+    let position: HashMap<usize, _> = bulk.grids.iter().map(|grid| (grid.label, grid.position)).collect();
     for (row, element) in bulk.elements.iter().enumerate() {
         let mut grids = Vec::with_capacity(element.grids.len());
         for corner in element.grids.iter().filter_map(|grid| position.get(grid)) {
             let label = base + all.grids.len() - bulk.grids.len();
             grids.push(label);
-            all.grids.push(Grid {
-                label,
-                position: *corner,
-                constrained: [true; 3],
-            });
+            all.grids.push(Grid { label, position: *corner, constrained: [true; 3] });
         }
-        all.elements.push(Element {
-            label: base + row,
-            grids,
-            ..element.clone()
-        });
+        all.elements.push(Element { label: base + row, grids, ..element.clone() });
     }
     all
 }
@@ -56,11 +44,7 @@ pub(super) fn unit_stiffness(
     bulk: &BulkData,
     answer: &Matrices,
 ) -> Result<Vec<DMatrix<f64>>, FileError> {
-    let corners: usize = bulk
-        .elements
-        .iter()
-        .map(|element| element.grids.len())
-        .sum();
+    let corners: usize = bulk.elements.iter().map(|element| element.grids.len()).sum();
     let size = GRID_DOF * (bulk.grids.len() + corners);
     let kgg = matrix(answer, "KGG", size)?;
     let mut block_of = HashMap::new();
@@ -74,10 +58,9 @@ pub(super) fn unit_stiffness(
         .elements()
         .iter()
         .map(|element| {
-            let &(start, size) = block_of.get(&element.label).ok_or(Error::UnknownElement {
-                parameter: "the deck".into(),
-                element: element.label,
-            })?;
+            let &(start, size) = block_of
+                .get(&element.label)
+                .ok_or(Error::UnknownElement { parameter: "the deck".into(), element: element.label })?;
             let rows = free_rows(structure, element, start);
             Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
         })
@@ -103,46 +86,26 @@ fn free_rows(structure: &Structure, element: &Element, start: usize) -> Vec<usiz
 ///
 /// # Errors
 /// [`FileError::SolverAnswer`].
-pub(super) fn check_assembled(
-    model: &FiniteElementModel,
-    factors: &[f64],
-    answer: &Matrices,
-) -> Result<(), FileError> {
+pub(super) fn check_assembled(model: &FiniteElementModel, factors: &[f64], answer: &Matrices) -> Result<(), FileError> {
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
     let t = model.load_distribution();
-    let lumped = lumped_mass(
-        model.element_matrices(),
-        &model.mass_sizes(factors)?,
-        free.len(),
-    );
+    let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len());
     let mass = t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     for (name, expected, here, limit) in [
-        (
-            "KAA",
-            "the sum of its element matrices",
-            stiffness,
-            LARGEST_STIFFNESS_DIFFERENCE,
-        ),
-        (
-            "MAA",
-            "the masses the MPC equations distribute",
-            mass,
-            LARGEST_MASS_DIFFERENCE,
-        ),
+        ("KAA", "the sum of its element matrices", stiffness, LARGEST_STIFFNESS_DIFFERENCE),
+        ("MAA", "the masses the MPC equations distribute", mass, LARGEST_MASS_DIFFERENCE),
     ] {
         let there = matrix(answer, name, free.len())?;
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
         if difference.is_nan() || difference > limit {
             return Err(FileError::SolverAnswer {
-                expected: format!(
-                    "{name} to be {expected} within {limit:.0e} of its largest entry"
-                ),
+                expected: format!("{name} to be {expected} within {limit:.0e} of its largest entry"),
                 found: format!("them {difference:.1e} apart"),
             });
         }
@@ -150,11 +113,7 @@ pub(super) fn check_assembled(
     Ok(())
 }
 
-fn matrix<'a>(
-    answer: &'a Matrices,
-    name: &str,
-    size: usize,
-) -> Result<&'a DMatrix<f64>, FileError> {
+fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, FileError> {
     let expected = || format!("a matrix {name} of {size} rows and columns");
     match answer.get(name) {
         Some(matrix) if matrix.shape() == (size, size) => Ok(matrix),
@@ -162,9 +121,6 @@ fn matrix<'a>(
             expected: expected(),
             found: format!("{} x {}", matrix.nrows(), matrix.ncols()),
         }),
-        None => Err(FileError::SolverAnswer {
-            expected: expected(),
-            found: "none".into(),
-        }),
+        None => Err(FileError::SolverAnswer { expected: expected(), found: "none".into() }),
     }
 }

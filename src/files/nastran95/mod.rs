@@ -66,19 +66,13 @@ impl Nastran95 {
     /// # Errors
     /// [`FileError::SolverMissing`] if the folder does not hold them.
     pub fn in_folder(home: &Path) -> Result<Self, FileError> {
-        let missing = || FileError::SolverMissing {
-            path: home.to_owned(),
-        };
+        let missing = || FileError::SolverMissing { path: home.to_owned() };
         // A relative path would mean another folder once the program runs in its scratch folder.
         let home = home.canonicalize().map_err(|_| missing())?;
         if !home.join(process::PROGRAM).is_file() || !home.join(process::RIGID_FORMATS).is_dir() {
             return Err(missing());
         }
-        Ok(Self {
-            home,
-            time_limit: DEFAULT_TIME_LIMIT,
-            stop: Arc::default(),
-        })
+        Ok(Self { home, time_limit: DEFAULT_TIME_LIMIT, stop: Arc::default() })
     }
 
     /// Runs a deck.
@@ -102,10 +96,7 @@ impl Nastran95 {
             Some(text) => read_output5(&text),
             None => Err(FileError::SolverAnswer {
                 expected: "matrices on Fortran unit 15".into(),
-                found: format!(
-                    "none; printed last: {}",
-                    process::last_lines(&answer.printed)
-                ),
+                found: format!("none; printed last: {}", process::last_lines(&answer.printed)),
             }),
         }
     }
@@ -115,19 +106,11 @@ impl Nastran95 {
     /// # Errors
     /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when
     /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
-    pub fn elements(
-        &self,
-        model: &FiniteElementModel,
-        factors: &[f64],
-    ) -> Result<FiniteElementModel, FileError> {
+    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
-        let deck = write(
-            &matrices::with_single_elements(&bulk),
-            "ANALYSIS",
-            &Task::Matrices,
-        )?;
+        let deck = write(&matrices::with_single_elements(&bulk), "ANALYSIS", &Task::Matrices)?;
         let answer = self.matrices(&deck)?;
         let units = matrices::unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;

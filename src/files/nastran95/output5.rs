@@ -31,10 +31,7 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, expected: &str| FileError::SolverAnswer {
         expected: format!("{expected} in line {} of the OUTPUT5 file", line + 1),
-        found: lines
-            .get(line)
-            .map_or("its end", |line| line.trim())
-            .to_owned(),
+        found: lines.get(line).map_or("its end", |line| line.trim()).to_owned(),
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         lines
@@ -47,11 +44,7 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let mut current: Option<(String, DMatrix<f64>)> = None;
     let mut at = 1;
     while at < lines.len() {
-        let (column, first, last) = (
-            integer(at, 0)?,
-            integer(at, INTEGER)?,
-            integer(at, 2 * INTEGER)?,
-        );
+        let (column, first, last) = (integer(at, 0)?, integer(at, INTEGER)?, integer(at, 2 * INTEGER)?);
         at += 1;
         if column == 0 {
             matrices.extend(current.take());

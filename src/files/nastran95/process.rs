@@ -37,17 +37,11 @@ pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer,
     Ok(answer)
 }
 
-fn in_scratch(
-    solver: &Nastran95,
-    home: &Path,
-    deck: &str,
-    scratch: &Path,
-) -> Result<Answer, FileError> {
+fn in_scratch(solver: &Nastran95, home: &Path, deck: &str, scratch: &Path) -> Result<Answer, FileError> {
     let path = |name: &str| scratch.join(name);
     std::fs::write(path("deck"), deck).map_err(FileError::of_file(&path("deck"), "write"))?;
     let open = |name: &str| File::open(path(name)).map_err(FileError::of_file(&path(name), "read"));
-    let create =
-        |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
+    let create = |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
     let program = home.join(PROGRAM);
     let mut command = Command::new(&program);
     command
@@ -59,13 +53,9 @@ fn in_scratch(
         .env("RFDIR", home.join(RIGID_FORMATS))
         .env("DIRCTY", scratch)
         .env("OPTPNM", "none");
-    for (variable, name) in [
-        ("LOGNM", "log"),
-        ("NPTPNM", "nptp"),
-        ("DICTNM", "dict"),
-        ("PLTNM", "plt"),
-        ("PUNCHNM", "punch"),
-    ] {
+    for (variable, name) in
+        [("LOGNM", "log"), ("NPTPNM", "nptp"), ("DICTNM", "dict"), ("PLTNM", "plt"), ("PUNCHNM", "punch")]
+    {
         command.env(variable, path(name));
     }
     for unit in 1..*UNITS.start() {
@@ -75,9 +65,7 @@ fn in_scratch(
         command.env(format!("FTN{unit}"), path(&format!("ftn{unit}")));
     }
     own_group(&mut command);
-    let child = command
-        .spawn()
-        .map_err(FileError::of_file(&program, "run"))?;
+    let child = command.spawn().map_err(FileError::of_file(&program, "run"))?;
     let status = wait(solver, child, &program)?;
     let printed = read(&path("printed"))?;
     if let Some(message) = fatal_message(&printed) {
@@ -102,10 +90,7 @@ fn wait(solver: &Nastran95, child: Child, program: &Path) -> Result<ExitStatus, 
     let mut running = Running(child);
     let start = Instant::now();
     loop {
-        let status = running
-            .0
-            .try_wait()
-            .map_err(FileError::of_file(program, "run"))?;
+        let status = running.0.try_wait().map_err(FileError::of_file(program, "run"))?;
         if let Some(status) = status {
             return Ok(status);
         }
@@ -158,29 +143,15 @@ fn fatal_message(printed: &str) -> Option<String> {
     let mut lines = printed.lines().skip_while(|line| !line.contains("FATAL"));
     let first = lines.next()?;
     // A message ends with a blank line, or where the next one begins.
-    let rest = lines
-        .take(MESSAGE_LINES - 1)
-        .take_while(|line| !line.trim().is_empty() && !line.contains("***"));
-    let words: Vec<&str> = std::iter::once(first)
-        .chain(rest)
-        .flat_map(str::split_whitespace)
-        .collect();
+    let rest = lines.take(MESSAGE_LINES - 1).take_while(|line| !line.trim().is_empty() && !line.contains("***"));
+    let words: Vec<&str> = std::iter::once(first).chain(rest).flat_map(str::split_whitespace).collect();
     // The first column is the printer's carriage control.
-    Some(
-        words
-            .join(" ")
-            .trim_start_matches(['0', '1', '*', ' '])
-            .to_owned(),
-    )
+    Some(words.join(" ").trim_start_matches(['0', '1', '*', ' ']).to_owned())
 }
 
 /// The last lines that are not blank.
 pub(super) fn last_lines(text: &str) -> String {
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .collect();
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
         last => last.join(" / "),

@@ -3,8 +3,8 @@
 use super::checked_generalized_masses;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
-    symmetric_eigen, symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
+    symmetric_part,
 };
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
@@ -66,22 +66,11 @@ pub fn balance(
     check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
     check_symmetric("dynamic stiffness", stiffness)?;
     let to_suspension = suspension_modes(stiffness, mass, rigid_body)?;
-    let Suspension {
-        squared,
-        modes: from_suspension,
-    } = &to_suspension;
+    let Suspension { squared, modes: from_suspension } = &to_suspension;
     let stiffest = squared.amax();
     let limit = LARGEST_SUSPENSION_RATIO;
-    if let Some(mode) = raw
-        .omega_squared
-        .iter()
-        .position(|omega| stiffest > limit * omega)
-    {
-        return Err(Error::Supported {
-            mode,
-            ratio: stiffest / raw.omega_squared[mode],
-            limit,
-        });
+    if let Some(mode) = raw.omega_squared.iter().position(|omega| stiffest > limit * omega) {
+        return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });
     }
     let motions = rigid_body * from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
@@ -116,20 +105,15 @@ fn suspension_modes(
 ) -> Result<Suspension, Error> {
     let count = rigid_body.ncols();
     if count == 0 {
-        return Err(Error::Empty {
-            what: "rigid-body vectors",
-        });
+        return Err(Error::Empty { what: "rigid-body vectors" });
     }
     check_shape("rigid-body vectors", rigid_body, mass.nrows(), count)?;
     check_finite("rigid-body vectors", rigid_body)?;
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
-    let lower =
-        cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART).map_err(|error| {
-            match error {
-                Error::NotPositiveDefinite { dof, .. } => Error::DependentRigidBody { vector: dof },
-                other => other,
-            }
-        })?;
+    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART).map_err(|error| match error {
+        Error::NotPositiveDefinite { dof, .. } => Error::DependentRigidBody { vector: dof },
+        other => other,
+    })?;
     let mut reduced = rigid_body.tr_mul(&(stiffness * rigid_body));
     solve_lower(&lower, &mut reduced);
     reduced.transpose_mut();

@@ -22,11 +22,7 @@ impl Default for MovementLimits {
     /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 % of
     /// frequency, several times what a resonance is measured to.
     fn default() -> Self {
-        Self {
-            balance: 0.10,
-            frequency: 0.02,
-            shape: 0.10,
-        }
+        Self { balance: 0.10, frequency: 0.02, shape: 0.10 }
     }
 }
 
@@ -39,11 +35,7 @@ impl MovementLimits {
             ("shape", self.shape, f64::INFINITY, positive),
         ] {
             if !(found > 0.0 && found < upper) {
-                return Err(Error::Setting {
-                    name,
-                    expected,
-                    found,
-                });
+                return Err(Error::Setting { name, expected, found });
             }
         }
         Ok(())
@@ -132,15 +124,9 @@ pub fn examine(
     checked_generalized_masses(raw, mass)?;
     let (balanced, changes) = match supports {
         Supports::Held => (raw.clone(), vec![None; raw.len()]),
-        Supports::Free {
-            stiffness,
-            rigid_body,
-        } => {
+        Supports::Free { stiffness, rigid_body } => {
             let balanced = balance(raw, stiffness, mass, rigid_body)?;
-            let modes = ModeSet {
-                omega_squared: raw.omega_squared.clone(),
-                shapes: balanced.shapes,
-            };
+            let modes = ModeSet { omega_squared: raw.omega_squared.clone(), shapes: balanced.shapes };
             (modes, balanced.change.into_iter().map(Some).collect())
         }
     };
@@ -155,13 +141,9 @@ pub fn examine(
             },
         })
         .collect();
-    let mut kept: Vec<usize> = (0..raw.len())
-        .filter(|&mode| reports[mode].verdict == Verdict::Kept)
-        .collect();
+    let mut kept: Vec<usize> = (0..raw.len()).filter(|&mode| reports[mode].verdict == Verdict::Kept).collect();
     if kept.is_empty() {
-        return Err(Error::Empty {
-            what: "test modes within the limits",
-        });
+        return Err(Error::Empty { what: "test modes within the limits" });
     }
     let mut result = orthogonalize_kept(&balanced, &kept, mass)?;
     while limits.any_exceeded(&result.movement) {
@@ -174,19 +156,11 @@ pub fn examine(
     for (&mode, &movement) in kept.iter().zip(&result.movement) {
         reports[mode].movement = Some(movement);
     }
-    Ok(Examination {
-        modes: result.modes,
-        kept,
-        reports,
-    })
+    Ok(Examination { modes: result.modes, kept, reports })
 }
 
 /// Orthogonalizes the modes kept; an error names a mode by its place among all.
-fn orthogonalize_kept(
-    balanced: &ModeSet,
-    kept: &[usize],
-    mass: &DMatrix<f64>,
-) -> Result<Orthogonalized, Error> {
+fn orthogonalize_kept(balanced: &ModeSet, kept: &[usize], mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     orthogonalize(&balanced.select(kept), mass).map_err(|error| match error {
         Error::DependentTestShape { mode } => Error::DependentTestShape { mode: kept[mode] },
         other => other,
@@ -199,9 +173,7 @@ fn most_overlapping(result: &Orthogonalized, limits: &MovementLimits) -> usize {
     let count = result.movement.len();
     let total = |place: usize| -> f64 {
         let others = (0..count).filter(|&other| other != place);
-        others
-            .map(|other| result.overlap[(other, place)].powi(2))
-            .sum()
+        others.map(|other| result.overlap[(other, place)].powi(2)).sum()
     };
     let own = |place: usize| limits.excess(&result.movement[place]);
     (0..count)

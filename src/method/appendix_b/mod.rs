@@ -35,9 +35,7 @@ fn checked_generalized_masses(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<DVec
     check_shape("test mode shapes", &raw.shapes, mass.nrows(), raw.len())?;
     check_finite("test mode shapes", &raw.shapes)?;
     let weighted = mass * &raw.shapes;
-    let masses = DVector::from_fn(raw.len(), |mode, _| {
-        raw.shapes.column(mode).dot(&weighted.column(mode))
-    });
+    let masses = DVector::from_fn(raw.len(), |mode, _| raw.shapes.column(mode).dot(&weighted.column(mode)));
     for mode in 0..raw.len() {
         let owner = || format!("test mode {mode} (from zero)");
         positive("squared circular frequency", owner, raw.omega_squared[mode])?;

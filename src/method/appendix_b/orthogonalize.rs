@@ -71,33 +71,15 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
         shape /= generalized_mass.sqrt();
     }
     let overlap = symmetric_part(&generalized_mass(&unit, mass));
-    let overlap = overlap.map(|entry| {
-        if entry.abs() < OVERLAP_ROUND_OFF {
-            0.0
-        } else {
-            entry
-        }
-    });
-    cholesky(
-        "overlap of the test shapes",
-        &overlap,
-        SMALLEST_INDEPENDENT_PART,
-    )
-    .map_err(|error| match error {
+    let overlap = overlap.map(|entry| if entry.abs() < OVERLAP_ROUND_OFF { 0.0 } else { entry });
+    cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART).map_err(|error| match error {
         Error::NotPositiveDefinite { dof, .. } => Error::DependentTestShape { mode: dof },
         other => other,
     })?;
-    let combined = solve(
-        &DMatrix::from_diagonal(&raw.omega_squared),
-        &overlap,
-        raw.len(),
-    )?;
+    let combined = solve(&DMatrix::from_diagonal(&raw.omega_squared), &overlap, raw.len())?;
     let pairing = pair_modes(&combined.shapes.tr_mul(&overlap))?;
     let combined = paired(&combined, &pairing);
-    let modes = ModeSet {
-        shapes: &unit * combined.shapes,
-        omega_squared: combined.omega_squared,
-    };
+    let modes = ModeSet { shapes: &unit * combined.shapes, omega_squared: combined.omega_squared };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;
     let movement = (0..raw.len())
@@ -106,9 +88,5 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
             shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
         })
         .collect();
-    Ok(Orthogonalized {
-        modes,
-        overlap,
-        movement,
-    })
+    Ok(Orthogonalized { modes, overlap, movement })
 }

@@ -66,22 +66,14 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
-pub fn rigid_body_vectors(
-    motions: &[Motion],
-    dofs: &[MeasuringPoint],
-) -> Result<DMatrix<f64>, Error> {
-    for (what, count) in [
-        ("rigid-body motions", motions.len()),
-        ("dynamic degrees of freedom", dofs.len()),
-    ] {
+pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
+    for (what, count) in [("rigid-body motions", motions.len()), ("dynamic degrees of freedom", dofs.len())] {
         if count == 0 {
             return Err(Error::Empty { what });
         }
     }
     let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| {
-        dofs[i]
-            .direction
-            .dot(&motions[j].displacement(dofs[i].position))
+        dofs[i].direction.dot(&motions[j].displacement(dofs[i].position))
     });
     check_finite("rigid-body vectors", &vectors)?;
     Ok(vectors)

@@ -46,8 +46,7 @@ impl BlockPencil {
                 return Ok(pencil);
             }
             for block in pencil.blocks.iter().filter(|block| block.len() > 1) {
-                let within =
-                    |matrix: &DMatrix<f64>| matrix.select_rows(block).select_columns(block);
+                let within = |matrix: &DMatrix<f64>| matrix.select_rows(block).select_columns(block);
                 let modes = block_modes(&within(&stiffness), &within(&mass), block)?;
                 for (row, &i) in block.iter().enumerate() {
                     for (column, &j) in block.iter().enumerate() {
@@ -62,10 +61,7 @@ impl BlockPencil {
 
     /// $G_{ii}/A_{ii}$, the roots to first order in the rotated basis.
     fn own_roots(&self) -> Result<DVector<f64>, Error> {
-        let roots = self
-            .mass
-            .diagonal()
-            .component_div(&self.stiffness.diagonal());
+        let roots = self.mass.diagonal().component_div(&self.stiffness.diagonal());
         for (mode, &root) in roots.iter().enumerate() {
             check_root(mode, root)?;
         }
@@ -96,12 +92,9 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
     for neighbors in ascending.windows(2) {
         let (smaller, larger) = (neighbors[0], neighbors[1]);
         if roots[larger] - roots[smaller] < separation * roots[larger] {
-            let (joined, apart) =
-                std::mem::take(blocks)
-                    .into_iter()
-                    .partition::<Vec<_>, _>(|block| {
-                        block.contains(&smaller) || block.contains(&larger)
-                    });
+            let (joined, apart) = std::mem::take(blocks)
+                .into_iter()
+                .partition::<Vec<_>, _>(|block| block.contains(&smaller) || block.contains(&larger));
             *blocks = apart;
             blocks.push(joined.concat());
         }
@@ -117,16 +110,9 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
 ///
 /// # Errors
 /// [`Error::LostRoot`] naming the mode of the whole problem when a root is not positive.
-pub(super) fn block_modes(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    block: &[usize],
-) -> Result<Modes, Error> {
+pub(super) fn block_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, block: &[usize]) -> Result<Modes, Error> {
     crate::method::modes::solve(stiffness, mass, block.len()).map_err(|error| match error {
-        Error::NotAVibration { mode, value } => Error::LostRoot {
-            mode: block[mode],
-            value: value.recip(),
-        },
+        Error::NotAVibration { mode, value } => Error::LostRoot { mode: block[mode], value: value.recip() },
         other => other,
     })
 }

@@ -37,11 +37,7 @@ pub struct CloseRootsSettings {
 impl Default for CloseRootsSettings {
     /// Roots within 10 % (5 % in frequency) form a block; roots converged to 1e-13, 60 orders at most.
     fn default() -> Self {
-        Self {
-            separation: 0.1,
-            tolerance: 1e-13,
-            orders: 60,
-        }
+        Self { separation: 0.1, tolerance: 1e-13, orders: 60 }
     }
 }
 
@@ -68,25 +64,13 @@ pub struct SolvedInBlocks {
 /// input; [`Error::Setting`] for a separation outside 0 to 1 or no orders; [`Error::NotPositiveDefinite`] when the
 /// changed mass is not; [`Error::UnsettledRoots`]; [`Error::LostRoot`] when a root loses its sign; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
-pub fn close_roots(
-    change: &ModalChange<f64>,
-    settings: CloseRootsSettings,
-) -> Result<SolvedInBlocks, Error> {
+pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> Result<SolvedInBlocks, Error> {
     check_order(settings.orders)?;
     if !(0.0..=1.0).contains(&settings.separation) {
-        return Err(Error::Setting {
-            name: "separation",
-            expected: "between 0 and 1",
-            found: settings.separation,
-        });
+        return Err(Error::Setting { name: "separation", expected: "between 0 and 1", found: settings.separation });
     }
     let pencil = BlockPencil::new(change, settings.separation)?;
-    let Recursion {
-        mut shapes,
-        block_roots,
-        order,
-        last_change,
-    } = recursion(&pencil, settings)?;
+    let Recursion { mut shapes, block_roots, order, last_change } = recursion(&pencil, settings)?;
     let mut roots = DVector::zeros(change.len());
     for (block, root) in pencil.blocks.iter().zip(block_roots) {
         let span = shapes.select_columns(block);
@@ -106,17 +90,8 @@ pub fn close_roots(
     check_finite("perturbed generalized shapes", &shapes)?;
     apply_sign_rule(&mut shapes);
     Ok(SolvedInBlocks {
-        settled: Settled {
-            perturbed: Perturbed { roots, shapes },
-            order,
-            last_change,
-        }
-        .check(settings.orders)?,
-        blocks: pencil
-            .blocks
-            .into_iter()
-            .filter(|block| block.len() > 1)
-            .collect(),
+        settled: Settled { perturbed: Perturbed { roots, shapes }, order, last_change }.check(settings.orders)?,
+        blocks: pencil.blocks.into_iter().filter(|block| block.len() > 1).collect(),
     })
 }
 
@@ -155,11 +130,9 @@ fn recursion(pencil: &BlockPencil, settings: CloseRootsSettings) -> Result<Recur
         let mass_sums = &mass_coupling * &now.shapes;
         let mut change = 0.0_f64;
         for (block, gamma) in pencil.blocks.iter().zip(&mut now.block_roots) {
-            let sums =
-                stiffness_sums.select_columns(block) * &*gamma - mass_sums.select_columns(block);
+            let sums = stiffness_sums.select_columns(block) * &*gamma - mass_sums.select_columns(block);
             for i in (0..size).filter(|i| !block.contains(i)) {
-                let inverse =
-                    inverse_denominator(stiffness[(i, i)] * &*gamma, mass[(i, i)], (i, block[0]))?;
+                let inverse = inverse_denominator(stiffness[(i, i)] * &*gamma, mass[(i, i)], (i, block[0]))?;
                 let row = -sums.row(i) * inverse;
                 for (column, &mode) in block.iter().enumerate() {
                     now.shapes[(i, mode)] = row[column];
@@ -177,11 +150,7 @@ fn recursion(pencil: &BlockPencil, settings: CloseRootsSettings) -> Result<Recur
         now.order = order;
         if order > 1 {
             now.last_change = change;
-            quiet_orders = if change < settings.tolerance {
-                quiet_orders + 1
-            } else {
-                0
-            };
+            quiet_orders = if change < settings.tolerance { quiet_orders + 1 } else { 0 };
             if quiet_orders == QUIET_ORDERS {
                 break;
             }
@@ -202,15 +171,9 @@ fn inverse_denominator(
         difference[(i, i)] -= own_mass;
     }
     let inverse = difference.try_inverse();
-    let separation = inverse
-        .as_ref()
-        .map_or(0.0, |inverse| 1.0 / (own * inverse.amax()));
+    let separation = inverse.as_ref().map_or(0.0, |inverse| 1.0 / (own * inverse.amax()));
     match inverse {
         Some(inverse) if separation > SMALLEST_SEPARATION => Ok(inverse),
-        _ => Err(Error::CoalescingModes {
-            first: row,
-            second: mode,
-            separation,
-        }),
+        _ => Err(Error::CoalescingModes { first: row, second: mode, separation }),
     }
 }

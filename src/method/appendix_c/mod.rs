@@ -65,11 +65,7 @@ impl<T> Settled<T> {
         if last_change <= LARGEST_UNSETTLED_CHANGE {
             return Ok(self);
         }
-        Err(Error::UnsettledRoots {
-            largest: LARGEST_UNSETTLED_CHANGE,
-            orders,
-            last_change,
-        })
+        Err(Error::UnsettledRoots { largest: LARGEST_UNSETTLED_CHANGE, orders, last_change })
     }
 }
 
@@ -94,18 +90,11 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     for (j, mut shape) in continued.shapes.column_iter_mut().enumerate() {
         let own = shape[j];
         if own.abs() < SMALLEST_SEPARATION {
-            return Err(Error::CoalescingModes {
-                first: j,
-                second: j,
-                separation: own.abs(),
-            });
+            return Err(Error::CoalescingModes { first: j, second: j, separation: own.abs() });
         }
         shape /= own;
     }
-    Ok(Perturbed {
-        roots: continued.omega_squared.map(f64::recip),
-        shapes: continued.shapes,
-    })
+    Ok(Perturbed { roots: continued.omega_squared.map(f64::recip), shapes: continued.shapes })
 }
 
 /// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.
@@ -115,12 +104,7 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
 pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
-    check_shape(
-        "generalized mass change",
-        alpha,
-        shapes.nrows(),
-        shapes.nrows(),
-    )?;
+    check_shape("generalized mass change", alpha, shapes.nrows(), shapes.nrows())?;
     for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
         let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
         let owner = || format!("mode {mode} (from zero)");

@@ -19,10 +19,7 @@ use nalgebra::{DMatrix, DVector};
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
 /// [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
-pub fn first_order(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
+pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
     let k = generalized_stiffness;
@@ -82,12 +79,7 @@ pub fn recursive_1_converged(
         last_change = next_order(generalized_stiffness, beta, &coupling, &mut now)?;
         order += 1;
     }
-    Settled {
-        perturbed: now,
-        order,
-        last_change,
-    }
-    .check(orders)
+    Settled { perturbed: now, order, last_change }.check(orders)
 }
 
 fn without_diagonal(beta: &DMatrix<f64>) -> DMatrix<f64> {
@@ -152,23 +144,13 @@ pub fn recursive_2(
 /// As [`first_order`].
 ///
 /// Source: Van de Vooren, Report V.1366, National Aeronautical Research Institute, Amsterdam (1947).
-pub fn original(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
+pub fn original(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
     let Perturbed { shapes, .. } = first_order(generalized_stiffness, beta)?;
-    Ok(Perturbed {
-        roots: explicit_roots(generalized_stiffness, beta, &shapes)?,
-        shapes,
-    })
+    Ok(Perturbed { roots: explicit_roots(generalized_stiffness, beta, &shapes)?, shapes })
 }
 
 /// Roots from given shapes, $\gamma_i = \lambda_i - \lambda_i S_i/(k_{ii}+S_i)$ (C.24).
-fn explicit_roots(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    shapes: &DMatrix<f64>,
-) -> Result<DVector<f64>, Error> {
+fn explicit_roots(k: &DVector<f64>, beta: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
     let mut roots = DVector::zeros(k.len());
     for i in 0..k.len() {
         let sum = (beta.row(i) * shapes.column(i))[0];
@@ -203,11 +185,7 @@ fn shapes_by_linear_solution(
             .lu()
             .solve(&right)
             .filter(|solution| solution.iter().all(|value| value.is_finite()))
-            .ok_or(Error::CoalescingModes {
-                first: j,
-                second: j,
-                separation: 0.0,
-            })?;
+            .ok_or(Error::CoalescingModes { first: j, second: j, separation: 0.0 })?;
         shapes.set_column(j, &solution.insert_row(j, 1.0));
     }
     Ok(shapes)
@@ -231,31 +209,19 @@ fn quotient(
         return Ok(numerator / difference);
     }
     let separation = (difference / own).abs();
-    Err(Error::CoalescingModes {
-        first: i,
-        second: j,
-        separation,
-    })
+    Err(Error::CoalescingModes { first: i, second: j, separation })
 }
 
 /// Refuses a perturbed root that is not positive and finite.
 pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::LostRoot { mode, value })
-    }
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::LostRoot { mode, value }) }
 }
 
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
     if order > 0 {
         return Ok(());
     }
-    Err(Error::Setting {
-        name: "order",
-        expected: "at least 1",
-        found: 0.0,
-    })
+    Err(Error::Setting { name: "order", expected: "at least 1", found: 0.0 })
 }
 
 /// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.
@@ -265,14 +231,8 @@ pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), E
     }
     check_shape("generalized stiffness change", beta, k.len(), k.len())?;
     check_finite("generalized stiffness change", beta)?;
-    match k
-        .iter()
-        .position(|&value| value <= 0.0 || !value.is_finite())
-    {
+    match k.iter().position(|&value| value <= 0.0 || !value.is_finite()) {
         None => Ok(()),
-        Some(mode) => Err(Error::NotAVibration {
-            mode,
-            value: k[mode],
-        }),
+        Some(mode) => Err(Error::NotAVibration { mode, value: k[mode] }),
     }
 }

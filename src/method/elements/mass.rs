@@ -21,27 +21,15 @@ use nalgebra::Vector3;
 /// Source: the lumped masses of NASTRAN's rods, triangles and quadrilaterals, NASA SP-222; the rule for warped quadrilaterals
 /// from its routine EMADTQ.
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
-    let triangle =
-        |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
+    let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
     match (kind, corners) {
         (ElementKind::Rod, [a, b]) => Ok(vec![0.5 * (b - a).norm(); 2]),
         (ElementKind::Triangle, [a, b, c]) => Ok(vec![triangle(a, b, c) / 3.0; 3]),
         (ElementKind::ShearPanel | ElementKind::Membrane, [a, b, c, d]) => {
-            let at_corner: [f64; 4] = [
-                triangle(d, a, b),
-                triangle(a, b, c),
-                triangle(b, c, d),
-                triangle(c, d, a),
-            ];
+            let at_corner: [f64; 4] = [triangle(d, a, b), triangle(a, b, c), triangle(b, c, d), triangle(c, d, a)];
             let area = 0.5 * (c - a).cross(&(d - b)).norm();
-            Ok(at_corner
-                .iter()
-                .map(|corner| (area + corner) / 6.0)
-                .collect())
+            Ok(at_corner.iter().map(|corner| (area + corner) / 6.0).collect())
         }
-        _ => Err(Error::WrongCornerCount {
-            expected: kind.corner_count(),
-            found: corners.len(),
-        }),
+        _ => Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
     }
 }

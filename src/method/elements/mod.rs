@@ -22,19 +22,12 @@ use nalgebra::{DMatrix, Vector3};
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`], and those of the element's own function.
-pub fn unit_stiffness(
-    kind: ElementKind,
-    corners: &[Vector3<f64>],
-    material: &Material,
-) -> Result<DMatrix<f64>, Error> {
+pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Material) -> Result<DMatrix<f64>, Error> {
     match (kind, corners) {
         (ElementKind::Rod, &[a, b]) => rod::rod([a, b], material.youngs_modulus),
         (ElementKind::Triangle, &[a, b, c]) => triangle::triangle([a, b, c], material),
         (ElementKind::ShearPanel, &[a, b, c, d]) => shear::shear_panel(&[a, b, c, d], material),
         (ElementKind::Membrane, &[a, b, c, d]) => membrane::membrane(&[a, b, c, d], material),
-        _ => Err(Error::WrongCornerCount {
-            expected: kind.corner_count(),
-            found: corners.len(),
-        }),
+        _ => Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
     }
 }

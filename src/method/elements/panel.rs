@@ -38,9 +38,7 @@ pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     let longest = d13.norm().max(d24.norm());
     let ratio = area / (longest * longest);
     if ratio.is_nan() || ratio <= SMALLEST_AREA_RATIO {
-        return Err(Error::ZeroArea {
-            area: if ratio.is_nan() { 0.0 } else { ratio },
-        });
+        return Err(Error::ZeroArea { area: if ratio.is_nan() { 0.0 } else { ratio } });
     }
     let k = normal / (2.0 * area);
     for corner in 0..4 {
@@ -58,9 +56,5 @@ pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
         let from_first = corner - corners[0];
         Vector2::new(from_first.dot(&i), from_first.dot(&j))
     });
-    Ok(MeanPlane {
-        corners: flat,
-        diagonals: [d13, d24],
-        area,
-    })
+    Ok(MeanPlane { corners: flat, diagonals: [d13, d24], area })
 }

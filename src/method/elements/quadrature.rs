@@ -28,10 +28,7 @@ fn legendre(n: usize, s: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, s);
     for m in 2..=n {
         let m = m as f64;
-        (before, value) = (
-            value,
-            ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m,
-        );
+        (before, value) = (value, ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m);
     }
     (value, n as f64 * (s * value - before) / (s * s - 1.0))
 }

@@ -23,10 +23,7 @@ const QUADRATURE_POINTS: usize = 12;
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
 ///
 /// Source: Garvey, "The Quadrilateral Shear Panel", *Aircraft Engineering* 23 (1951), 134; NASA SP-222.
-pub fn shear_panel(
-    corners: &[Vector3<f64>; 4],
-    material: &Material,
-) -> Result<DMatrix<f64>, Error> {
+pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
     let z = energy_coefficient(&plane, material);

@@ -26,17 +26,10 @@ pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatr
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
     let ratio = area / (longest * longest);
     if ratio.is_nan() || ratio <= SMALLEST_AREA_RATIO {
-        return Err(Error::ZeroArea {
-            area: if ratio.is_nan() { 0.0 } else { ratio },
-        });
+        return Err(Error::ZeroArea { area: if ratio.is_nan() { 0.0 } else { ratio } });
     }
     let strain = strain_matrix(corners, normal / (2.0 * area), area);
-    let Material {
-        youngs_modulus,
-        poissons_ratio: nu,
-        shear_modulus,
-        ..
-    } = *material;
+    let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
     Ok(area * strain.transpose() * (elasticity * &strain))

@@ -9,9 +9,7 @@ pub use parameters::{Parameter, Range, Scaled};
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_symmetric, cholesky,
-};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
 use nalgebra::DMatrix;
@@ -68,27 +66,15 @@ impl FiniteElementModel {
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
         let dof_count = load_distribution.ncols();
-        check_shape(
-            "load distribution",
-            &load_distribution,
-            structure.free_dof().len(),
-            dof_count,
-        )?;
+        check_shape("load distribution", &load_distribution, structure.free_dof().len(), dof_count)?;
         check_finite("load distribution", &load_distribution)?;
         check_shape("dynamic mass", &mass, dof_count, dof_count)?;
         check_symmetric("dynamic mass", &mass)?;
-        if structure
-            .elements()
-            .iter()
-            .all(|element| element.material.density == 0.0)
-        {
+        if structure.elements().iter().all(|element| element.material.density == 0.0) {
             cholesky("dynamic mass", &mass, 0.0)?;
         }
         let members = resolve(&structure, dof_count, &parameters)?;
-        for point in members
-            .iter()
-            .filter(|members| members.kind == MemberKind::PointMass)
-        {
+        for point in members.iter().filter(|members| members.kind == MemberKind::PointMass) {
             for &dof in &point.rows {
                 // The diagonal entry alone is scaled, so it must be the whole of the mass.
                 if (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0) {
@@ -159,8 +145,7 @@ impl FiniteElementModel {
                 return Ok(None);
             }
             let own = parameter.factor_range;
-            let (mut lower, mut upper) =
-                own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
+            let (mut lower, mut upper) = own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
             if let Some(range) = parameter.size_range {
                 for &row in &members.rows {
                     let size = self.structure.elements()[row].size;
@@ -170,17 +155,9 @@ impl FiniteElementModel {
             }
             let what = format!("factor of parameter {}", parameter.name);
             let factors = Range::positive(&what, lower, upper)?;
-            if factors.contains(1.0) {
-                Ok(Some(factors))
-            } else {
-                Err(Error::Limits { what, lower, upper })
-            }
+            if factors.contains(1.0) { Ok(Some(factors)) } else { Err(Error::Limits { what, lower, upper }) }
         };
-        self.parameters
-            .iter()
-            .zip(&self.members)
-            .map(bounds)
-            .collect()
+        self.parameters.iter().zip(&self.members).map(bounds).collect()
     }
 
     /// Gage or area of every element for its stiffness at the given parameter factors, in the structure's order.
@@ -206,35 +183,20 @@ impl FiniteElementModel {
     pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
         let ones = vec![1.0; self.mass.nrows()];
         let mut mass = self.mass.clone();
-        for (dof, factor) in self
-            .scaled(ones, MemberKind::PointMass, factors)?
-            .iter()
-            .enumerate()
-        {
+        for (dof, factor) in self.scaled(ones, MemberKind::PointMass, factors)?.iter().enumerate() {
             mass[(dof, dof)] *= factor;
         }
         Ok(mass)
     }
 
     fn first_sizes(&self) -> Vec<f64> {
-        self.structure
-            .elements()
-            .iter()
-            .map(|element| element.size)
-            .collect()
+        self.structure.elements().iter().map(|element| element.size).collect()
     }
 
     /// `values` of one kind times the factors of the parameters that scale them.
-    fn scaled(
-        &self,
-        mut values: Vec<f64>,
-        kind: MemberKind,
-        factors: &[f64],
-    ) -> Result<Vec<f64>, Error> {
+    fn scaled(&self, mut values: Vec<f64>, kind: MemberKind, factors: &[f64]) -> Result<Vec<f64>, Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
-        for ((members, &factor), parameter) in
-            self.members.iter().zip(factors).zip(&self.parameters)
-        {
+        for ((members, &factor), parameter) in self.members.iter().zip(factors).zip(&self.parameters) {
             let owner = || format!("parameter {}", parameter.name);
             crate::method::structure::positive("factor", owner, factor)?;
             if members.kind == kind {
@@ -260,24 +222,14 @@ impl FiniteElementModel {
         let point_mass = self.point_masses(factors)?;
         let free = self.structure.free_dof();
         let structural = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
-        let Condensed {
-            stiffness,
-            transformation,
-        } = condense(&structural, &self.load_distribution)?;
+        let Condensed { stiffness, transformation } = condense(&structural, &self.load_distribution)?;
         let mut mass = point_mass.clone();
         for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
             if element.unit_mass.amax() > 0.0 {
                 mass += size * generalized_mass(&transformation, element);
             }
         }
-        Ok(CondensedModel {
-            stiffness,
-            mass,
-            transformation,
-            sizes,
-            mass_sizes,
-            point_mass,
-        })
+        Ok(CondensedModel { stiffness, mass, transformation, sizes, mass_sizes, point_mass })
     }
 
     /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m), by the rows of each element's own DOF alone:
@@ -320,21 +272,10 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`] and [`ModalModel::new`].
-    pub fn analyze(
-        &self,
-        factors: &[f64],
-        test: &ModeSet,
-        analysis_modes: Option<usize>,
-    ) -> Result<ModalModel, Error> {
+    pub fn analyze(&self, factors: &[f64], test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
-        ModalModel::new(
-            &condensed.stiffness,
-            &condensed.mass,
-            test,
-            analysis_modes,
-            through,
-        )
+        ModalModel::new(&condensed.stiffness, &condensed.mass, test, analysis_modes, through)
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d), for those who look at whole matrices.
@@ -345,11 +286,7 @@ impl FiniteElementModel {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
         let shares = self.shares(&condensed, &identity);
-        Ok(DynamicModel {
-            stiffness: condensed.stiffness,
-            mass: condensed.mass,
-            shares,
-        })
+        Ok(DynamicModel { stiffness: condensed.stiffness, mass: condensed.mass, shares })
     }
 
     /// The exact modes at the given parameter factors, at the dynamic DOF.
@@ -358,10 +295,6 @@ impl FiniteElementModel {
     /// Those of [`Self::condense`] and [`solve`].
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
         let condensed = self.condense(factors)?;
-        solve(
-            &condensed.stiffness,
-            &condensed.mass,
-            condensed.mass.nrows(),
-        )
+        solve(&condensed.stiffness, &condensed.mass, condensed.mass.nrows())
     }
 }

@@ -58,22 +58,13 @@ impl DynamicModel {
     ///
     /// # Errors
     /// Those of [`ModalModel::new`]; [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
-    pub fn analyze(
-        &self,
-        test: &ModeSet,
-        analysis_modes: Option<usize>,
-    ) -> Result<ModalModel, Error> {
+    pub fn analyze(&self, test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
             check_shape("parameter share", share.matrix(), dof_count, dof_count)?;
             check_symmetric("parameter share", share.matrix())?;
         }
-        let through = |shapes: &DMatrix<f64>| {
-            self.shares
-                .iter()
-                .map(|share| share.through(shapes))
-                .collect()
-        };
+        let through = |shapes: &DMatrix<f64>| self.shares.iter().map(|share| share.through(shapes)).collect();
         ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, through)
     }
 }
@@ -129,22 +120,15 @@ impl ModalModel {
         let pairing = pair_modes(&cross)?;
         // Both sets of shapes go through an element at once; the two diagonal blocks of the result are what is wanted.
         let (count, test_count) = (modes.len(), test.len());
-        let mut both = modes
-            .shapes
-            .clone()
-            .resize_horizontally(count + test_count, 0.0);
+        let mut both = modes.shapes.clone().resize_horizontally(count + test_count, 0.0);
         both.columns_mut(count, test_count).copy_from(&test.shapes);
         let through_both = shares(&both);
         if through_both.is_empty() {
             return Err(Error::Empty { what: "parameters" });
         }
         let omega = test.omega_squared.map(f64::sqrt);
-        let block = |matrix: &DMatrix<f64>, first, size| {
-            matrix.view((first, first), (size, size)).into_owned()
-        };
-        let shares = through_both
-            .iter()
-            .map(|share| share.with(block(share.matrix(), 0, count)));
+        let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
+        let shares = through_both.iter().map(|share| share.with(block(share.matrix(), 0, count)));
         let test_shares = through_both.iter().map(|share| {
             let on_test = block(share.matrix(), count, test_count);
             match share {

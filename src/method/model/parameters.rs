@@ -23,11 +23,7 @@ impl Range {
         if lower > 0.0 && upper > lower && upper.is_finite() {
             Ok(Self { lower, upper })
         } else {
-            Err(Error::Limits {
-                what: what.to_owned(),
-                lower,
-                upper,
-            })
+            Err(Error::Limits { what: what.to_owned(), lower, upper })
         }
     }
 
@@ -75,10 +71,7 @@ pub struct Parameter {
 impl Parameter {
     /// The stiffness of one element, named by its number.
     pub fn element(label: usize, size_range: Option<Range>) -> Self {
-        Self {
-            size_range,
-            ..Self::of(&label.to_string(), Scaled::Stiffness(vec![label]))
-        }
+        Self { size_range, ..Self::of(&label.to_string(), Scaled::Stiffness(vec![label])) }
     }
 
     /// The stiffness of a group of elements.
@@ -88,12 +81,7 @@ impl Parameter {
 
     /// Anything, without bounds.
     pub fn of(name: &str, scaled: Scaled) -> Self {
-        Self {
-            name: name.to_owned(),
-            scaled,
-            size_range: None,
-            factor_range: None,
-        }
+        Self { name: name.to_owned(), scaled, size_range: None, factor_range: None }
     }
 }
 
@@ -131,9 +119,7 @@ pub(crate) fn resolve(
         return Err(Error::Empty { what: "parameters" });
     }
     let elements = structure.elements().iter().enumerate();
-    let row_of: HashMap<usize, usize> = elements
-        .map(|(row, element)| (element.label, row))
-        .collect();
+    let row_of: HashMap<usize, usize> = elements.map(|(row, element)| (element.label, row)).collect();
     let mut owner: HashMap<(MemberKind, usize), &str> = HashMap::new();
     let mut resolved = Vec::with_capacity(parameters.len());
     for parameter in parameters {
@@ -143,9 +129,7 @@ pub(crate) fn resolve(
             Scaled::PointMass(members) => (MemberKind::PointMass, members),
         };
         if members.is_empty() {
-            return Err(Error::Empty {
-                what: "members of a parameter",
-            });
+            return Err(Error::Empty { what: "members of a parameter" });
         }
         let mut rows = Vec::with_capacity(members.len());
         for &member in members {
@@ -153,23 +137,14 @@ pub(crate) fn resolve(
             let row = match kind {
                 MemberKind::PointMass if member < dynamic_dof => member,
                 MemberKind::PointMass => {
-                    return Err(Error::UnknownDynamicDof {
-                        parameter: name(),
-                        found: member,
-                        count: dynamic_dof,
-                    });
+                    return Err(Error::UnknownDynamicDof { parameter: name(), found: member, count: dynamic_dof });
                 }
-                _ => *row_of.get(&member).ok_or_else(|| Error::UnknownElement {
-                    parameter: name(),
-                    element: member,
-                })?,
+                _ => {
+                    *row_of.get(&member).ok_or_else(|| Error::UnknownElement { parameter: name(), element: member })?
+                }
             };
             if let Some(first) = owner.insert((kind, row), &parameter.name) {
-                return Err(Error::SharedElement {
-                    element: member,
-                    first: first.to_owned(),
-                    second: name(),
-                });
+                return Err(Error::SharedElement { element: member, first: first.to_owned(), second: name() });
             }
             rows.push(row);
         }

@@ -2,8 +2,8 @@
 
 use super::box_points::axes;
 use super::canvas::{
-    Area, BLUE, Drawn, INK, LETTERS, Letters, PALE, Pen, SKY, SMALL, Side, WIDTH, between, line,
-    outline, polygon, rectangle, svg, write,
+    Area, BLUE, Drawn, INK, LETTERS, Letters, PALE, Pen, SKY, SMALL, Side, WIDTH, between, line, outline, polygon,
+    rectangle, svg, write,
 };
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
@@ -61,12 +61,7 @@ pub fn box_elements(case: &Case) -> Result<BoxElements, PresentError> {
             } else {
                 Layer::Webs
             };
-            DrawnElement {
-                label: element.label,
-                kind: element.kind,
-                corners,
-                layer,
-            }
+            DrawnElement { label: element.label, kind: element.kind, corners, layer }
         })
         .collect();
     Ok(BoxElements { elements })
@@ -83,11 +78,8 @@ impl BoxElements {
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let corners: Vec<Vector3<f64>> = self
-            .elements
-            .iter()
-            .flat_map(|element| element.corners.iter().copied())
-            .collect();
+        let corners: Vec<Vector3<f64>> =
+            self.elements.iter().flat_map(|element| element.corners.iter().copied()).collect();
         // All three layers at the scale at which the webs, the highest, fill the width.
         let fitted = View::fitted(&corners, DEPTH_DRAWN, [20.0, 0.0, 720.0, 460.0]);
         for (layer, name, top) in [
@@ -107,21 +99,10 @@ impl BoxElements {
 
     /// One layer, its highest point at `top`.
     fn layer_on(&self, area: &Area, fitted: View, (layer, name, top): (Layer, &str, f64)) -> Drawn {
-        let heights = if layer == Layer::Webs {
-            DEPTH_DRAWN
-        } else {
-            0.0
-        };
+        let heights = if layer == Layer::Webs { DEPTH_DRAWN } else { 0.0 };
         let mut view = View { heights, ..fitted };
-        let mut elements: Vec<&DrawnElement> = self
-            .elements
-            .iter()
-            .filter(|element| element.layer == layer)
-            .collect();
-        let places = elements
-            .iter()
-            .flat_map(|element| &element.corners)
-            .map(|&corner| view.place(corner));
+        let mut elements: Vec<&DrawnElement> = self.elements.iter().filter(|element| element.layer == layer).collect();
+        let places = elements.iter().flat_map(|element| &element.corners).map(|&corner| view.place(corner));
         let highest = places.clone().map(|at| at.1).fold(f64::INFINITY, f64::min);
         let leftmost = places.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         view.origin.1 += top - highest;
@@ -153,11 +134,7 @@ fn nearness(element: &DrawnElement) -> f64 {
 }
 
 fn draw_element(area: &Area, view: &View, element: &DrawnElement) -> Drawn {
-    let corners: Vec<_> = element
-        .corners
-        .iter()
-        .map(|&corner| view.place(corner))
-        .collect();
+    let corners: Vec<_> = element.corners.iter().map(|&corner| view.place(corner)).collect();
     if element.kind == ElementKind::Rod {
         return line(area, &corners, Pen::solid(BLUE, 2.2));
     }
@@ -170,29 +147,14 @@ fn write_element(area: &Area, view: &View, element: &DrawnElement) -> Drawn {
     let number = element.label.to_string();
     if element.kind == ElementKind::Rod {
         let (x, y) = view.place(middle);
-        rectangle(
-            area,
-            (x - 8.0, y - 6.5),
-            (x + 8.0, y + 6.5),
-            plotters::style::WHITE,
-        )?;
+        rectangle(area, (x - 8.0, y - 6.5), (x + 8.0, y + 6.5), plotters::style::WHITE)?;
         let letters = Letters::new(SMALL, Side::Center).color(BLUE);
         return write(area, &number, (x, y), letters);
     }
     // A web is numbered near its upper edge, which nothing hides.
     if element.layer == Layer::Webs {
-        let half_depth = element
-            .corners
-            .iter()
-            .map(|corner| corner.z.abs())
-            .sum::<f64>()
-            / 4.0;
+        let half_depth = element.corners.iter().map(|corner| corner.z.abs()).sum::<f64>() / 4.0;
         middle.z += 0.42 * half_depth;
     }
-    write(
-        area,
-        &number,
-        view.place(middle),
-        Letters::new(14.0, Side::Center).bold(),
-    )
+    write(area, &number, view.place(middle), Letters::new(14.0, Side::Center).bold())
 }

@@ -1,8 +1,7 @@
 //! The box with its structural and dynamic points (Figure 2).
 
 use super::canvas::{
-    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, Pen, SILVER, SMALL, Side, VERMILION, WIDTH,
-    line, mark, svg, write,
+    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, Pen, SILVER, SMALL, Side, VERMILION, WIDTH, line, mark, svg, write,
 };
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
@@ -42,17 +41,10 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
         .structure()
         .grids()
         .iter()
-        .map(|grid| StructuralPoint {
-            grid: grid.label,
-            position: grid.position,
-            fixed: grid.constrained == [true; 3],
-        })
+        .map(|grid| StructuralPoint { grid: grid.label, position: grid.position, fixed: grid.constrained == [true; 3] })
         .collect();
-    let dynamic = Planform::of(&case.reconstruction)
-        .dynamic_points()
-        .into_iter()
-        .map(|[x, y]| Vector3::new(x, y, 0.0))
-        .collect();
+    let dynamic =
+        Planform::of(&case.reconstruction).dynamic_points().into_iter().map(|[x, y]| Vector3::new(x, y, 0.0)).collect();
     let mut edges: Vec<[usize; 2]> = Vec::new();
     for panel in &case.panels {
         for (k, &from) in panel.grids.iter().enumerate() {
@@ -63,11 +55,7 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
             }
         }
     }
-    Ok(BoxPoints {
-        structural,
-        dynamic,
-        edges,
-    })
+    Ok(BoxPoints { structural, dynamic, edges })
 }
 
 const STRUCTURAL: (Form, f64) = (Form::Circle, 4.0);
@@ -87,10 +75,7 @@ impl BoxPoints {
         let positions: Vec<_> = self.structural.iter().map(|point| point.position).collect();
         let view = View::fitted(&positions, DEPTH_DRAWN, [40.0, 24.0, 680.0, 420.0]);
         let at = |grid: usize| {
-            self.structural
-                .iter()
-                .find(|point| point.grid == grid)
-                .map(|point| view.place(point.position))
+            self.structural.iter().find(|point| point.grid == grid).map(|point| view.place(point.position))
         };
         for &[from, to] in &self.edges {
             if let (Some(a), Some(b)) = (at(from), at(to)) {
@@ -120,11 +105,7 @@ impl BoxPoints {
         }
         for point in &self.structural {
             let (x, y) = view.place(point.position);
-            let fill = if point.fixed {
-                INK
-            } else {
-                plotters::style::WHITE
-            };
+            let fill = if point.fixed { INK } else { plotters::style::WHITE };
             mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
             // Away from the lines: rear points are numbered to the lower right, front ones above or below.
             let (place, side) = match point.grid % 4 {
@@ -148,25 +129,14 @@ impl BoxPoints {
     fn legend(&self, area: &Area) -> Drawn {
         let (x, mut y) = (430.0, 400.0);
         let words = Letters::new(LETTERS, Side::Right);
-        let fixed = [
-            (
-                plotters::style::WHITE,
-                "structural point: x, y and z motion",
-            ),
-            (INK, "structural point, fixed"),
-        ];
+        let fixed = [(plotters::style::WHITE, "structural point: x, y and z motion"), (INK, "structural point, fixed")];
         for (fill, text) in fixed {
             mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
             write(area, text, (x + 12.0, y), words)?;
             y += 20.0;
         }
         mark_dynamic(area, (x, y))?;
-        write(
-            area,
-            "dynamic point at mid-depth: z motion",
-            (x + 12.0, y),
-            words,
-        )?;
+        write(area, "dynamic point at mid-depth: z motion", (x + 12.0, y), words)?;
         let note = format!("Depth drawn {DEPTH_DRAWN:.0} times as large as the plan.");
         write(area, &note, (x - 5.0, y + 22.0), words)
     }
@@ -174,11 +144,7 @@ impl BoxPoints {
 
 /// The three directions, with the length that stands for five inches of plan.
 pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
-    let view = View {
-        origin,
-        scale: 11.0,
-        heights: 1.0,
-    };
+    let view = View { origin, scale: 11.0, heights: 1.0 };
     for (direction, name, side, shift) in [
         (Vector3::x(), "x, aft", Side::Right, (6.0, 4.0)),
         (Vector3::y(), "y, outboard", Side::Right, (6.0, -4.0)),
@@ -186,13 +152,7 @@ pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
     ] {
         let (x, y) = view.place(5.0 * direction);
         line(area, &[origin, (x, y)], Pen::solid(INK, 1.2))?;
-        mark(
-            area,
-            (x, y),
-            (Form::Circle, 1.8),
-            Some(INK),
-            Pen::solid(INK, 1.0),
-        )?;
+        mark(area, (x, y), (Form::Circle, 1.8), Some(INK), Pen::solid(INK, 1.0))?;
         let letters = Letters::new(SMALL, side);
         write(area, name, (x + shift.0, y + shift.1), letters)?;
     }
@@ -200,11 +160,5 @@ pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
 }
 
 fn mark_dynamic(area: &Area, at: (f64, f64)) -> Drawn {
-    mark(
-        area,
-        at,
-        DYNAMIC,
-        Some(VERMILION),
-        Pen::solid(VERMILION, 1.2),
-    )
+    mark(area, at, DYNAMIC, Some(VERMILION), Pen::solid(VERMILION, 1.2))
 }

@@ -109,13 +109,7 @@ pub(super) struct Letters {
 
 impl Letters {
     pub fn new(height: f64, side: Side) -> Self {
-        Self {
-            height,
-            color: INK,
-            bold: false,
-            side,
-            upward: false,
-        }
+        Self { height, color: INK, bold: false, side, upward: false }
     }
 
     pub fn bold(self) -> Self {
@@ -128,16 +122,8 @@ impl Letters {
 
     /// In the library's terms.
     pub fn style(self) -> TextStyle<'static> {
-        let weight = if self.bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
-        };
-        let mut font = FontDesc::new(
-            FontFamily::Name(FACE),
-            UNITS * LETTER_SCALE * self.height,
-            weight,
-        );
+        let weight = if self.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let mut font = FontDesc::new(FontFamily::Name(FACE), UNITS * LETTER_SCALE * self.height, weight);
         if self.upward {
             font = font.transform(FontTransform::Rotate270);
         }
@@ -147,11 +133,7 @@ impl Letters {
             Side::Left => HPos::Right,
         };
         let style: TextStyle<'static> = font.into();
-        TextStyle {
-            color: self.color.to_backend_color(),
-            pos: Pos::new(across, VPos::Center),
-            ..style
-        }
+        TextStyle { color: self.color.to_backend_color(), pos: Pos::new(across, VPos::Center), ..style }
     }
 }
 
@@ -169,10 +151,7 @@ pub(super) fn svg(
         area.fill(&WHITE)
             .and_then(|()| draw(&area))
             .and_then(|()| area.present())
-            .map_err(|error| Error::Drawing {
-                figure: name.to_owned(),
-                found: error.to_string(),
-            })?;
+            .map_err(|error| Error::Drawing { figure: name.to_owned(), found: error.to_string() })?;
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let (across, down) = size;
@@ -189,12 +168,7 @@ pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
         Dash::Dashed => (7.0, 3.5),
         Dash::Dotted => (1.5, 2.5),
     };
-    area.draw(&DashedPathElement::new(
-        points,
-        units(on),
-        units(off),
-        pen.style(),
-    ))
+    area.draw(&DashedPathElement::new(points, units(on), units(off), pen.style()))
 }
 
 pub(super) fn polygon(area: &Area, points: &[Place], fill: RGBColor) -> Drawn {
@@ -213,25 +187,14 @@ pub(super) fn rectangle(area: &Area, from: Place, to: Place, fill: RGBColor) -> 
 }
 
 /// A bar of a bar chart between two opposite corners.
-pub(super) fn bar(
-    area: &Area,
-    (left, top): Place,
-    (right, bottom): Place,
-    fill: RGBColor,
-) -> Drawn {
+pub(super) fn bar(area: &Area, (left, top): Place, (right, bottom): Place, fill: RGBColor) -> Drawn {
     rectangle(area, (left, top), (right, bottom), fill)?;
     let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
     outline(area, &corners, Pen::solid(INK, 0.7))
 }
 
 /// A mark of a form, its size the radius of the circle; open when it has no fill.
-pub(super) fn mark(
-    area: &Area,
-    at: Place,
-    (form, size): (Form, f64),
-    fill: Option<RGBColor>,
-    pen: Pen,
-) -> Drawn {
+pub(super) fn mark(area: &Area, at: Place, (form, size): (Form, f64), fill: Option<RGBColor>, pen: Pen) -> Drawn {
     let (x, y) = at;
     if form == Form::Circle {
         let radius = units(size);
@@ -244,10 +207,7 @@ pub(super) fn mark(
         Form::Square => [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)].to_vec(),
         _ => [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)].to_vec(),
     };
-    let corners: Vec<Place> = corners
-        .iter()
-        .map(|(dx, dy)| (x + size * dx, y + size * dy))
-        .collect();
+    let corners: Vec<Place> = corners.iter().map(|(dx, dy)| (x + size * dx, y + size * dy)).collect();
     if let Some(fill) = fill {
         polygon(area, &corners, fill)?;
     }
@@ -259,29 +219,18 @@ const SET_HIGH: f64 = 0.1;
 
 pub(super) fn write(area: &Area, text: &str, at: Place, letters: Letters) -> Drawn {
     let lower = SET_HIGH * letters.height;
-    let at = if letters.upward {
-        (at.0 + lower, at.1)
-    } else {
-        (at.0, at.1 + lower)
-    };
+    let at = if letters.upward { (at.0 + lower, at.1) } else { (at.0, at.1 + lower) };
     area.draw(&Text::new(text.to_owned(), place(at), letters.style()))
 }
 
 /// The name of a vertical axis, along the left edge.
 pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
-    let letters = Letters {
-        upward: true,
-        ..Letters::new(LETTERS, Side::Center)
-    };
+    let letters = Letters { upward: true, ..Letters::new(LETTERS, Side::Center) };
     write(area, text, (13.0, middle), letters)
 }
 
 /// A color between two, the second's share from 0 to 1.
 pub(super) fn between(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
     let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
-    RGBColor(
-        mix(one.0, other.0),
-        mix(one.1, other.1),
-        mix(one.2, other.2),
-    )
+    RGBColor(mix(one.0, other.0), mix(one.1, other.1), mix(one.2, other.2))
 }

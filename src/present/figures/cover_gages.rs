@@ -1,8 +1,8 @@
 //! Gages of the covers in the test configuration and at each case's start (Figure 4).
 
 use super::canvas::{
-    Area, Drawn, INK, LETTERS, Letters, ORANGE, Pen, Place, SKY, SMALL, Side, WIDTH, between,
-    outline, polygon, svg, write,
+    Area, Drawn, INK, LETTERS, Letters, ORANGE, Pen, Place, SKY, SMALL, Side, WIDTH, between, outline, polygon, svg,
+    write,
 };
 use super::planform::PlanPoint;
 use super::view::Plan;
@@ -63,15 +63,11 @@ pub fn cover_gages(cases: &[Case]) -> CoverGages {
     };
     let mut configurations = Vec::new();
     if let Some(first) = cases.first() {
-        configurations.push(Configuration {
-            name: "GVT".to_owned(),
-            covers: covers(first, true),
-        });
+        configurations.push(Configuration { name: "GVT".to_owned(), covers: covers(first, true) });
     }
-    configurations.extend(cases.iter().map(|case| Configuration {
-        name: format!("Case {}", case.number),
-        covers: covers(case, false),
-    }));
+    configurations.extend(
+        cases.iter().map(|case| Configuration { name: format!("Case {}", case.number), covers: covers(case, false) }),
+    );
     CoverGages { configurations }
 }
 
@@ -101,19 +97,15 @@ impl CoverGages {
             write(area, &configuration.name, (14.0, top + 0.5 * ROW), name)?;
             for cover in &configuration.covers {
                 let left = if cover.upper { 88.0 } else { 424.0 };
-                let corners: Vec<PlanPoint> = configuration
-                    .covers
-                    .iter()
-                    .flat_map(|cover| cover.corners.iter().copied())
-                    .collect();
+                let corners: Vec<PlanPoint> =
+                    configuration.covers.iter().flat_map(|cover| cover.corners.iter().copied()).collect();
                 let plan = Plan::fitted(&corners, [left, top + 4.0, 322.0, ROW - 14.0]);
                 draw_cover(area, cover, &plan)?;
             }
             top += ROW;
         }
         let note = Letters::new(LETTERS, Side::Right);
-        let text =
-            "In each panel: element number, S shear panel or M membrane, and gage in inches.";
+        let text = "In each panel: element number, S shear panel or M membrane, and gage in inches.";
         write(area, text, (14.0, top + 16.0), note)?;
         let mut left = 14.0;
         for (text, gage, width) in [
@@ -133,11 +125,7 @@ impl CoverGages {
 }
 
 fn draw_cover(area: &Area, cover: &Cover, plan: &Plan) -> Drawn {
-    let corners: Vec<Place> = cover
-        .corners
-        .iter()
-        .map(|&corner| plan.place(corner))
-        .collect();
+    let corners: Vec<Place> = cover.corners.iter().map(|&corner| plan.place(corner)).collect();
     polygon(area, &corners, shade(cover.gage))?;
     outline(area, &corners, Pen::solid(INK, 1.0))?;
     let count = corners.len() as f64;
@@ -149,27 +137,13 @@ fn draw_cover(area: &Area, cover: &Cover, plan: &Plan) -> Drawn {
         Some(_) => " S",
     };
     let name = format!("{}{kind}", cover.label);
-    write(
-        area,
-        &name,
-        (x, y - 7.0),
-        Letters::new(SMALL, Side::Center).bold(),
-    )?;
-    write(
-        area,
-        &gage_text(cover.gage),
-        (x, y + 7.0),
-        Letters::new(SMALL, Side::Center),
-    )
+    write(area, &name, (x, y - 7.0), Letters::new(SMALL, Side::Center).bold())?;
+    write(area, &gage_text(cover.gage), (x, y + 7.0), Letters::new(SMALL, Side::Center))
 }
 
 /// A gage in inches, with the decimals it needs.
 fn gage_text(gage: f64) -> String {
-    if gage < 0.001 {
-        format!("{gage:.4}")
-    } else {
-        format!("{gage:.3}")
-    }
+    if gage < 0.001 { format!("{gage:.4}") } else { format!("{gage:.3}") }
 }
 
 /// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.

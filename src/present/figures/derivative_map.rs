@@ -42,12 +42,7 @@ pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, PresentError
         share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
     });
     let error_sum = DMatrix::from_fn(rows, 1, |e, _| error_changes[e] / DERIVATIVE_STEP);
-    Ok(DerivativeMap {
-        case: result.case.number,
-        parameters: result.parameter_names.clone(),
-        frequency,
-        error_sum,
-    })
+    Ok(DerivativeMap { case: result.case.number, parameters: result.parameter_names.clone(), frequency, error_sum })
 }
 
 impl DerivativeMap {
@@ -63,9 +58,7 @@ impl DerivativeMap {
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let modes = (1..=self.frequency.ncols())
-            .map(|mode| mode.to_string())
-            .collect();
+        let modes = (1..=self.frequency.ncols()).map(|mode| mode.to_string()).collect();
         HeatMap {
             values: &self.frequency.map(Some),
             title: "Percent of frequency for one percent of stiffness",
@@ -94,17 +87,12 @@ impl DerivativeMap {
         .draw(area, (612.0, 64.0))?;
         let bottom = 64.0 + 26.0 * self.parameters.len() as f64;
         let words = Letters::new(LETTERS, Side::Right);
-        let note =
-            "An empty cell rounds to zero. Red is negative: more of that panel lowers the error.";
+        let note = "An empty cell rounds to zero. Red is negative: more of that panel lowers the error.";
         write(area, note, (66.0, bottom + 24.0), words)
     }
 }
 
 fn decimals(value: f64) -> String {
     let text = format!("{value:.2}");
-    if text.trim_start_matches('-') == "0.00" {
-        String::new()
-    } else {
-        text.replace('-', "−")
-    }
+    if text.trim_start_matches('-') == "0.00" { String::new() } else { text.replace('-', "−") }
 }

@@ -1,8 +1,8 @@
 //! Gage errors of every panel, at the start and after each pass.
 
 use super::canvas::{
-    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, WIDTH, bar,
-    between, line, mark, name_upright, svg, units, write,
+    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, ORANGE, PALE, Pen, SKY, Side, WIDTH, bar, between, line, mark,
+    name_upright, svg, units, write,
 };
 use crate::cases::CaseResult;
 use crate::present::error::PresentError;
@@ -38,10 +38,8 @@ pub struct GageErrors {
 /// Those of [`gage_table`].
 pub fn gage_errors(result: &CaseResult) -> Result<GageErrors, PresentError> {
     let table = gage_table(result)?;
-    let panels: Vec<(String, String)> = table.rows[..result.case.panels.len()]
-        .iter()
-        .map(|row| (row.label.clone(), text(&row.cells[0])))
-        .collect();
+    let panels: Vec<(String, String)> =
+        table.rows[..result.case.panels.len()].iter().map(|row| (row.label.clone(), text(&row.cells[0]))).collect();
     let stages = table
         .columns
         .iter()
@@ -51,11 +49,7 @@ pub fn gage_errors(result: &CaseResult) -> Result<GageErrors, PresentError> {
             Some(stage(&table, name, column, panels.len()))
         })
         .collect();
-    Ok(GageErrors {
-        case: result.case.number,
-        panels,
-        stages,
-    })
+    Ok(GageErrors { case: result.case.number, panels, stages })
 }
 
 fn text(cell: &Cell) -> String {
@@ -69,19 +63,11 @@ fn stage(table: &Table, name: &str, column: usize, count: usize) -> Stage {
     let (computed, published) = table.rows[..count]
         .iter()
         .filter_map(|row| match row.cells[column] {
-            Cell::Number {
-                computed,
-                published,
-                ..
-            } => Some((computed, published)),
+            Cell::Number { computed, published, .. } => Some((computed, published)),
             _ => None,
         })
         .unzip();
-    Stage {
-        name: name.to_owned(),
-        computed,
-        published,
-    }
+    Stage { name: name.to_owned(), computed, published }
 }
 
 const HEIGHT: f64 = 400.0;
@@ -104,21 +90,13 @@ impl GageErrors {
         let values = || {
             let each = |stage: &Stage| {
                 let published = stage.published.iter().copied().flatten();
-                stage
-                    .computed
-                    .iter()
-                    .copied()
-                    .chain(published)
-                    .collect::<Vec<_>>()
+                stage.computed.iter().copied().chain(published).collect::<Vec<_>>()
             };
             self.stages.iter().flat_map(each)
         };
         let least = values().fold(0.0, f64::min);
         let most = values().fold(0.0, f64::max);
-        (
-            10.0 * (least / 10.0 - 0.1).floor(),
-            10.0 * (most / 10.0 + 0.1).ceil(),
-        )
+        (10.0 * (least / 10.0 - 0.1).floor(), 10.0 * (most / 10.0 + 0.1).ceil())
     }
 
     fn on(&self, area: &Area) -> Drawn {
@@ -148,16 +126,9 @@ impl GageErrors {
         let plot = chart.plotting_area();
         let place = |x: f64, percent: f64| {
             let (x, y) = plot.map_coordinate(&(x, percent));
-            (
-                f64::from(x) / f64::from(units(1.0)),
-                f64::from(y) / f64::from(units(1.0)),
-            )
+            (f64::from(x) / f64::from(units(1.0)), f64::from(y) / f64::from(units(1.0)))
         };
-        name_upright(
-            area,
-            "gage error, percent of 0.010 in",
-            0.5 * (HEIGHT + top - bottom),
-        )?;
+        name_upright(area, "gage error, percent of 0.010 in", 0.5 * (HEIGHT + top - bottom))?;
         for (row, (label, kind)) in self.panels.iter().enumerate() {
             let (x, y) = place(row as f64 + 0.5, low);
             write(area, &format!("{label} {kind}"), (x, y + 13.0), words)?;
@@ -172,28 +143,15 @@ impl GageErrors {
         for (s, stage) in self.stages.iter().enumerate() {
             for (row, &percent) in stage.computed.iter().enumerate() {
                 let from = row as f64 + 0.08 + width * s as f64;
-                let (upper, lower) = (
-                    place(from, percent.max(0.0)),
-                    place(from + width, percent.min(0.0)),
-                );
+                let (upper, lower) = (place(from, percent.max(0.0)), place(from + width, percent.min(0.0)));
                 bar(area, upper, lower, self.fill(s))?;
                 if let (Some(published), true) = (stage.published[row], s > 0) {
                     let at = place(from + 0.5 * width, published);
-                    mark(
-                        area,
-                        at,
-                        (Form::Diamond, 2.8),
-                        Some(ORANGE),
-                        Pen::solid(INK, 0.9),
-                    )?;
+                    mark(area, at, (Form::Diamond, 2.8), Some(ORANGE), Pen::solid(INK, 0.9))?;
                 }
             }
         }
-        line(
-            area,
-            &[place(0.0, 0.0), place(count as f64, 0.0)],
-            Pen::solid(INK, 1.2),
-        )?;
+        line(area, &[place(0.0, 0.0), place(count as f64, 0.0)], Pen::solid(INK, 1.2))?;
         self.legend(area)
     }
 
@@ -203,11 +161,7 @@ impl GageErrors {
             0 => WHITE,
             _ => {
                 let share = stage as f64 / (self.stages.len() - 1) as f64;
-                between(
-                    between(WHITE, SKY, 0.5),
-                    BLUE,
-                    if self.stages.len() == 2 { 1.0 } else { share },
-                )
+                between(between(WHITE, SKY, 0.5), BLUE, if self.stages.len() == 2 { 1.0 } else { share })
             }
         }
     }
@@ -220,25 +174,9 @@ impl GageErrors {
             write(area, &stage.name.to_lowercase(), (x + 23.0, 22.0), words)?;
             x += 92.0;
         }
-        if self
-            .stages
-            .iter()
-            .skip(1)
-            .any(|stage| stage.published.iter().any(Option::is_some))
-        {
-            mark(
-                area,
-                (x + 8.0, 22.0),
-                (Form::Diamond, 3.6),
-                Some(ORANGE),
-                Pen::solid(INK, 0.9),
-            )?;
-            write(
-                area,
-                "published, on the bar of its pass",
-                (x + 20.0, 22.0),
-                words,
-            )?;
+        if self.stages.iter().skip(1).any(|stage| stage.published.iter().any(Option::is_some)) {
+            mark(area, (x + 8.0, 22.0), (Form::Diamond, 3.6), Some(ORANGE), Pen::solid(INK, 0.9))?;
+            write(area, "published, on the bar of its pass", (x + 20.0, 22.0), words)?;
         }
         Ok(())
     }

@@ -1,8 +1,7 @@
 //! A matrix as colored cells with its numbers in them.
 
 use super::canvas::{
-    Area, Drawn, GRAY, INK, LETTERS, Letters, Pen, Place, SMALL, Side, between, outline, rectangle,
-    write,
+    Area, Drawn, GRAY, INK, LETTERS, Letters, Pen, Place, SMALL, Side, between, outline, rectangle, write,
 };
 use nalgebra::DMatrix;
 use plotters::style::{RGBColor, WHITE};
@@ -34,12 +33,7 @@ impl HeatMap<'_> {
         let center = left + 0.5 * wide * columns as f64;
         let small = Letters::new(SMALL, Side::Center);
         for (j, name) in self.columns.iter().enumerate() {
-            write(
-                area,
-                name,
-                (left + wide * (j as f64 + 0.5), top - 9.0),
-                small,
-            )?;
+            write(area, name, (left + wide * (j as f64 + 0.5), top - 9.0), small)?;
         }
         for (i, name) in self.rows.iter().enumerate() {
             let at = (left - 6.0, top + high * (i as f64 + 0.5));
@@ -47,17 +41,9 @@ impl HeatMap<'_> {
         }
         write(area, self.column_heading, (center, top - 26.0), small)?;
         let middle = top + 0.5 * high * rows as f64;
-        let upward = Letters {
-            upward: true,
-            ..small
-        };
+        let upward = Letters { upward: true, ..small };
         write(area, self.row_heading, (left - 34.0, middle), upward)?;
-        write(
-            area,
-            self.title,
-            (center, top - 46.0),
-            Letters::new(LETTERS, Side::Center).bold(),
-        )?;
+        write(area, self.title, (center, top - 46.0), Letters::new(LETTERS, Side::Center).bold())?;
         for i in 0..rows {
             for j in 0..columns {
                 let Some(value) = self.values[(i, j)] else {
@@ -65,17 +51,8 @@ impl HeatMap<'_> {
                 };
                 let (x, y) = (left + wide * j as f64, top + high * i as f64);
                 let strength = (value.abs() / self.full).min(1.0);
-                let color = if value < 0.0 {
-                    self.colors.0
-                } else {
-                    self.colors.1
-                };
-                rectangle(
-                    area,
-                    (x, y),
-                    (x + wide, y + high),
-                    between(WHITE, color, strength),
-                )?;
+                let color = if value < 0.0 { self.colors.0 } else { self.colors.1 };
+                rectangle(area, (x, y), (x + wide, y + high), between(WHITE, color, strength))?;
                 let ink = if strength > 0.6 { WHITE } else { INK };
                 let at = (x + 0.5 * wide, y + 0.5 * high);
                 write(area, &(self.write)(value), at, small.color(ink))?;
@@ -90,9 +67,5 @@ impl HeatMap<'_> {
 /// A fraction in whole percent; nothing when that is zero.
 pub(super) fn percent(value: f64) -> String {
     let rounded = (100.0 * value).round();
-    if rounded == 0.0 {
-        String::new()
-    } else {
-        format!("{rounded:.0}").replace('-', "−")
-    }
+    if rounded == 0.0 { String::new() } else { format!("{rounded:.0}").replace('-', "−") }
 }

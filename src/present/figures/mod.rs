@@ -81,17 +81,12 @@ pub fn comparison_figures(
 pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |name: &str, caption: String, svg: String| {
-        figures.push(Figure {
-            name: name.to_owned(),
-            caption,
-            svg,
-        });
+        figures.push(Figure { name: name.to_owned(), caption, svg });
     };
     if let Some(first) = results.first() {
         add(
             "box_points",
-            "The wing torque box with its structural and dynamic points (the paper's Figure 2)."
-                .into(),
+            "The wing torque box with its structural and dynamic points (the paper's Figure 2).".into(),
             box_points::box_points(&first.case)?.draw()?,
         );
         add(
@@ -118,18 +113,12 @@ pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> 
             );
         } else {
             for (name, caption, svg) in correlated(result)? {
-                add(
-                    &format!("case_{case}_{name}"),
-                    format!("Case {case}: {caption}"),
-                    svg,
-                );
+                add(&format!("case_{case}_{name}"), format!("Case {case}: {caption}"), svg);
             }
         }
         add(
             &format!("case_{case}_derivatives"),
-            format!(
-                "Case {case}: derivatives of the frequencies and of the error sum at the first model."
-            ),
+            format!("Case {case}: derivatives of the frequencies and of the error sum at the first model."),
             derivative_map::derivative_map(result)?.draw()?,
         );
     }
@@ -144,11 +133,7 @@ fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, String, String)>
         2 => " (Figure 7)",
         _ => " (Figure 8)",
     };
-    let paper_nodes = if result.case.number == 1 {
-        " (Figure 6)"
-    } else {
-        ""
-    };
+    let paper_nodes = if result.case.number == 1 { " (Figure 6)" } else { "" };
     Ok(vec![
         (
             "errors",
@@ -176,8 +161,7 @@ fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, String, String)>
         ),
         (
             "agreement",
-            "cross-orthogonality and modal assurance criterion of analysis and test modes."
-                .to_owned(),
+            "cross-orthogonality and modal assurance criterion of analysis and test modes.".to_owned(),
             mode_agreement::mode_agreement(result)?.draw()?,
         ),
     ])

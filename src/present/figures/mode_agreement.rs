@@ -41,15 +41,8 @@ pub fn mode_agreement(result: &CaseResult) -> Result<ModeAgreement, PresentError
         })
     };
     let correlation = &result.correlation;
-    let last = correlation
-        .passes
-        .last()
-        .map_or(&correlation.initial, |pass| &pass.check);
-    Ok(ModeAgreement {
-        case: result.case.number,
-        before: agreement(&correlation.initial)?,
-        after: agreement(last)?,
-    })
+    let last = correlation.passes.last().map_or(&correlation.initial, |pass| &pass.check);
+    Ok(ModeAgreement { case: result.case.number, before: agreement(&correlation.initial)?, after: agreement(last)? })
 }
 
 impl ModeAgreement {
@@ -59,26 +52,16 @@ impl ModeAgreement {
     /// [`crate::method::error::Error::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_agreement", self.case);
-        let title = format!(
-            "Case {}: analysis against test modes before and after",
-            self.case
-        );
+        let title = format!("Case {}: analysis against test modes before and after", self.case);
         svg(&name, &title, (WIDTH, 760.0), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let columns = [
-            ("before", &self.before, 66.0),
-            ("after", &self.after, 446.0),
-        ];
+        let columns = [("before", &self.before, 66.0), ("after", &self.after, 446.0)];
         for (when, agreement, left) in columns {
             for (what, values, top) in [
                 ("Cross-orthogonality", &agreement.cross_orthogonality, 64.0),
-                (
-                    "Modal assurance criterion",
-                    &agreement.modal_assurance,
-                    424.0,
-                ),
+                ("Modal assurance criterion", &agreement.modal_assurance, 424.0),
             ] {
                 let (rows, columns) = values.shape();
                 HeatMap {
@@ -97,11 +80,6 @@ impl ModeAgreement {
             }
         }
         let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
-        write(
-            area,
-            note,
-            (66.0, 728.0),
-            Letters::new(LETTERS, Side::Right),
-        )
+        write(area, note, (66.0, 728.0), Letters::new(LETTERS, Side::Right))
     }
 }

@@ -13,10 +13,7 @@ const DOTS: f32 = 2.0;
 /// # Errors
 /// [`crate::method::error::Error::Drawing`] naming the figure when the document does not read or has no size.
 pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, PresentError> {
-    let failed = |found: String| Error::Drawing {
-        figure: name.to_owned(),
-        found,
-    };
+    let failed = |found: String| Error::Drawing { figure: name.to_owned(), found };
     let mut options = Options::default();
     let fonts = options.fontdb_mut();
     fonts.load_font_data(notosans::REGULAR_TTF.to_vec());
@@ -26,11 +23,7 @@ pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, PresentError> {
     let (width, height) = (DOTS * size.width(), DOTS * size.height());
     let mut pixels = Pixmap::new(width.ceil() as u32, height.ceil() as u32)
         .ok_or_else(|| failed(format!("a size of {width} by {height} dots")))?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(DOTS, DOTS),
-        &mut pixels.as_mut(),
-    );
+    resvg::render(&tree, Transform::from_scale(DOTS, DOTS), &mut pixels.as_mut());
     let png = pixels.encode_png();
     Ok(png.map_err(|error| failed(error.to_string()))?)
 }

@@ -48,11 +48,7 @@ impl RibShape {
     pub fn through([rear, mid, front]: [f64; 3], mid_chord_fraction: f64) -> Self {
         let xi = mid_chord_fraction;
         let curvature = (mid - (1.0 - xi) * rear - xi * front) / (xi * (1.0 - xi));
-        Self {
-            rear,
-            slope: front - rear + curvature,
-            curvature,
-        }
+        Self { rear, slope: front - rear + curvature, curvature }
     }
 
     /// The displacement at a fraction of the chord from the rear.
@@ -63,18 +59,12 @@ impl RibShape {
     /// Where it vanishes between the spars, in ascending order.
     pub fn zeros(&self) -> Vec<f64> {
         // -κξ² + sξ + w = 0, by the form of the quadratic's roots that does not cancel.
-        let Self {
-            rear,
-            slope,
-            curvature,
-        } = *self;
+        let Self { rear, slope, curvature } = *self;
         // Without real roots they are NaN, which lies nowhere between the spars.
         let root = (slope * slope + 4.0 * curvature * rear).sqrt();
         let larger = -0.5 * (slope + slope.signum() * root);
-        let mut zeros: Vec<f64> = [-larger / curvature, rear / larger]
-            .into_iter()
-            .filter(|xi| (0.0..=1.0).contains(xi))
-            .collect();
+        let mut zeros: Vec<f64> =
+            [-larger / curvature, rear / larger].into_iter().filter(|xi| (0.0..=1.0).contains(xi)).collect();
         zeros.sort_by(f64::total_cmp);
         zeros.dedup();
         zeros
@@ -102,9 +92,7 @@ impl Planform {
 
     /// The nine dynamic points, in the order of the DOF.
     pub fn dynamic_points(&self) -> Vec<PlanPoint> {
-        (0..RIBS - 1)
-            .flat_map(|rib| [0.0, self.mid_chord_fraction, 1.0].map(|xi| self.on_rib(rib, xi)))
-            .collect()
+        (0..RIBS - 1).flat_map(|rib| [0.0, self.mid_chord_fraction, 1.0].map(|xi| self.on_rib(rib, xi))).collect()
     }
 
     /// Displacement along the ribs from the nine dynamic points, the root's zero.

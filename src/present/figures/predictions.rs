@@ -1,8 +1,8 @@
 //! What the corrected models say of frequencies, as tested and after a design change.
 
 use super::canvas::{
-    Area, BLUE, Dash, Drawn, GRAY, INK, LETTERS, Letters, ORANGE, PALE, Pen, SMALL, Side, WIDTH,
-    bar, line, name_upright, svg, write,
+    Area, BLUE, Dash, Drawn, GRAY, INK, LETTERS, Letters, ORANGE, PALE, Pen, SMALL, Side, WIDTH, bar, line,
+    name_upright, svg, write,
 };
 use crate::present::error::PresentError;
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
@@ -40,12 +40,7 @@ pub fn predictions(comparison: &MatrixComparison) -> Predictions {
     Predictions {
         case: comparison.case,
         test_modes: comparison.test_modes,
-        models: comparison
-            .predictions
-            .iter()
-            .filter(|prediction| prediction.model != TRUTH)
-            .map(errors)
-            .collect(),
+        models: comparison.predictions.iter().filter(|prediction| prediction.model != TRUTH).map(errors).collect(),
     }
 }
 
@@ -66,13 +61,8 @@ impl Predictions {
     /// # Errors
     /// [`crate::method::error::Error::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
-        let title = format!(
-            "Case {}: frequency errors of the corrected models",
-            self.case
-        );
-        svg("matrices_frequencies", &title, (WIDTH, HEIGHT), |area| {
-            self.on(area)
-        })
+        let title = format!("Case {}: frequency errors of the corrected models", self.case);
+        svg("matrices_frequencies", &title, (WIDTH, HEIGHT), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
@@ -82,11 +72,7 @@ impl Predictions {
         let words = Letters::new(LETTERS, Side::Center);
         let center = 0.5 * (EDGES[0] + EDGES[1]);
         write(area, "mode", (center, TOP[1] + PANEL + 40.0), words)?;
-        name_upright(
-            area,
-            "frequency error, percent",
-            0.5 * (TOP[0] + TOP[1] + PANEL),
-        )?;
+        name_upright(area, "frequency error, percent", 0.5 * (TOP[0] + TOP[1] + PANEL))?;
         let mut x = EDGES[0];
         for (model, fill) in self.models.iter().zip(FILLS) {
             bar(area, (x, 15.0), (x + 16.0, 29.0), fill)?;
@@ -117,13 +103,7 @@ impl Predictions {
         (low - room, high + room, step)
     }
 
-    fn panel(
-        &self,
-        area: &Area,
-        top: f64,
-        title: &str,
-        errors: fn(&ModelErrors) -> &[f64],
-    ) -> Drawn {
+    fn panel(&self, area: &Area, top: f64, title: &str, errors: fn(&ModelErrors) -> &[f64]) -> Drawn {
         let [left, right] = EDGES;
         let (low, high, step) = self.scale();
         let height = |percent: f64| top + PANEL * (high - percent) / (high - low);
@@ -135,12 +115,7 @@ impl Predictions {
             let y = height(percent);
             line(area, &[(left, y), (right, y)], Pen::solid(PALE, 0.8))?;
             let text = format!("{percent:.decimals$}").replace('-', "−");
-            write(
-                area,
-                &text,
-                (left - 8.0, y),
-                Letters::new(LETTERS, Side::Left),
-            )?;
+            write(area, &text, (left - 8.0, y), Letters::new(LETTERS, Side::Left))?;
         }
         let count = self.models.first().map_or(0, |model| errors(model).len());
         let wide = (right - left) / count.max(1) as f64;
@@ -157,27 +132,14 @@ impl Predictions {
                 bar(area, (x, upper), (x + thick, lower), fill)?;
             }
         }
-        line(
-            area,
-            &[(left, height(0.0)), (right, height(0.0))],
-            Pen::solid(INK, 1.2),
-        )?;
-        line(
-            area,
-            &[(left, top), (left, top + PANEL)],
-            Pen::solid(INK, 1.0),
-        )?;
+        line(area, &[(left, height(0.0)), (right, height(0.0))], Pen::solid(INK, 1.2))?;
+        line(area, &[(left, top), (left, top + PANEL)], Pen::solid(INK, 1.0))?;
         if self.test_modes < count {
             let x = left + wide * self.test_modes as f64;
-            let dashed = Pen {
-                dash: Dash::Dashed,
-                ..Pen::solid(INK, 1.0)
-            };
+            let dashed = Pen { dash: Dash::Dashed, ..Pen::solid(INK, 1.0) };
             line(area, &[(x, top - 22.0), (x, top + PANEL)], dashed)?;
-            for (words, shift, side) in [
-                ("test modes", -8.0, Side::Left),
-                ("not shown to any model", 8.0, Side::Right),
-            ] {
+            for (words, shift, side) in [("test modes", -8.0, Side::Left), ("not shown to any model", 8.0, Side::Right)]
+            {
                 let small = Letters::new(SMALL, side);
                 write(area, words, (x + shift, top - 14.0), small)?;
             }

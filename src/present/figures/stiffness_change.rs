@@ -36,11 +36,7 @@ pub fn stiffness_change(comparison: &MatrixComparison) -> StiffnessChange {
             entries: DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]),
         }
     });
-    StiffnessChange {
-        case: comparison.case,
-        test_modes: comparison.test_modes,
-        models: models.collect(),
-    }
+    StiffnessChange { case: comparison.case, test_modes: comparison.test_modes, models: models.collect() }
 }
 
 /// Left edges and upper edges of the matrices, px.
@@ -53,22 +49,13 @@ impl StiffnessChange {
     /// # Errors
     /// [`crate::method::error::Error::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
-        let title = format!(
-            "Case {}: change of the dynamic stiffness, entry by entry",
-            self.case
-        );
-        svg("matrices_stiffness", &title, (WIDTH, 780.0), |area| {
-            self.on(area)
-        })
+        let title = format!("Case {}: change of the dynamic stiffness, entry by entry", self.case);
+        svg("matrices_stiffness", &title, (WIDTH, 780.0), |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
         // One scale for all, so that a pale matrix is a small change.
-        let full = self
-            .models
-            .iter()
-            .map(|model| model.entries.amax())
-            .fold(0.0, f64::max);
+        let full = self.models.iter().map(|model| model.entries.amax()).fold(0.0, f64::max);
         for (place, model) in self.models.iter().enumerate() {
             let numbers = || (1..=model.entries.nrows()).map(|dof| dof.to_string());
             HeatMap {

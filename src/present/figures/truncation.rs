@@ -30,12 +30,8 @@ type Quantity = (&'static str, fn(&FewerModesRun) -> f64);
 const QUANTITIES: [Quantity; 4] = [
     ("Gages of the shear panels", |run| run.shear_gage_rms),
     ("Gages of the membranes", |run| run.membrane_gage_rms),
-    ("Frequencies of all nine test modes", |run| {
-        run.exact_all_modes.frequency_rms
-    }),
-    ("Shapes of all nine test modes", |run| {
-        run.exact_all_modes.shape_rms
-    }),
+    ("Frequencies of all nine test modes", |run| run.exact_all_modes.frequency_rms),
+    ("Shapes of all nine test modes", |run| run.exact_all_modes.shape_rms),
 ];
 
 /// Errors of runs with fewer modes.
@@ -49,10 +45,7 @@ pub fn truncation(case: usize, runs: &[FewerModesRun]) -> Truncation {
         }
         Cost { name, values }
     };
-    Truncation {
-        case,
-        costs: QUANTITIES.into_iter().map(cost).collect(),
-    }
+    Truncation { case, costs: QUANTITIES.into_iter().map(cost).collect() }
 }
 
 /// Left edges and upper edges of the matrices, px.
@@ -88,12 +81,7 @@ impl Truncation {
             .draw(area, (LEFT[place % 2], TOP[place / 2 % 2]))?;
         }
         let note = "RMS error in percent after one pass, by exact solution; each matrix has a scale of its own.";
-        write(
-            area,
-            note,
-            (LEFT[0], 728.0),
-            Letters::new(LETTERS, Side::Right),
-        )
+        write(area, note, (LEFT[0], 728.0), Letters::new(LETTERS, Side::Right))
     }
 }
 

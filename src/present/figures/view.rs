@@ -24,18 +24,10 @@ pub(super) struct View {
 impl View {
     /// The view that shows the given points as large as there is room, in its middle.
     pub fn fitted(points: &[Vector3<f64>], heights: f64, room: Room) -> Self {
-        let unit = Self {
-            origin: (0.0, 0.0),
-            scale: 1.0,
-            heights,
-        };
+        let unit = Self { origin: (0.0, 0.0), scale: 1.0, heights };
         let places: Vec<Place> = points.iter().map(|&point| unit.place(point)).collect();
         let (scale, origin) = fit(&places, room);
-        Self {
-            origin,
-            scale,
-            heights,
-        }
+        Self { origin, scale, heights }
     }
 
     /// Outboard goes right and up, aft right and down, up goes up.
@@ -64,10 +56,7 @@ impl Plan {
     }
 
     pub fn place(&self, [x, y]: PlanPoint) -> Place {
-        (
-            self.origin.0 + self.scale * y,
-            self.origin.1 + self.scale * x,
-        )
+        (self.origin.0 + self.scale * y, self.origin.1 + self.scale * x)
     }
 }
 
@@ -75,17 +64,11 @@ impl Plan {
 fn fit(places: &[Place], [left, top, width, height]: Room) -> (f64, Place) {
     let bounds = |coordinate: fn(&Place) -> f64| {
         let values = || places.iter().map(coordinate);
-        (
-            values().fold(f64::INFINITY, f64::min),
-            values().fold(f64::NEG_INFINITY, f64::max),
-        )
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     };
     let (x_low, x_high) = bounds(|place| place.0);
     let (y_low, y_high) = bounds(|place| place.1);
     let scale = (width / (x_high - x_low)).min(height / (y_high - y_low));
-    let origin = (
-        left + 0.5 * (width - scale * (x_low + x_high)),
-        top + 0.5 * (height - scale * (y_low + y_high)),
-    );
+    let origin = (left + 0.5 * (width - scale * (x_low + x_high)), top + 0.5 * (height - scale * (y_low + y_high)));
     (scale, origin)
 }

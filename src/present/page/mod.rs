@@ -78,13 +78,7 @@ struct Part<'a> {
 /// # Errors
 /// [`CaseError::Table`] for damaged published tables; [`crate::method::error::Error::Page`] when the page cannot be put together.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
-    let &Contents {
-        results,
-        fit,
-        figures,
-        command,
-        ..
-    } = contents;
+    let &Contents { results, fit, figures, command, .. } = contents;
     let mut tables = all_tables(results, fit)?;
     let mut take = |wanted: &dyn Fn(&Table) -> bool| -> Vec<Table> {
         let (taken, rest) = std::mem::take(&mut tables).into_iter().partition(wanted);
@@ -116,27 +110,16 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         all_succeeded: results.iter().all(CaseResult::succeeded),
         cases,
         box_figures: [named(figures, "box_"), named(figures, "cover_")].concat(),
-        fewer_modes: Part {
-            tables: published_tables(contents.fewer_modes)?,
-            figures: named(figures, "truncation"),
-        },
-        matrices: Part {
-            tables: whole_tables(contents.matrices)?,
-            figures: named(figures, "matrices_"),
-        },
-        assumptions: section(
-            include_str!("../../../paper/reconstruction.md"),
-            "Assumed beyond the paper",
-        ),
+        fewer_modes: Part { tables: published_tables(contents.fewer_modes)?, figures: named(figures, "truncation") },
+        matrices: Part { tables: whole_tables(contents.matrices)?, figures: named(figures, "matrices_") },
+        assumptions: section(include_str!("../../../paper/reconstruction.md"), "Assumed beyond the paper"),
         differences: section(include_str!("../../../paper/results.md"), ""),
         fit: fit_table,
         iterations,
         fit_rms_percent: Digits::Fixed(3).write(100.0 * fit.rms),
         fit_largest_percent: Digits::Fixed(2).write(100.0 * fit.largest),
     };
-    Ok(page
-        .render()
-        .map_err(|source| crate::method::error::Error::Page { source })?)
+    Ok(page.render().map_err(|source| crate::method::error::Error::Page { source })?)
 }
 
 /// Figures whose names begin alike.
@@ -147,8 +130,7 @@ fn named<'a>(figures: &'a [Figure], prefix: &str) -> Vec<&'a Figure> {
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
 fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
-    let is_published =
-        |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
+    let is_published = |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
     let published: Vec<FewerModesRun> = runs.iter().filter(is_published).cloned().collect();
     let mut tables = fewer_modes_tables(&Case::new(PUBLISHED_CASE)?, &published, &[])?;
     tables.retain(|table| !table.name.starts_with("truncation"));
@@ -203,25 +185,13 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
             }
         }
         let passes = &result.correlation.passes;
-        let counts: Vec<String> = passes
-            .iter()
-            .map(|pass| pass.inner.iterations.len().to_string())
-            .collect();
+        let counts: Vec<String> = passes.iter().map(|pass| pass.inner.iterations.len().to_string()).collect();
         cells.push(Cell::Text(counts.join(", ")));
         cells.push(Cell::Text(outcome(result)));
-        rows.push(Row {
-            label: result.case.number.to_string(),
-            cells,
-        });
+        rows.push(Row { label: result.case.number.to_string(), cells });
     }
-    let percent = |name: &str| Column {
-        name: name.to_owned(),
-        unit: "%",
-    };
-    let text = |name: &str| Column {
-        name: name.to_owned(),
-        unit: "",
-    };
+    let percent = |name: &str| Column { name: name.to_owned(), unit: "%" };
+    let text = |name: &str| Column { name: name.to_owned(), unit: "" };
     Ok(Table {
         name: "summary".to_owned(),
         title: "RMS errors over nine modes, first and last model".to_owned(),
@@ -269,13 +239,8 @@ fn written(cell: &Cell) -> (String, Option<String>) {
     match cell {
         Cell::Blank => (String::new(), None),
         Cell::Text(text) => (text.clone(), None),
-        Cell::Number {
-            computed,
-            published,
-            digits,
-        } => (
-            digits.write(*computed),
-            published.map(|paper| digits.write(paper)),
-        ),
+        Cell::Number { computed, published, digits } => {
+            (digits.write(*computed), published.map(|paper| digits.write(paper)))
+        }
     }
 }

@@ -14,21 +14,15 @@ pub(super) fn section(markdown: &str, heading: &str) -> String {
     };
     let events = Parser::new_ext(body, Options::ENABLE_TABLES).flat_map(|event| match event {
         // A table wider than the page scrolls inside it.
-        Event::Start(Tag::Table(alignment)) => vec![
-            Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()),
-            Event::Start(Tag::Table(alignment)),
-        ],
+        Event::Start(Tag::Table(alignment)) => {
+            vec![Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()), Event::Start(Tag::Table(alignment))]
+        }
         Event::End(TagEnd::Table) => {
             vec![Event::End(TagEnd::Table), Event::Html("</div>".into())]
         }
-        Event::Start(Tag::Heading {
-            id, classes, attrs, ..
-        }) => vec![Event::Start(Tag::Heading {
-            level: HeadingLevel::H3,
-            id,
-            classes,
-            attrs,
-        })],
+        Event::Start(Tag::Heading { id, classes, attrs, .. }) => {
+            vec![Event::Start(Tag::Heading { level: HeadingLevel::H3, id, classes, attrs })]
+        }
         Event::End(TagEnd::Heading(_)) => vec![Event::End(TagEnd::Heading(HeadingLevel::H3))],
         other => vec![other],
     });

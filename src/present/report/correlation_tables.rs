@@ -22,28 +22,15 @@ fn stages(result: &CaseResult) -> Vec<(String, String)> {
 }
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
-fn published(
-    numbers: [usize; 3],
-    result: &CaseResult,
-) -> Result<Option<PublishedTable>, PresentError> {
+fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, PresentError> {
     match (numbers.get(result.case.number - 1), result.case.grouping) {
         (Some(&number), Grouping::Elements) => Ok(Some(PublishedTable::number(number)?)),
         _ => Ok(None),
     }
 }
 
-pub(super) fn number(
-    computed: f64,
-    digits: Digits,
-    table: Option<&PublishedTable>,
-    row: &str,
-    heading: &str,
-) -> Cell {
-    Cell::Number {
-        computed,
-        published: table.and_then(|table| table.value(row, heading)),
-        digits,
-    }
+pub(super) fn number(computed: f64, digits: Digits, table: Option<&PublishedTable>, row: &str, heading: &str) -> Cell {
+    Cell::Number { computed, published: table.and_then(|table| table.value(row, heading)), digits }
 }
 
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
@@ -68,59 +55,35 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let mut rows = Vec::new();
     for (mode, &target) in test.iter().enumerate() {
         let label = (mode + 1).to_string();
-        let cell =
-            |value, digits, heading: &str| number(value, digits, paper.as_ref(), &label, heading);
+        let cell = |value, digits, heading: &str| number(value, digits, paper.as_ref(), &label, heading);
         let mut cells = vec![cell(target, HERTZ, "gvt_hz")];
         for ((prefix, _), check) in stages.iter().zip(&checks) {
             let frequency = check.frequencies_hz[mode];
             cells.push(cell(frequency, HERTZ, &format!("{prefix}_hz")));
-            cells.push(cell(
-                100.0 * (frequency / target - 1.0),
-                PERCENT,
-                &format!("{prefix}_percent"),
-            ));
+            cells.push(cell(100.0 * (frequency / target - 1.0), PERCENT, &format!("{prefix}_percent")));
         }
         rows.push(Row { label, cells });
     }
     type Rms = fn(&Errors) -> f64;
     for (label, row, rms) in [
-        (
-            "frequency RMS",
-            "frequency_rms",
-            Errors::frequency_rms as Rms,
-        ),
+        ("frequency RMS", "frequency_rms", Errors::frequency_rms as Rms),
         ("shape RMS", "shape_rms", Errors::shape_rms as Rms),
     ] {
         let mut cells = vec![Cell::Blank];
         for ((prefix, _), check) in stages.iter().zip(&checks) {
             let heading = format!("{prefix}_percent");
             cells.push(Cell::Blank);
-            cells.push(number(
-                100.0 * rms(&check.errors),
-                RMS_PERCENT,
-                paper.as_ref(),
-                row,
-                &heading,
-            ));
+            cells.push(number(100.0 * rms(&check.errors), RMS_PERCENT, paper.as_ref(), row, &heading));
         }
-        rows.push(Row {
-            label: label.to_owned(),
-            cells,
-        });
+        rows.push(Row { label: label.to_owned(), cells });
     }
     Ok(Table {
         name: table_name(paper.as_ref(), case, "frequencies"),
-        title: format!(
-            "Case {case}: frequencies and errors{}",
-            numbered(paper.as_ref())
-        ),
+        title: format!("Case {case}: frequencies and errors{}", numbered(paper.as_ref())),
         label_heading: "Mode",
         columns,
         rows,
-        notes: solver(result)
-            .into_iter()
-            .chain(remarks(paper.as_ref()))
-            .collect(),
+        notes: solver(result).into_iter().chain(remarks(paper.as_ref())).collect(),
     })
 }
 
@@ -150,9 +113,8 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let case = result.case.number;
     let paper = published([4, 6, 8], result)?;
     let stages = stages(result);
-    let gages: Vec<Vec<f64>> = std::iter::once(result.case.first_gages())
-        .chain(result.pass_gages.iter().cloned())
-        .collect();
+    let gages: Vec<Vec<f64>> =
+        std::iter::once(result.case.first_gages()).chain(result.pass_gages.iter().cloned()).collect();
     let percent = |gage: f64| 100.0 * (gage / TEST_GAGE - 1.0);
     let mut columns = vec![column("Type", ""), column("GVT", "in")];
     for (_, title) in &stages {
@@ -162,26 +124,17 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let mut rows = Vec::new();
     for (e, panel) in result.case.panels.iter().enumerate() {
         let label = panel.label.to_string();
-        let cell =
-            |value, digits, heading: &str| number(value, digits, paper.as_ref(), &label, heading);
-        let mut cells = vec![
-            Cell::Text(kind_letter(panel.kind).to_owned()),
-            cell(TEST_GAGE, INCHES, "gvt_in"),
-        ];
+        let cell = |value, digits, heading: &str| number(value, digits, paper.as_ref(), &label, heading);
+        let mut cells = vec![Cell::Text(kind_letter(panel.kind).to_owned()), cell(TEST_GAGE, INCHES, "gvt_in")];
         for ((prefix, _), gages) in stages.iter().zip(&gages) {
             cells.push(cell(gages[e], INCHES, &format!("{prefix}_in")));
-            cells.push(cell(
-                percent(gages[e]),
-                PERCENT,
-                &format!("{prefix}_percent"),
-            ));
+            cells.push(cell(percent(gages[e]), PERCENT, &format!("{prefix}_percent")));
         }
         rows.push(Row { label, cells });
     }
-    for (label, row, kind) in [
-        ("shear RMS", "shear_rms", ElementKind::ShearPanel),
-        ("membrane RMS", "membrane_rms", ElementKind::Membrane),
-    ] {
+    for (label, row, kind) in
+        [("shear RMS", "shear_rms", ElementKind::ShearPanel), ("membrane RMS", "membrane_rms", ElementKind::Membrane)]
+    {
         if !result.case.panels.iter().any(|panel| panel.kind == kind) {
             continue;
         }
@@ -192,10 +145,7 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
             let rms = gage_rms(result, gages, kind);
             cells.push(number(100.0 * rms, PERCENT, paper.as_ref(), row, &heading));
         }
-        rows.push(Row {
-            label: label.to_owned(),
-            cells,
-        });
+        rows.push(Row { label: label.to_owned(), cells });
     }
     Ok(Table {
         name: table_name(paper.as_ref(), case, "gages"),
@@ -203,9 +153,7 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
         label_heading: "Element",
         columns,
         rows,
-        notes: std::iter::once("S shear panel, M membrane.".to_owned())
-            .chain(remarks(paper.as_ref()))
-            .collect(),
+        notes: std::iter::once("S shear panel, M membrane.".to_owned()).chain(remarks(paper.as_ref())).collect(),
     })
 }
 
@@ -215,17 +163,11 @@ pub fn gage_rms(result: &CaseResult, gages: &[f64], kind: ElementKind) -> f64 {
 }
 
 pub(super) fn column(name: &str, unit: &'static str) -> Column {
-    Column {
-        name: name.to_owned(),
-        unit,
-    }
+    Column { name: name.to_owned(), unit }
 }
 
 fn table_name(paper: Option<&PublishedTable>, case: usize, otherwise: &str) -> String {
-    paper.map_or_else(
-        || format!("case_{case}_{otherwise}"),
-        |table| format!("table_{}", table.number),
-    )
+    paper.map_or_else(|| format!("case_{case}_{otherwise}"), |table| format!("table_{}", table.number))
 }
 
 fn numbered(paper: Option<&PublishedTable>) -> String {

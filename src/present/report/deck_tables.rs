@@ -19,24 +19,14 @@ const SHAPE: Digits = Digits::Fixed(5);
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
 pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
     let scaled = UnitShapes::new(modes, count);
-    let number = |computed, digits| Cell::Number {
-        computed,
-        published: None,
-        digits,
-    };
+    let number = |computed, digits| Cell::Number { computed, published: None, digits };
     let column = |name: String, unit| Column { name, unit };
     let rows = scaled.frequencies_hz.iter().zip(&scaled.masses);
     let mut tables = vec![Table {
         name: "frequencies".into(),
-        title: format!(
-            "Natural frequencies at {} degrees of freedom with mass",
-            modes.dof.len()
-        ),
+        title: format!("Natural frequencies at {} degrees of freedom with mass", modes.dof.len()),
         label_heading: "Mode",
-        columns: vec![
-            column("Frequency".into(), "Hz"),
-            column("Generalized mass".into(), "lbf·s²/in"),
-        ],
+        columns: vec![column("Frequency".into(), "Hz"), column("Generalized mass".into(), "lbf·s²/in")],
         rows: rows
             .enumerate()
             .map(|(mode, (&frequency, &mass))| Row {
@@ -53,20 +43,14 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
             name: format!("shapes_{first}_to_{last}"),
             title: format!("Shapes of modes {first} to {last}, largest component one"),
             label_heading: "Grid",
-            columns: part
-                .iter()
-                .map(|mode| column(format!("Mode {}", mode + 1), ""))
-                .collect(),
+            columns: part.iter().map(|mode| column(format!("Mode {}", mode + 1), "")).collect(),
             rows: modes
                 .dof
                 .iter()
                 .enumerate()
                 .map(|(row, dof)| Row {
                     label: format!("{} {}", dof.grid, DIRECTIONS[dof.direction]),
-                    cells: part
-                        .iter()
-                        .map(|&mode| number(scaled.shapes[mode][row], SHAPE))
-                        .collect(),
+                    cells: part.iter().map(|&mode| number(scaled.shapes[mode][row], SHAPE)).collect(),
                 })
                 .collect(),
             notes: Vec::new(),
@@ -93,14 +77,7 @@ pub fn deck_json(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String
     let scaled = UnitShapes::new(modes, count);
     let document = Document {
         units: "inch, lbf, second; frequencies in Hz",
-        dof: modes
-            .dof
-            .iter()
-            .map(|dof| DofDocument {
-                grid: dof.grid,
-                direction: DIRECTIONS[dof.direction],
-            })
-            .collect(),
+        dof: modes.dof.iter().map(|dof| DofDocument { grid: dof.grid, direction: DIRECTIONS[dof.direction] }).collect(),
         frequencies_hz: scaled.frequencies_hz,
         generalized_masses: scaled.masses,
         shapes: scaled.shapes,
@@ -147,10 +124,6 @@ impl UnitShapes {
                 (largest.powi(-2), unit)
             })
             .unzip();
-        Self {
-            frequencies_hz,
-            masses,
-            shapes,
-        }
+        Self { frequencies_hz, masses, shapes }
     }
 }

@@ -77,14 +77,8 @@ fn test_mode_table(run: &WingCorrelation) -> Table {
         let label = label.to_owned();
         Row { label, cells }
     };
-    rows.push(rms(
-        "frequency RMS",
-        checks.map(|check| check.errors.frequency_rms()),
-    ));
-    rows.push(rms(
-        "shape RMS",
-        checks.map(|check| check.errors.shape_rms()),
-    ));
+    rows.push(rms("frequency RMS", checks.map(|check| check.errors.frequency_rms())));
+    rows.push(rms("shape RMS", checks.map(|check| check.errors.shape_rms())));
     Table {
         name: "delta_wing_test_modes".to_owned(),
         title: "Delta wing with wrong gages: frequencies and errors".to_owned(),
@@ -112,28 +106,23 @@ fn solver(run: &WingCorrelation) -> Option<String> {
 }
 
 fn pass_table(run: &WingCorrelation) -> Table {
-    let rows = run
-        .correlation
-        .passes
-        .iter()
-        .enumerate()
-        .map(|(row, pass)| {
-            let iterations = pass.inner.iterations.len() as f64;
-            let stop = match pass.inner.stop {
-                Stop::Tolerance => "tolerance",
-                Stop::LocalMinimum => "local minimum",
-                Stop::Iterations => "iterations",
-            };
-            Row {
-                label: (row + 1).to_string(),
-                cells: vec![
-                    plain(iterations, Digits::Fixed(0)),
-                    Cell::Text(stop.to_owned()),
-                    plain(100.0 * pass.inner.last.errors.sum(), RMS_PERCENT),
-                    plain(100.0 * pass.check.errors.sum(), RMS_PERCENT),
-                ],
-            }
-        });
+    let rows = run.correlation.passes.iter().enumerate().map(|(row, pass)| {
+        let iterations = pass.inner.iterations.len() as f64;
+        let stop = match pass.inner.stop {
+            Stop::Tolerance => "tolerance",
+            Stop::LocalMinimum => "local minimum",
+            Stop::Iterations => "iterations",
+        };
+        Row {
+            label: (row + 1).to_string(),
+            cells: vec![
+                plain(iterations, Digits::Fixed(0)),
+                Cell::Text(stop.to_owned()),
+                plain(100.0 * pass.inner.last.errors.sum(), RMS_PERCENT),
+                plain(100.0 * pass.check.errors.sum(), RMS_PERCENT),
+            ],
+        }
+    });
     Table {
         name: "delta_wing_passes".to_owned(),
         title: "Delta wing with wrong gages: passes".to_owned(),

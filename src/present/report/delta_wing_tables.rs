@@ -6,9 +6,7 @@ use super::table::{Cell, Column, Digits, Row, Table};
 use crate::cases::published::PublishedTable;
 use crate::present::error::PresentError;
 use crate::studies::delta_wing::correlation::WingCorrelation;
-use crate::studies::delta_wing::{
-    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
-};
+use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);
@@ -21,10 +19,7 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 ///
 /// # Errors
 /// Those of the wing's analyses; [`Error::Table`] if what others found were damaged.
-pub fn delta_wing_tables(
-    wing: &DeltaWing,
-    run: &WingCorrelation,
-) -> Result<Vec<Table>, PresentError> {
+pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
@@ -43,12 +38,7 @@ struct Other {
 }
 
 fn other(title: &'static str, heading: String, digits: Digits, difference: Digits) -> Other {
-    Other {
-        title,
-        heading,
-        digits,
-        difference,
-    }
+    Other { title, heading, digits, difference }
 }
 
 /// A table of computed numbers, each with what others have for it and the percent difference from that.
@@ -85,12 +75,7 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
         TipLoad::LeadingEdge => ("le", "leading edge"),
     };
     let mut others = vec![
-        other(
-            "NASTRAN 1995",
-            format!("{short}_1995_in"),
-            PRINTED,
-            SMALL_PERCENT,
-        ),
+        other("NASTRAN 1995", format!("{short}_1995_in"), PRINTED, SMALL_PERCENT),
         other("Measured", format!("{short}_experiment_in"), READ, PERCENT),
     ];
     if load == TipLoad::TrailingEdge {
@@ -116,24 +101,10 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
 fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
     let known = known_frequencies()?;
     let others = [
-        other(
-            "NASTRAN 1995",
-            "frequency_1995_hz".into(),
-            PRINTED,
-            SMALL_PERCENT,
-        ),
-        other(
-            "Analog",
-            "analog_hz".into(),
-            Digits::Significant(3),
-            PERCENT,
-        ),
+        other("NASTRAN 1995", "frequency_1995_hz".into(), PRINTED, SMALL_PERCENT),
+        other("Analog", "analog_hz".into(), Digits::Significant(3), PERCENT),
     ];
-    let rows = known
-        .labels
-        .iter()
-        .cloned()
-        .zip(wing.modes()?.modes.frequencies_hz());
+    let rows = known.labels.iter().cloned().zip(wing.modes()?.modes.frequencies_hz());
     let (columns, rows) = beside_others(&known, rows.collect(), "Hz", &others)?;
     Ok(Table {
         name: "delta_wing_frequencies".to_owned(),
@@ -147,9 +118,5 @@ fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
 
 /// A number by itself: what others have for it stands in columns of its own.
 pub(super) fn plain(computed: f64, digits: Digits) -> Cell {
-    Cell::Number {
-        computed,
-        published: None,
-        digits,
-    }
+    Cell::Number { computed, published: None, digits }
 }

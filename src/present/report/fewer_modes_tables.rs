@@ -1,8 +1,6 @@
 //! Tables 9 to 12: one pass with fewer modes, each number beside the published one.
 
-use super::correlation_tables::{
-    HERTZ, INCHES, PERCENT, RMS_PERCENT, column, kind_letter, number, remarks,
-};
+use super::correlation_tables::{HERTZ, INCHES, PERCENT, RMS_PERCENT, column, kind_letter, number, remarks};
 use super::table::{Cell, Row, Table};
 use super::truncation_tables::{iteration_table, truncation_tables};
 use crate::cases::Case;
@@ -19,9 +17,7 @@ pub(super) const GAGE_TABLES: [(usize, usize); 3] = [(10, 7), (11, 5), (12, 3)];
 /// RMS errors: title, row of the published tables, and the number.
 type RmsRow = (&'static str, &'static str, fn(&Agreement) -> f64);
 const RMS_ROWS: [RmsRow; 2] = [
-    ("frequency RMS", "frequency_rms", |found| {
-        found.frequency_rms
-    }),
+    ("frequency RMS", "frequency_rms", |found| found.frequency_rms),
     ("shape RMS", "shape_rms", |found| found.shape_rms),
 ];
 
@@ -57,9 +53,7 @@ fn inner_frequency_table(runs: &[&FewerModesRun]) -> Result<Table, PresentError>
     Ok(Table {
         name: "table_9".to_owned(),
         title: frequency_title("frequencies and errors by the inner loop (Table 9)"),
-        notes: std::iter::once(note.to_owned())
-            .chain(remarks(Some(&paper)))
-            .collect(),
+        notes: std::iter::once(note.to_owned()).chain(remarks(Some(&paper))).collect(),
         ..frequency_table(runs, Some(&paper), |run| &run.inner)
     })
 }
@@ -86,14 +80,9 @@ fn frequency_table(
     // The run with the most analysis modes knows the most initial frequencies.
     let most = runs.iter().max_by_key(|run| run.analysis_modes);
     let test = most.map_or(&[][..], |run| &run.test_frequencies_hz);
-    let mut stages: Vec<(String, &Agreement)> = most
-        .map(|run| ("initial".to_owned(), &run.initial))
-        .into_iter()
-        .collect();
-    stages.extend(
-        runs.iter()
-            .map(|run| (format!("fem_{}", run.analysis_modes), end(run))),
-    );
+    let mut stages: Vec<(String, &Agreement)> =
+        most.map(|run| ("initial".to_owned(), &run.initial)).into_iter().collect();
+    stages.extend(runs.iter().map(|run| (format!("fem_{}", run.analysis_modes), end(run))));
     let mut columns = vec![column("GVT", "Hz")];
     for (prefix, _) in &stages {
         let title = stage_title(prefix);
@@ -104,9 +93,7 @@ fn frequency_table(
     for mode in 0..most.map_or(0, |run| run.initial.frequencies_hz.len()) {
         let label = (mode + 1).to_string();
         let cell = |value: Option<f64>, digits, heading: &str| {
-            value.map_or(Cell::Blank, |value| {
-                number(value, digits, paper, &label, heading)
-            })
+            value.map_or(Cell::Blank, |value| number(value, digits, paper, &label, heading))
         };
         let target = test.get(mode).copied();
         let mut cells = vec![cell(target, HERTZ, "gvt_hz")];
@@ -123,27 +110,11 @@ fn frequency_table(
         for (prefix, stage) in &stages {
             let heading = format!("{prefix}_percent");
             cells.push(Cell::Blank);
-            cells.push(number(
-                100.0 * rms(stage),
-                RMS_PERCENT,
-                paper,
-                row,
-                &heading,
-            ));
+            cells.push(number(100.0 * rms(stage), RMS_PERCENT, paper, row, &heading));
         }
-        rows.push(Row {
-            label: title.to_owned(),
-            cells,
-        });
+        rows.push(Row { label: title.to_owned(), cells });
     }
-    Table {
-        name: String::new(),
-        title: String::new(),
-        label_heading: "Mode",
-        columns,
-        rows,
-        notes: Vec::new(),
-    }
+    Table { name: String::new(), title: String::new(), label_heading: "Mode", columns, rows, notes: Vec::new() }
 }
 
 /// `initial` and `fem_5` as a reader's headings.
@@ -155,19 +126,11 @@ fn stage_title(prefix: &str) -> String {
 }
 
 /// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes.
-fn gage_table(
-    case: &Case,
-    paper: usize,
-    test_modes: usize,
-    runs: &[&FewerModesRun],
-) -> Result<Table, PresentError> {
+fn gage_table(case: &Case, paper: usize, test_modes: usize, runs: &[&FewerModesRun]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(paper)?;
     let first = case.first_gages();
     let mut stages = vec![("initial".to_owned(), &first)];
-    stages.extend(
-        runs.iter()
-            .map(|run| (format!("fem_{}", run.analysis_modes), &run.gages_in)),
-    );
+    stages.extend(runs.iter().map(|run| (format!("fem_{}", run.analysis_modes), &run.gages_in)));
     let mut columns = vec![column("Type", ""), column("GVT", "in")];
     for (prefix, _) in &stages {
         let title = stage_title(prefix);
@@ -177,12 +140,8 @@ fn gage_table(
     let mut rows = Vec::new();
     for (e, panel) in case.panels.iter().enumerate() {
         let label = panel.label.to_string();
-        let cell =
-            |value, digits, heading: &str| number(value, digits, Some(&paper), &label, heading);
-        let mut cells = vec![
-            Cell::Text(kind_letter(panel.kind).to_owned()),
-            cell(TEST_GAGE, INCHES, "gvt_in"),
-        ];
+        let cell = |value, digits, heading: &str| number(value, digits, Some(&paper), &label, heading);
+        let mut cells = vec![Cell::Text(kind_letter(panel.kind).to_owned()), cell(TEST_GAGE, INCHES, "gvt_in")];
         for (prefix, gages) in &stages {
             let percent = 100.0 * (gages[e] / TEST_GAGE - 1.0);
             cells.push(cell(gages[e], INCHES, &format!("{prefix}_in")));
@@ -198,46 +157,23 @@ fn gage_table(
             cells.push(Cell::Blank);
             cells.push(number(100.0 * value(run), digits, paper, row, &heading));
         }
-        Row {
-            label: title.to_owned(),
-            cells,
-        }
+        Row { label: title.to_owned(), cells }
     };
     let printed = Some(&paper);
-    rows.push(rms_row(
-        "shear RMS",
-        "shear_rms",
-        printed,
-        PERCENT,
-        &|run| run.shear_gage_rms,
-    ));
-    rows.push(rms_row(
-        "membrane RMS",
-        "membrane_rms",
-        printed,
-        PERCENT,
-        &|run| run.membrane_gage_rms,
-    ));
+    rows.push(rms_row("shear RMS", "shear_rms", printed, PERCENT, &|run| run.shear_gage_rms));
+    rows.push(rms_row("membrane RMS", "membrane_rms", printed, PERCENT, &|run| run.membrane_gage_rms));
     for (title, row, rms) in RMS_ROWS {
         let (inner, exact) = (format!("inner {title}"), format!("exact {title}"));
-        rows.push(rms_row(&inner, row, printed, RMS_PERCENT, &|run| {
-            rms(&run.inner)
-        }));
-        rows.push(rms_row(&exact, row, None, RMS_PERCENT, &|run| {
-            rms(&run.exact)
-        }));
+        rows.push(rms_row(&inner, row, printed, RMS_PERCENT, &|run| rms(&run.inner)));
+        rows.push(rms_row(&exact, row, None, RMS_PERCENT, &|run| rms(&run.exact)));
     }
     let number = paper.number;
     Ok(Table {
         name: format!("table_{number}"),
-        title: format!(
-            "Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})"
-        ),
+        title: format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})"),
         label_heading: "Element",
         columns,
         rows,
-        notes: std::iter::once("S shear panel, M membrane.".to_owned())
-            .chain(remarks(Some(&paper)))
-            .collect(),
+        notes: std::iter::once("S shear panel, M membrane.".to_owned()).chain(remarks(Some(&paper))).collect(),
     })
 }

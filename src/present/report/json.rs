@@ -93,10 +93,7 @@ pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
         program: PROGRAM,
         version: VERSION,
         units: UNITS,
-        cases: results
-            .iter()
-            .map(|result| case_document(result, &paper))
-            .collect(),
+        cases: results.iter().map(|result| case_document(result, &paper)).collect(),
         reconstruction_fit: fit,
     };
     written(&document)
@@ -107,12 +104,7 @@ pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
 /// # Errors
 /// [`CaseError::Table`] if a number were not finite.
 pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
-    written(&Headed {
-        program: PROGRAM,
-        version: VERSION,
-        units: UNITS,
-        content: Content::Runs(runs),
-    })
+    written(&Headed { program: PROGRAM, version: VERSION, units: UNITS, content: Content::Runs(runs) })
 }
 
 /// A comparison of matrix corrections as JSON, units and errors as in [`json`].
@@ -120,12 +112,7 @@ pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
 /// # Errors
 /// [`CaseError::Table`] if a number were not finite.
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
-    written(&Headed {
-        program: PROGRAM,
-        version: VERSION,
-        units: UNITS,
-        content: Content::Comparison(comparison),
-    })
+    written(&Headed { program: PROGRAM, version: VERSION, units: UNITS, content: Content::Comparison(comparison) })
 }
 
 /// A document with one entry beside the heading.
@@ -159,11 +146,7 @@ pub(super) fn written(document: &impl Serialize) -> Result<String, PresentError>
 fn case_document(result: &CaseResult, paper: &PublishedTable) -> CaseDocument {
     let correlation = &result.correlation;
     let case = result.case.number;
-    let passes = correlation
-        .passes
-        .iter()
-        .zip(&result.pass_gages)
-        .enumerate();
+    let passes = correlation.passes.iter().zip(&result.pass_gages).enumerate();
     CaseDocument {
         case,
         solver: result.solver,
@@ -187,32 +170,19 @@ fn case_document(result: &CaseResult, paper: &PublishedTable) -> CaseDocument {
                     .value(&case.to_string(), &format!("pass_{}_iterations", row + 1))
                     .map(|count| count as usize),
                 stop: pass.inner.stop,
-                inner_error_sums: pass
-                    .inner
-                    .iterations
-                    .iter()
-                    .map(|i| i.errors.sum())
-                    .collect(),
+                inner_error_sums: pass.inner.iterations.iter().map(|i| i.errors.sum()).collect(),
                 gages_in: gages.clone(),
                 frequencies_hz: pass.check.frequencies_hz.clone(),
                 frequency_rms: pass.check.errors.frequency_rms(),
                 shape_rms: pass.check.errors.shape_rms(),
-                history: pass
-                    .inner
-                    .iterations
-                    .iter()
-                    .map(iteration_document)
-                    .collect(),
+                history: pass.inner.iterations.iter().map(iteration_document).collect(),
             })
             .collect(),
         unlimited_factors: result.unlimited_factors().to_vec(),
         anomalies: result
             .anomalies
             .iter()
-            .map(|anomaly| AnomalyDocument {
-                element: anomaly.parameter.clone(),
-                factor: anomaly.factor,
-            })
+            .map(|anomaly| AnomalyDocument { element: anomaly.parameter.clone(), factor: anomaly.factor })
             .collect(),
     }
 }

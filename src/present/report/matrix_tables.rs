@@ -11,9 +11,7 @@ const FACTOR: Digits = Digits::Fixed(3);
 pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {
     let as_tested = &comparison.as_tested_hz;
     let after_change = &comparison.after_change_hz;
-    let mut changed = frequency_table(comparison, "after a change", after_change, |p| {
-        &p.after_change
-    });
+    let mut changed = frequency_table(comparison, "after a change", after_change, |p| &p.after_change);
     changed.notes.push(format!(
         "The change: every cover thicker by {COVER_DOUBLER:.3} in, which no test has seen. The model corrected by elements is analyzed anew; to the corrected matrices the change of the uncorrected model's stiffness is added."
     ));
@@ -23,12 +21,7 @@ pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {
         distance_table(comparison),
     ];
     for prediction in comparison.predictions.iter().skip(1) {
-        tables.push(entry_table(
-            comparison,
-            prediction,
-            "stiffness",
-            &prediction.stiffness_change,
-        ));
+        tables.push(entry_table(comparison, prediction, "stiffness", &prediction.stiffness_change));
     }
     if let Some(last) = comparison.predictions.last() {
         tables.push(entry_table(comparison, last, "mass", &last.mass_change));
@@ -57,29 +50,18 @@ fn frequency_table(
 ) -> Table {
     let row = |label: &str, truth: Cell, value: &dyn Fn(&Prediction) -> f64, digits| {
         let percents = predictors(comparison).map(|p| plain(100.0 * value(p), digits));
-        Row {
-            label: label.to_owned(),
-            cells: std::iter::once(truth).chain(percents).collect(),
-        }
+        Row { label: label.to_owned(), cells: std::iter::once(truth).chain(percents).collect() }
     };
     let mut rows: Vec<Row> = truth
         .iter()
         .enumerate()
         .map(|(mode, &frequency)| {
             let label = (mode + 1).to_string();
-            row(
-                &label,
-                plain(frequency, HERTZ),
-                &|p| errors(p)[mode],
-                PERCENT,
-            )
+            row(&label, plain(frequency, HERTZ), &|p| errors(p)[mode], PERCENT)
         })
         .collect();
     let fitted = comparison.test_modes;
-    for (label, modes) in [
-        ("RMS test modes", 0..fitted),
-        ("RMS others", fitted..truth.len()),
-    ] {
+    for (label, modes) in [("RMS test modes", 0..fitted), ("RMS others", fitted..truth.len())] {
         if !modes.is_empty() {
             let value = |p: &Prediction| rms(&errors(p)[modes.clone()]);
             rows.push(row(label, Cell::Blank, &value, RMS_PERCENT));
@@ -88,14 +70,9 @@ fn frequency_table(
     let names = predictors(comparison).map(|p| column(p.model, "%"));
     Table {
         name: format!("matrix_frequencies_{}", state.replace(' ', "_")),
-        title: format!(
-            "Case {}, {fitted} test modes: errors of the models' frequencies, {state}",
-            comparison.case
-        ),
+        title: format!("Case {}, {fitted} test modes: errors of the models' frequencies, {state}", comparison.case),
         label_heading: "Mode",
-        columns: std::iter::once(column("Truth", "Hz"))
-            .chain(names)
-            .collect(),
+        columns: std::iter::once(column("Truth", "Hz")).chain(names).collect(),
         rows,
         notes: Vec::new(),
     }
@@ -115,16 +92,10 @@ fn distance_table(comparison: &MatrixComparison) -> Table {
                 }
             }
         }
-        let percents = [
-            prediction.distance_left,
-            prediction.beyond_elements,
-            coupling,
-        ];
+        let percents = [prediction.distance_left, prediction.beyond_elements, coupling];
         Row {
             label: prediction.model.to_owned(),
-            cells: percents
-                .map(|value| plain(100.0 * value, RMS_PERCENT))
-                .to_vec(),
+            cells: percents.map(|value| plain(100.0 * value, RMS_PERCENT)).to_vec(),
         }
     };
     Table {
@@ -143,63 +114,35 @@ fn distance_table(comparison: &MatrixComparison) -> Table {
     }
 }
 
-fn entry_table(
-    comparison: &MatrixComparison,
-    prediction: &Prediction,
-    what: &str,
-    change: &[Vec<f64>],
-) -> Table {
+fn entry_table(comparison: &MatrixComparison, prediction: &Prediction, what: &str, change: &[Vec<f64>]) -> Table {
     let row = |(i, entries): (usize, &Vec<f64>)| Row {
         label: (i + 1).to_string(),
-        cells: entries
-            .iter()
-            .map(|entry| plain(100.0 * entry, RMS_PERCENT))
-            .collect(),
+        cells: entries.iter().map(|entry| plain(100.0 * entry, RMS_PERCENT)).collect(),
     };
     let model = prediction.model;
     Table {
         name: format!("{what}_change_{}", model.replace(' ', "_").to_lowercase()),
-        title: format!(
-            "Case {}: change of the {what} entry by entry, {model}",
-            comparison.case
-        ),
+        title: format!("Case {}: change of the {what} entry by entry, {model}", comparison.case),
         label_heading: "DOF",
-        columns: (1..=change.len())
-            .map(|j| column(&j.to_string(), "%"))
-            .collect(),
+        columns: (1..=change.len()).map(|j| column(&j.to_string(), "%")).collect(),
         rows: change.iter().enumerate().map(row).collect(),
         notes: Vec::new(),
     }
 }
 
 fn factor_table(case: &Case, comparison: &MatrixComparison) -> Table {
-    let rows = comparison
-        .factors
-        .iter()
-        .zip(&case.panels)
-        .map(|(factor, panel)| Row {
-            label: factor.element.to_string(),
-            cells: std::iter::once(Cell::Text(kind_letter(panel.kind).to_owned()))
-                .chain(
-                    [factor.truth, factor.found, factor.nearest_to_baruch]
-                        .map(|value| plain(value, FACTOR)),
-                )
-                .collect(),
-        });
+    let rows = comparison.factors.iter().zip(&case.panels).map(|(factor, panel)| Row {
+        label: factor.element.to_string(),
+        cells: std::iter::once(Cell::Text(kind_letter(panel.kind).to_owned()))
+            .chain([factor.truth, factor.found, factor.nearest_to_baruch].map(|value| plain(value, FACTOR)))
+            .collect(),
+    });
     Table {
         name: "matrix_factors".to_owned(),
         title: format!("Case {}: factors on the elements", comparison.case),
         label_heading: "Element",
-        columns: vec![
-            column("Type", ""),
-            column("True", ""),
-            column("Found", ""),
-            column("Nearest to Baruch", ""),
-        ],
+        columns: vec![column("Type", ""), column("True", ""), column("Found", ""), column("Nearest to Baruch", "")],
         rows: rows.collect(),
-        notes: vec![
-            "Nearest to Baruch: the factors whose change of stiffness comes nearest to Baruch's."
-                .to_owned(),
-        ],
+        notes: vec!["Nearest to Baruch: the factors whose change of stiffness comes nearest to Baruch's.".to_owned()],
     }
 }

@@ -75,11 +75,7 @@ fn write_cell(cell: &Cell) -> String {
     match cell {
         Cell::Blank => String::new(),
         Cell::Text(text) => text.clone(),
-        Cell::Number {
-            computed,
-            published,
-            digits,
-        } => match published {
+        Cell::Number { computed, published, digits } => match published {
             Some(paper) => format!("{} ({})", digits.write(*computed), digits.write(*paper)),
             None => digits.write(*computed),
         },
@@ -98,11 +94,7 @@ pub fn csv(tables: &[Table]) -> Result<String, crate::present::error::PresentErr
         found,
     };
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |fields: [&str; 6]| {
-        writer
-            .write_record(fields)
-            .map_err(|error| failed(error.to_string()))
-    };
+    let mut write = |fields: [&str; 6]| writer.write_record(fields).map_err(|error| failed(error.to_string()));
     write(["table", "row", "column", "unit", "computed", "published"])?;
     for table in tables {
         for row in &table.rows {
@@ -110,29 +102,15 @@ pub fn csv(tables: &[Table]) -> Result<String, crate::present::error::PresentErr
                 let (computed, published) = match cell {
                     Cell::Blank => continue,
                     Cell::Text(text) => (text.clone(), String::new()),
-                    Cell::Number {
-                        computed,
-                        published,
-                        ..
-                    } => (
-                        ten_digits(*computed),
-                        published.map_or_else(String::new, |value| value.to_string()),
-                    ),
+                    Cell::Number { computed, published, .. } => {
+                        (ten_digits(*computed), published.map_or_else(String::new, |value| value.to_string()))
+                    }
                 };
-                write([
-                    &table.name,
-                    &row.label,
-                    &column.name,
-                    column.unit,
-                    &computed,
-                    &published,
-                ])?;
+                write([&table.name, &row.label, &column.name, column.unit, &computed, &published])?;
             }
         }
     }
-    let bytes = writer
-        .into_inner()
-        .map_err(|error| failed(error.to_string()))?;
+    let bytes = writer.into_inner().map_err(|error| failed(error.to_string()))?;
     Ok(String::from_utf8(bytes).map_err(|error| failed(error.to_string()))?)
 }
 

@@ -19,17 +19,8 @@ const ORDERS: usize = 6;
 pub fn root_error_table() -> Result<Table, PresentError> {
     let table = table_1(&problems(), ORDERS)?;
     let mut columns = vec![column("Coupling", ""), column("Change", "")];
-    columns.extend(
-        table
-            .formulae
-            .iter()
-            .map(|&rule| column(&rule_name(rule), "%")),
-    );
-    let plain = |computed| Cell::Number {
-        computed,
-        published: None,
-        digits: Digits::Fixed(2),
-    };
+    columns.extend(table.formulae.iter().map(|&rule| column(&rule_name(rule), "%")));
+    let plain = |computed| Cell::Number { computed, published: None, digits: Digits::Fixed(2) };
     let rows = table.rows.iter().enumerate().map(|(number, row)| {
         let mut cells = vec![plain(row.problem.coupling), plain(row.problem.change)];
         cells.extend(row.root_errors.iter().map(|errors| Cell::Number {
@@ -37,10 +28,7 @@ pub fn root_error_table() -> Result<Table, PresentError> {
             published: None,
             digits: Digits::Scientific(1),
         }));
-        Row {
-            label: (number + 1).to_string(),
-            cells,
-        }
+        Row { label: (number + 1).to_string(), cells }
     });
     Ok(Table {
         name: "table_1".to_owned(),

@@ -1,8 +1,6 @@
 //! The rest of a run's report: unlimited factors, iterations (Table 13), and the fit of the box.
 
-use super::correlation_tables::{
-    RMS_PERCENT, column, frequency_table, gage_table, number, remarks,
-};
+use super::correlation_tables::{RMS_PERCENT, column, frequency_table, gage_table, number, remarks};
 use super::table::{Cell, Digits, Row, Table};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
@@ -20,10 +18,7 @@ pub fn factor_table(result: &CaseResult) -> Table {
         .iter()
         .zip(result.unlimited_factors())
         .map(|(name, &factor)| {
-            let anomalous = result
-                .anomalies
-                .iter()
-                .any(|found| found.parameter == *name);
+            let anomalous = result.anomalies.iter().any(|found| found.parameter == *name);
             // The one factor the paper quotes: about 60, for the faulty cover of Case 4.
             let published = (case == 4 && name == "8").then_some(60.0);
             let verdict = match (anomalous, range.contains(factor)) {
@@ -31,21 +26,11 @@ pub fn factor_table(result: &CaseResult) -> Table {
                 (false, true) => "within bounds",
                 (false, false) => "limited",
             };
-            let factor = Cell::Number {
-                computed: factor,
-                published,
-                digits: FACTOR,
-            };
-            Row {
-                label: name.clone(),
-                cells: vec![factor, Cell::Text(verdict.to_owned())],
-            }
+            let factor = Cell::Number { computed: factor, published, digits: FACTOR };
+            Row { label: name.clone(), cells: vec![factor, Cell::Text(verdict.to_owned())] }
         })
         .collect();
-    let mut notes = vec![format!(
-        "Bounds of one iteration: {:.2} to {:.2}.",
-        range.lower, range.upper
-    )];
+    let mut notes = vec![format!("Bounds of one iteration: {:.2} to {:.2}.", range.lower, range.upper)];
     for anomaly in &result.anomalies {
         notes.push(format!(
             "Anomaly: {} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error there.",
@@ -76,11 +61,7 @@ fn parameter_word(result: &CaseResult) -> &'static str {
 /// [`Error::Table`] if the published table were damaged.
 pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(13)?;
-    let most = results
-        .iter()
-        .map(|result| result.correlation.passes.len())
-        .max()
-        .unwrap_or(0);
+    let most = results.iter().map(|result| result.correlation.passes.len()).max().unwrap_or(0);
     let rows = results
         .iter()
         .map(|result| {
@@ -104,9 +85,7 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
         name: "table_13".to_owned(),
         title: "Inner loop iterations per pass (Table 13)".to_owned(),
         label_heading: "Case",
-        columns: (1..=most)
-            .map(|pass| column(&format!("Pass {pass}"), ""))
-            .collect(),
+        columns: (1..=most).map(|pass| column(&format!("Pass {pass}"), "")).collect(),
         rows,
         notes: remarks(Some(&paper)),
     })
@@ -119,17 +98,9 @@ pub fn fit_table(fit: &Fit) -> Table {
         .iter()
         .map(|column| {
             let squares: f64 = column.differences().map(|d| d * d).sum();
-            let largest =
-                column.differences().fold(
-                    0.0,
-                    |worst: f64, d| if d.abs() > worst.abs() { d } else { worst },
-                );
+            let largest = column.differences().fold(0.0, |worst: f64, d| if d.abs() > worst.abs() { d } else { worst });
             let rms = (squares / column.frequencies_hz.len() as f64).sqrt();
-            let percent = |value: f64| Cell::Number {
-                computed: 100.0 * value,
-                published: None,
-                digits: RMS_PERCENT,
-            };
+            let percent = |value: f64| Cell::Number { computed: 100.0 * value, published: None, digits: RMS_PERCENT };
             Row {
                 label: format!("Case {} {}", column.case, column.column.replace('_', " ")),
                 cells: vec![percent(rms), percent(largest)],
@@ -139,17 +110,13 @@ pub fn fit_table(fit: &Fit) -> Table {
     let (case, column_name, mode) = &fit.largest_at;
     Table {
         name: "fit".to_owned(),
-        title: "The reconstructed box: computed frequencies at published gages against published"
-            .to_owned(),
+        title: "The reconstructed box: computed frequencies at published gages against published".to_owned(),
         label_heading: "Column",
         columns: vec![column("RMS", "%"), column("Largest", "%")],
         rows,
         notes: vec![format!(
             "Over all {} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement with everything else is evidence.",
-            fit.columns
-                .iter()
-                .map(|c| c.frequencies_hz.len())
-                .sum::<usize>(),
+            fit.columns.iter().map(|c| c.frequencies_hz.len()).sum::<usize>(),
             100.0 * fit.rms,
             100.0 * fit.largest,
             column_name.replace('_', " "),

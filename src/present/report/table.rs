@@ -77,9 +77,7 @@ impl Digits {
                     0
                 } else {
                     // Rounded first: 99.996 has five digits before the point's second place once it is 100.00.
-                    let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1))
-                        .parse()
-                        .unwrap_or(value);
+                    let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
                     rounded.abs().log10().floor() as i64
                 };
                 let decimals = usize::try_from(digits as i64 - 1 - magnitude).unwrap_or(0);
@@ -87,10 +85,6 @@ impl Digits {
             }
         };
         let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-        if is_zero {
-            text.trim_start_matches('-').to_owned()
-        } else {
-            text
-        }
+        if is_zero { text.trim_start_matches('-').to_owned() } else { text }
     }
 }

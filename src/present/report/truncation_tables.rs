@@ -19,68 +19,30 @@ pub fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
         .into_iter()
         .collect::<Result<Vec<_>, PresentError>>()?;
     let cell = |run: &FewerModesRun| {
-        let paper = papers
-            .iter()
-            .find(|(test_modes, _)| *test_modes == run.test_modes);
+        let paper = papers.iter().find(|(test_modes, _)| *test_modes == run.test_modes);
         let heading = format!("fem_{}_percent", run.analysis_modes);
         let printed = paper.map(|(_, table)| table);
-        number(
-            run.iterations as f64,
-            COUNT,
-            printed,
-            "iterations",
-            &heading,
-        )
+        number(run.iterations as f64, COUNT, printed, "iterations", &heading)
     };
     let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
     let mut table = pairs_table("fewer_modes_iterations", title, "", runs, cell);
-    table.notes.push(format!(
-        "At most {ITERATIONS}: where the paper has as many, its error sum had not met the tolerance."
-    ));
+    table
+        .notes
+        .push(format!("At most {ITERATIONS}: where the paper has as many, its error sum had not met the tolerance."));
     Ok(table)
 }
 
 /// One quantity of a run: name, title, unit, digits, value.
-type Quantity = (
-    &'static str,
-    &'static str,
-    &'static str,
-    Digits,
-    fn(&FewerModesRun) -> f64,
-);
+type Quantity = (&'static str, &'static str, &'static str, Digits, fn(&FewerModesRun) -> f64);
 
 const QUANTITIES: [Quantity; 5] = [
-    ("iterations", "iterations", "", COUNT, |run| {
-        run.iterations as f64
+    ("iterations", "iterations", "", COUNT, |run| run.iterations as f64),
+    ("shear", "gage RMS of the shear panels", "%", PERCENT, |run| 100.0 * run.shear_gage_rms),
+    ("membrane", "gage RMS of the membranes", "%", PERCENT, |run| 100.0 * run.membrane_gage_rms),
+    ("frequency", "exact frequency RMS over all test modes", "%", RMS_PERCENT, |run| {
+        100.0 * run.exact_all_modes.frequency_rms
     }),
-    (
-        "shear",
-        "gage RMS of the shear panels",
-        "%",
-        PERCENT,
-        |run| 100.0 * run.shear_gage_rms,
-    ),
-    (
-        "membrane",
-        "gage RMS of the membranes",
-        "%",
-        PERCENT,
-        |run| 100.0 * run.membrane_gage_rms,
-    ),
-    (
-        "frequency",
-        "exact frequency RMS over all test modes",
-        "%",
-        RMS_PERCENT,
-        |run| 100.0 * run.exact_all_modes.frequency_rms,
-    ),
-    (
-        "shape",
-        "exact shape RMS over all test modes",
-        "%",
-        RMS_PERCENT,
-        |run| 100.0 * run.exact_all_modes.shape_rms,
-    ),
+    ("shape", "exact shape RMS over all test modes", "%", RMS_PERCENT, |run| 100.0 * run.exact_all_modes.shape_rms),
 ];
 
 /// What truncation costs over all pairs of numbers of modes, one table a quantity.
@@ -110,25 +72,15 @@ fn pairs_table(
         counts.dedup();
         counts
     };
-    let (tests, analyses) = (
-        counts(|run| run.test_modes),
-        counts(|run| run.analysis_modes),
-    );
+    let (tests, analyses) = (counts(|run| run.test_modes), counts(|run| run.analysis_modes));
     let row = |&test: &usize| {
         let found = |&analysis: &usize| {
-            let like =
-                |run: &&FewerModesRun| run.test_modes == test && run.analysis_modes == analysis;
+            let like = |run: &&FewerModesRun| run.test_modes == test && run.analysis_modes == analysis;
             runs.iter().find(like).map_or(Cell::Blank, &cell)
         };
-        Row {
-            label: test.to_string(),
-            cells: analyses.iter().map(found).collect(),
-        }
+        Row { label: test.to_string(), cells: analyses.iter().map(found).collect() }
     };
-    let heading = |analysis: &usize| Column {
-        name: format!("FEM {analysis}"),
-        unit,
-    };
+    let heading = |analysis: &usize| Column { name: format!("FEM {analysis}"), unit };
     Table {
         name: name.to_owned(),
         title: title.to_owned(),

@@ -39,11 +39,7 @@ pub struct Group {
 }
 
 const fn group(name: &'static str, elements: &'static [usize], first_over_true: f64) -> Group {
-    Group {
-        name,
-        elements,
-        first_over_true,
-    }
+    Group { name, elements, first_over_true }
 }
 
 /// All covers and webs, by bay and by span, and what is wrong in the first model.
@@ -84,11 +80,7 @@ const Z: usize = 2;
 /// pass more.
 pub fn settings() -> Settings {
     Settings {
-        inner: InnerSettings {
-            tolerance: 0.01,
-            update: UpdateRule::Eigensolution,
-            ..InnerSettings::default()
-        },
+        inner: InnerSettings { tolerance: 0.01, update: UpdateRule::Eigensolution, ..InnerSettings::default() },
         later_inner_tolerance: 0.005,
         // Together they bound either error below its own default.
         error_sum_tolerance: 0.005,
@@ -99,10 +91,7 @@ pub fn settings() -> Settings {
 /// The grids whose $z$ is measured: those of the upper surface that move.
 pub fn measured_grids(structure: &Structure) -> Vec<usize> {
     let grids = structure.grids().iter();
-    grids
-        .filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z])
-        .map(|grid| grid.label)
-        .collect()
+    grids.filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z]).map(|grid| grid.label).collect()
 }
 
 /// The model with the wrong gages of [`GROUPS`], one parameter a group.
@@ -116,10 +105,7 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
         let ratio = wrong.map_or(1.0, |group| group.first_over_true);
         Element {
             size: ratio * element.size,
-            material: Material {
-                density: element.material.density / ratio,
-                ..element.material
-            },
+            material: Material { density: element.material.density / ratio, ..element.material },
             ..element.clone()
         }
     });
@@ -156,8 +142,5 @@ pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
     };
     let rows: Vec<usize> = grids.into_iter().filter_map(at).collect();
     let all = lowest.frequencies_hz();
-    ModeSet::from_measured(
-        &modes.map(|mode| all[mode]),
-        &lowest.shapes.select_rows(&rows).select_columns(&modes),
-    )
+    ModeSet::from_measured(&modes.map(|mode| all[mode]), &lowest.shapes.select_rows(&rows).select_columns(&modes))
 }

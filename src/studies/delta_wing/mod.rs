@@ -26,8 +26,8 @@ use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::Vector3;
 use planform::{
-    LINES, STATIONS, SUPPORTED_STATION, SURFACE_STEP, along_lines, along_stations, leading_edge,
-    lines_at, mid_grid, stations_on, upper_grid,
+    LINES, STATIONS, SUPPORTED_STATION, SURFACE_STEP, along_lines, along_stations, leading_edge, lines_at, mid_grid,
+    stations_on, upper_grid,
 };
 use serde::Deserialize;
 
@@ -71,10 +71,7 @@ impl DeltaWing {
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
     pub fn embedded() -> Result<Self, CaseError> {
-        Self::parse(
-            "paper/delta_wing.toml",
-            include_str!("../../../paper/delta_wing.toml"),
-        )
+        Self::parse("paper/delta_wing.toml", include_str!("../../../paper/delta_wing.toml"))
     }
 
     /// Reads a wing of this planform from TOML text; `name` stands in error messages.
@@ -89,18 +86,12 @@ impl DeltaWing {
         })?;
         let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
         let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
-        let along_stations: Vec<usize> = (1..STATIONS.len())
-            .map(|station| lines_at(station) - 1)
-            .collect();
+        let along_stations: Vec<usize> = (1..STATIONS.len()).map(|station| lines_at(station) - 1).collect();
         for (what, table, lengths) in [
             ("half depths", &read.half_depths, &at_grids),
             ("post areas", &read.post_areas, &at_grids),
             ("spanwise cap areas", &read.spanwise_cap_areas, &along_lines),
-            (
-                "chordwise cap areas",
-                &read.chordwise_cap_areas,
-                &along_stations,
-            ),
+            ("chordwise cap areas", &read.chordwise_cap_areas, &along_stations),
         ] {
             crate::method::linear_algebra::check_length(what, table.len(), lengths.len())?;
             for (row, &length) in table.iter().zip(lengths) {
@@ -126,13 +117,7 @@ impl DeltaWing {
         let mut elements = Vec::new();
         let mut put = |first: usize, members: Vec<(ElementKind, Vec<usize>, f64)>, material| {
             for (row, (kind, grids, size)) in members.into_iter().enumerate() {
-                elements.push(Element {
-                    label: first + row,
-                    kind,
-                    grids,
-                    size,
-                    material,
-                });
+                elements.push(Element { label: first + row, kind, grids, size, material });
             }
         };
         put(FIRST_COVER, self.covers(), sheet);
@@ -213,12 +198,7 @@ impl DeltaWing {
     fn caps(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
         let mut sides = along_lines();
         sides.extend(along_stations());
-        sides.extend(
-            leading_edge()
-                .windows(2)
-                .rev()
-                .map(|pair| [pair[1], pair[0]]),
-        );
+        sides.extend(leading_edge().windows(2).rev().map(|pair| [pair[1], pair[0]]));
         let areas = (self.spanwise_cap_areas.iter().flatten())
             .chain(self.chordwise_cap_areas.iter().flatten())
             .chain(&self.leading_edge_cap_areas);

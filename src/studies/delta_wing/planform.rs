@@ -59,7 +59,5 @@ pub(super) fn along_stations() -> Vec<[usize; 2]> {
 
 /// Mid-plane grids on the leading edge, from the tip in.
 pub(super) fn leading_edge() -> Vec<usize> {
-    (1..LINES.len())
-        .map(|line| mid_grid(line, stations_on(line) - 1))
-        .collect()
+    (1..LINES.len()).map(|line| mid_grid(line, stations_on(line) - 1)).collect()
 }

@@ -5,8 +5,7 @@ use crate::common::measured::{free_beam, held_chain, mixture, noise};
 use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{
-    MovementLimits, SYMMETRIC, Supports, Verdict, examine, generalized_mass, orthogonalize,
-    rigid_body_vectors,
+    MovementLimits, SYMMETRIC, Supports, Verdict, examine, generalized_mass, orthogonalize, rigid_body_vectors,
 };
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector};

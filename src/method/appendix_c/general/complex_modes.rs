@@ -30,11 +30,7 @@ pub struct LeftRightModes<T> {
 impl From<&Modes> for LeftRightModes<f64> {
     /// Modes of vibration: $\lambda = 1/\omega^2$ and $U = V$, for a symmetric pencil is its own transpose.
     fn from(modes: &Modes) -> Self {
-        Self {
-            roots: modes.omega_squared.map(f64::recip),
-            right: modes.shapes.clone(),
-            left: modes.shapes.clone(),
-        }
+        Self { roots: modes.omega_squared.map(f64::recip), right: modes.shapes.clone(), left: modes.shapes.clone() }
     }
 }
 
@@ -55,15 +51,10 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
 /// [`Error::NotPositiveDefinite`] naming the DOF for a stiffness that is not; [`Error::Empty`] without DOF;
 /// [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
-pub fn solve(
-    stiffness: &DMatrix<f64>,
-    g: &DMatrix<Complex<f64>>,
-) -> Result<LeftRightModes<Complex<f64>>, Error> {
+pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let size = stiffness.nrows();
     if size == 0 {
-        return Err(Error::Empty {
-            what: "degrees of freedom",
-        });
+        return Err(Error::Empty { what: "degrees of freedom" });
     }
     let what = "mass and aerodynamic terms";
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
@@ -74,9 +65,7 @@ pub fn solve(
     reduced.transpose_mut();
     lower.solve_lower_triangular_unchecked_mut(&mut reduced);
     reduced.transpose_mut();
-    let eigen = to_faer(&reduced)
-        .eigen()
-        .map_err(|_| Error::NoConvergence { what })?;
+    let eigen = to_faer(&reduced).eigen().map_err(|_| Error::NoConvergence { what })?;
     let unsorted: Vec<Complex<f64>> = (0..size).map(|i| eigen.S()[i]).collect();
     let order = by_magnitude_then_argument(&unsorted);
     let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
@@ -103,11 +92,7 @@ pub fn solve(
         }
     }
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
-    Ok(LeftRightModes {
-        roots: DVector::from_fn(size, |j, _| unsorted[order[j]]),
-        right,
-        left,
-    })
+    Ok(LeftRightModes { roots: DVector::from_fn(size, |j, _| unsorted[order[j]]), right, left })
 }
 
 /// Indices of the roots by falling magnitude, and by rising argument among those of equal magnitude.
@@ -117,10 +102,7 @@ fn by_magnitude_then_argument(roots: &[Complex<f64>]) -> Vec<usize> {
     let mut start = 0;
     while start < order.len() {
         let largest = roots[order[start]].norm();
-        let count = order[start..]
-            .iter()
-            .take_while(|&&i| roots[i].norm() >= (1.0 - MAGNITUDE_TIE) * largest)
-            .count();
+        let count = order[start..].iter().take_while(|&&i| roots[i].norm() >= (1.0 - MAGNITUDE_TIE) * largest).count();
         order[start..start + count].sort_by(|&a, &b| by_argument(roots[a], roots[b]));
         start += count;
     }

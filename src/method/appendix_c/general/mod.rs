@@ -81,11 +81,7 @@ where
 ///
 /// # Errors
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] as [`super::recursive_1_converged`].
-pub fn recursive_1_converged<T>(
-    change: &ModalChange<T>,
-    tolerance: f64,
-    orders: usize,
-) -> Result<Settled<T>, Error>
+pub fn recursive_1_converged<T>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> Result<Settled<T>, Error>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
@@ -98,18 +94,9 @@ where
         now = coupling.next_order(change, now)?;
         order += 1;
         last_change = largest_change(&before, &now.roots);
-        quiet_orders = if last_change < tolerance {
-            quiet_orders + 1
-        } else {
-            0
-        };
+        quiet_orders = if last_change < tolerance { quiet_orders + 1 } else { 0 };
     }
-    Settled {
-        perturbed: now,
-        order,
-        last_change,
-    }
-    .check(orders)
+    Settled { perturbed: now, order, last_change }.check(orders)
 }
 
 /// $\beta$ and $\alpha$ without their diagonals.
@@ -130,11 +117,7 @@ where
     }
 
     /// One order of Recursive 1.
-    fn next_order(
-        &self,
-        change: &ModalChange<T>,
-        mut now: Perturbed<T>,
-    ) -> Result<Perturbed<T>, Error> {
+    fn next_order(&self, change: &ModalChange<T>, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
         // As for stiffness alone: with p_jj = 1 and no diagonals, the products hold all the sums of this order.
         let (stiffness_sums, g_sums) = (&self.beta * &now.shapes, &self.alpha * &now.shapes);
         for j in 0..change.len() {
@@ -168,10 +151,7 @@ where
     let mut now = first_order(change)?;
     for _ in 2..=order {
         let roots = explicit_roots(change, &now.shapes)?;
-        now = finite(Perturbed {
-            shapes: shapes_by_linear_solution(change, &roots)?,
-            roots,
-        })?;
+        now = finite(Perturbed { shapes: shapes_by_linear_solution(change, &roots)?, roots })?;
     }
     Ok(now)
 }
@@ -185,10 +165,7 @@ where
     T: ComplexField<RealField = f64> + Copy,
 {
     let Perturbed { shapes, .. } = first_order(change)?;
-    finite(Perturbed {
-        roots: explicit_roots(change, &shapes)?,
-        shapes,
-    })
+    finite(Perturbed { roots: explicit_roots(change, &shapes)?, shapes })
 }
 
 /// Roots from given shapes, $\gamma_i = \lambda_i + (A_i - \lambda_i S_i)/(k_{ii} + S_i)$ (C.24).
@@ -200,18 +177,14 @@ where
         let stiffness_sum = (change.beta.row(i) * shapes.column(i))[0];
         let g_sum = (change.alpha.row(i) * shapes.column(i))[0];
         let lambda = change.roots[i];
-        lambda
-            + (g_sum - lambda * stiffness_sum) / (change.generalized_stiffness[i] + stiffness_sum)
+        lambda + (g_sum - lambda * stiffness_sum) / (change.generalized_stiffness[i] + stiffness_sum)
     });
     check_finite_roots(&roots)?;
     Ok(roots)
 }
 
 /// Shapes that satisfy all rows but their own for given roots, one (n−1) × (n−1) solution per mode.
-fn shapes_by_linear_solution<T>(
-    change: &ModalChange<T>,
-    roots: &DVector<T>,
-) -> Result<DMatrix<T>, Error>
+fn shapes_by_linear_solution<T>(change: &ModalChange<T>, roots: &DVector<T>) -> Result<DMatrix<T>, Error>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
@@ -233,11 +206,7 @@ where
             .lu()
             .solve(&right)
             .filter(|solution| solution.iter().all(|value| value.is_finite()))
-            .ok_or(Error::CoalescingModes {
-                first: j,
-                second: j,
-                separation: 0.0,
-            })?;
+            .ok_or(Error::CoalescingModes { first: j, second: j, separation: 0.0 })?;
         shapes.set_column(j, &solution.insert_row(j, T::one()));
     }
     Ok(shapes)
@@ -270,8 +239,5 @@ fn check_finite_roots<T>(roots: &DVector<T>) -> Result<(), Error>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    check_finite(
-        "perturbed roots",
-        &DMatrix::from_column_slice(roots.len(), 1, roots.as_slice()),
-    )
+    check_finite("perturbed roots", &DMatrix::from_column_slice(roots.len(), 1, roots.as_slice()))
 }

@@ -26,17 +26,8 @@ pub struct ModalChange<T> {
 impl ModalChange<f64> {
     /// A change seen through mass-orthonormal modes of vibration: $k_{ii} = \omega_i^2$ (rad²/s²), $\lambda_i = 1/\omega_i^2$,
     /// `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
-    pub fn of_vibrations(
-        omega_squared: &DVector<f64>,
-        beta: DMatrix<f64>,
-        alpha: DMatrix<f64>,
-    ) -> Self {
-        Self {
-            generalized_stiffness: omega_squared.clone(),
-            roots: omega_squared.map(f64::recip),
-            beta,
-            alpha,
-        }
+    pub fn of_vibrations(omega_squared: &DVector<f64>, beta: DMatrix<f64>, alpha: DMatrix<f64>) -> Self {
+        Self { generalized_stiffness: omega_squared.clone(), roots: omega_squared.map(f64::recip), beta, alpha }
     }
 }
 
@@ -86,11 +77,7 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
     /// The same change seen by the transposed pencil (C.2), whose generalized shapes belong to the left modes:
     /// the changed left modes are $U$ times them.
     pub fn transposed(&self) -> Self {
-        Self {
-            beta: self.beta.transpose(),
-            alpha: self.alpha.transpose(),
-            ..self.clone()
-        }
+        Self { beta: self.beta.transpose(), alpha: self.alpha.transpose(), ..self.clone() }
     }
 
     /// Number of modes.
@@ -109,18 +96,14 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         if size == 0 {
             return Err(Error::Empty { what: "modes" });
         }
-        let column =
-            |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
+        let column = |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
         let k = column(&self.generalized_stiffness);
         check_shape("generalized stiffness", &k, size, 1)?;
         check_finite("generalized stiffness", &k)?;
         check_finite("roots", &column(&self.roots))?;
         for (what, matrix) in [
             ("generalized stiffness change", &self.beta),
-            (
-                "generalized change of mass and aerodynamic terms",
-                &self.alpha,
-            ),
+            ("generalized change of mass and aerodynamic terms", &self.alpha),
         ] {
             check_shape(what, matrix, size, size)?;
             check_finite(what, matrix)?;
@@ -148,27 +131,17 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
 
     /// A shape's component, `numerator` over $k_{ii}(\gamma_j - \lambda_i) + \beta_{ii}\gamma_j - \alpha_{ii}$: zero where nothing
     /// couples the modes, refused where something does and the denominator vanishes.
-    pub(crate) fn quotient(
-        &self,
-        numerator: T,
-        gamma: T,
-        (i, j): (usize, usize),
-    ) -> Result<T, Error> {
+    pub(crate) fn quotient(&self, numerator: T, gamma: T, (i, j): (usize, usize)) -> Result<T, Error> {
         if numerator == T::zero() {
             return Ok(numerator);
         }
-        let difference = self.generalized_stiffness[i] * (gamma - self.roots[i])
-            + self.beta[(i, i)] * gamma
-            - self.alpha[(i, i)];
+        let difference =
+            self.generalized_stiffness[i] * (gamma - self.roots[i]) + self.beta[(i, i)] * gamma - self.alpha[(i, i)];
         let own = (self.own_stiffness(i) * gamma).modulus();
         if difference.modulus() > SMALLEST_SEPARATION * own {
             return Ok(numerator / difference);
         }
         let separation = difference.modulus() / own;
-        Err(Error::CoalescingModes {
-            first: i,
-            second: j,
-            separation,
-        })
+        Err(Error::CoalescingModes { first: i, second: j, separation })
     }
 }

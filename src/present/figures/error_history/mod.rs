@@ -42,33 +42,17 @@ pub fn error_history(result: &CaseResult) -> ErrorHistory {
     let mut iteration = 0;
     let mut passes = Vec::new();
     for (row, pass) in result.correlation.passes.iter().enumerate() {
-        let mut inner = vec![Moment {
-            iteration,
-            errors: pass.inner.start,
-        }];
+        let mut inner = vec![Moment { iteration, errors: pass.inner.start }];
         for step in &pass.inner.iterations {
             iteration += 1;
-            inner.push(Moment {
-                iteration,
-                errors: step.errors,
-            });
+            inner.push(Moment { iteration, errors: step.errors });
         }
         passes.push(PassHistory {
             pass: row + 1,
             inner,
-            check: Moment {
-                iteration,
-                errors: pass.check.errors,
-            },
-            tolerance: if row == 0 {
-                settings.inner.tolerance
-            } else {
-                settings.later_inner_tolerance
-            },
+            check: Moment { iteration, errors: pass.check.errors },
+            tolerance: if row == 0 { settings.inner.tolerance } else { settings.later_inner_tolerance },
         });
     }
-    ErrorHistory {
-        case: result.case.number,
-        passes,
-    }
+    ErrorHistory { case: result.case.number, passes }
 }

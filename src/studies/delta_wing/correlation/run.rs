@@ -54,10 +54,7 @@ pub struct WingCorrelation {
 ///
 /// # Errors
 /// Those of [`first_model`], [`test_modes`], the analysis and the loops.
-pub fn correlate_wing(
-    wing: &DeltaWing,
-    progress: impl FnMut(usize, &Pass),
-) -> Result<WingCorrelation, Error> {
+pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> Result<WingCorrelation, Error> {
     correlate_wing_with(wing, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
@@ -78,22 +75,13 @@ pub fn correlate_wing_with<E: From<Error>>(
 ) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
     let test = test_modes(wing)?;
-    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
-        Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
-    };
+    let mut analyze =
+        |factors: &[f64]| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) };
     let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
     let correlation = correlate(analyze, &model.factor_ranges()?, &settings(), progress)?;
     let factors = correlation.best_factors();
     let found = GROUPS.iter().zip(factors).zip(shares);
-    let groups = found.map(|((group, factor), share)| Recovered {
-        group: *group,
-        factor,
-        share: share.diagonal().max(),
-    });
-    Ok(WingCorrelation {
-        solver,
-        groups: groups.collect(),
-        test,
-        correlation,
-    })
+    let groups =
+        found.map(|((group, factor), share)| Recovered { group: *group, factor, share: share.diagonal().max() });
+    Ok(WingCorrelation { solver, groups: groups.collect(), test, correlation })
 }
