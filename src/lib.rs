@@ -6,27 +6,43 @@
 //! is a reference implementation of a method of the 1980s for aerospace structures: derivatives and new modes come
 //! from Van de Vooren's perturbation formulae instead of new eigensolutions.
 //!
-//! # The method, in the order data flows
+//! # Contents
 //!
-//! 1. [`structure`]: grids, materials, elements; [`torque_box`]: the paper's wing torque box;
-//!    [`delta_wing`]: a larger structure that others have tested and analyzed.
-//! 2. [`elements`]: rod, shear panel and membrane stiffness for unit gage ([`quadrature`] for the panel's energy, [`analytical`] for what
-//!    it is compared with).
-//! 3. [`assembly`]: the structural stiffness $K_S$ and its Cholesky factor.
-//! 4. [`condensation`] (Appendix A): the dynamic stiffness $K_D$, and each element's share of it;
-//!    [`model`] puts 1 to 4 together, with the [`parameters`] that may change.
-//! 5. [`modes`]: frequencies and mass-orthonormal shapes ([`complex_modes`] with aerodynamic terms;
-//!    [`spring_chain`]: structures whose modes are known); [`test_modes`] (Appendix B): measured ones made fit to compare.
-//! 6. [`sorting`] (4) and [`objective`] (5, 6): which mode is which, and how far apart they are.
-//! 7. [`perturbation`] (Appendix C), [`derivatives`] (12), [`step`] (13): what each element does, and how much
-//!    to change it; [`table_1`] compares the perturbation formulae on two
-//!    modes, where [`two_dof`] is exact.
-//! 8. [`modal`], [`inner_loop`], [`outer_loop`]: steps by perturbation, checks by eigensolution, until they agree.
-//! 9. [`deck`]: the model as NASTRAN bulk data; [`nastran95`]: the analysis by that program.
-//! 10. [`cases`], [`published`], [`fit`], [`report`]: the paper's four cases beside the paper's own numbers;
-//!     [`fewer_modes`]: what they lose when modes are left out; [`matrix_correction`], [`matrix_comparison`]: what
-//!     corrections of whole matrices do instead.
-//!     [`figures`] and [`html_report`] show them.
+//! The crate is a house of rooms; each imports only from those above it in this list, and [`method`] from none.
+//!
+//! - [`method`]: the paper, in its own order. Read this first, and read it as a text:
+//!   1. [`structure`](method::structure), [`elements`](method::elements), [`assembly`](method::assembly): the finite element
+//!      model and its stiffness $K_S$;
+//!   2. [`appendix_a`](method::appendix_a): from structural to dynamic degrees of freedom (1, 2);
+//!   3. [`modes`](method::modes) (3) and [`appendix_b`](method::appendix_b): exact modes, and measured ones made fit to compare;
+//!   4. [`model`](method::model): what may change, and the modal model that the loops are handed;
+//!   5. [`pairing`](method::pairing) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
+//!   6. [`appendix_c`](method::appendix_c) (7, 8): new modes without an eigensolution, and [`state`](method::state), where they
+//!      are put together;
+//!   7. [`derivatives`](method::derivatives) (12), [`step`](method::step) (13), [`inner_loop`](method::inner_loop),
+//!      [`outer_loop`](method::outer_loop).
+//! - [`closed_forms`]: structures whose answers can be written down.
+//! - [`cases`]: the paper's wing torque box, its four cases, its tables.
+//! - [`studies`]: a delta wing, and corrections of whole matrices instead of elements.
+//! - [`files`]: NASTRAN decks, and analyses by NASTRAN-95.
+//! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
+//!
+//! ```text
+//!  structure ──► element stiffness ──► assembly K_S ──► condensation ──► modes ─┐
+//!  grids, gages   rod, shear panel,     sparse           K_D, and each           │
+//!       ▲         membrane              Cholesky         element's share         ▼
+//!       │                                                (Appendix A)       pairing (4)     ◄── test modes
+//!       │                                                                        │             (Appendix B)
+//!       │ outer loop: new gages,                                                 ▼
+//!       │ exact check                 inner loop                            error sum e_S (5, 6)
+//!       │                       ┌──────────────────────────────────────────────┤
+//!       │                       ▼                                              ▲
+//!       │        derivatives (12) ──► factors (13) ──► new modes by            │
+//!       │        first-order          limited          perturbation ───────────┘
+//!       │        perturbation                          (Appendix C)
+//!       │                                                   │ e_S small, or a local minimum
+//!       └───────────────────────────────────────────────────┘
+//! ```
 //!
 //! # Units
 //!

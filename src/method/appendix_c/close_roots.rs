@@ -90,7 +90,8 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     check_finite("perturbed generalized shapes", &shapes)?;
     apply_sign_rule(&mut shapes);
     Ok(SolvedInBlocks {
-        settled: Settled { perturbed: Perturbed { roots, shapes }, order, last_change }.check(settings.orders)?,
+        settled: Settled { perturbed: Perturbed { roots, shapes }, order, last_change }
+            .check(settings.tolerance, settings.orders)?,
         blocks: pencil.blocks.into_iter().filter(|block| block.len() > 1).collect(),
     })
 }

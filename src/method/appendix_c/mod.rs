@@ -59,13 +59,10 @@ pub struct Settled<T = f64> {
 }
 
 impl<T> Settled<T> {
-    /// Accepts a recursion whose roots have settled.
-    fn check(self, orders: usize) -> Result<Self, Error> {
-        let last_change = self.last_change;
-        if last_change <= LARGEST_UNSETTLED_CHANGE {
-            return Ok(self);
-        }
-        Err(Error::UnsettledRoots { largest: LARGEST_UNSETTLED_CHANGE, orders, last_change })
+    /// Accepts a recursion whose roots have settled to its tolerance, or nearly so.
+    fn check(self, tolerance: f64, orders: usize) -> Result<Self, Error> {
+        let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), self.last_change);
+        if last_change <= largest { Ok(self) } else { Err(Error::UnsettledRoots { largest, orders, last_change }) }
     }
 }
 

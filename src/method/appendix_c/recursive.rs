@@ -79,7 +79,7 @@ pub fn recursive_1_converged(
         last_change = next_order(generalized_stiffness, beta, &coupling, &mut now)?;
         order += 1;
     }
-    Settled { perturbed: now, order, last_change }.check(orders)
+    Settled { perturbed: now, order, last_change }.check(tolerance, orders)
 }
 
 fn without_diagonal(beta: &DMatrix<f64>) -> DMatrix<f64> {

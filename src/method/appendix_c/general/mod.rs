@@ -96,7 +96,7 @@ where
         last_change = largest_change(&before, &now.roots);
         quiet_orders = if last_change < tolerance { quiet_orders + 1 } else { 0 };
     }
-    Settled { perturbed: now, order, last_change }.check(orders)
+    Settled { perturbed: now, order, last_change }.check(tolerance, orders)
 }
 
 /// $\beta$ and $\alpha$ without their diagonals.
