@@ -102,6 +102,21 @@ pub enum FileError {
 }
 
 impl FileError {
+    /// The error about a line of a deck.
+    pub(crate) fn line(
+        file: &str,
+        line: usize,
+        expected: &'static str,
+        found: impl Into<String>,
+    ) -> Self {
+        Self::DeckLine {
+            file: file.to_owned(),
+            line,
+            expected,
+            found: found.into(),
+        }
+    }
+
     /// Turns the operating system's error about a file into this one, for `map_err`.
     pub fn of_file(path: &Path, action: &'static str) -> impl Fn(std::io::Error) -> Self + use<> {
         let path = path.to_owned();

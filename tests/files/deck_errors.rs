@@ -192,7 +192,7 @@ fn messages_say_what_was_expected_and_found() {
 #[test]
 fn what_no_deck_can_hold_is_refused() {
     let mut model = deck::read("wing.dat", GOOD).expect("it reads").model;
-    let write = |model: &deck::BulkData| deck::write::bulk_data(model, &mut 0);
+    let write = |model: &deck::BulkData| deck::bulk_data(model);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");
     assert!(

@@ -1,7 +1,7 @@
 //! What a deck may say and how: sets, two to a card, defaults, ranges, formats.
 
 use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::write::bulk_data;
+use corfem::files::deck::bulk_data;
 use corfem::files::deck::{self, Reason, Unread};
 use corfem::files::error::FileError;
 
@@ -167,7 +167,7 @@ fn grdset_holds_where_a_grid_says_nothing() {
 fn neighbors_held_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
     let model = deck::read("test", deck).expect("it reads").model;
-    let text = bulk_data(&model, &mut 0).expect("a deck");
+    let text = bulk_data(&model).expect("a deck");
     let constrained: Vec<Vec<&str>> = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))

@@ -3,6 +3,7 @@
 pub mod deck;
 pub mod deck_errors;
 pub mod deck_errors_lines;
+pub mod deck_mass_law;
 pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;

@@ -1,4 +1,4 @@
-//! Cards of constraints: what SPC1 holds and what MPC ties.
+//! Cards of constraints: what SPC1 fixes to ground and what MPC ties.
 
 use super::card::Card;
 use super::lines::Selected;
@@ -16,7 +16,7 @@ pub(super) struct Constraints {
     /// Whether case control says which sets count.
     by_case_control: bool,
     selected: Selected,
-    holds: Vec<Card>,
+    supports: Vec<Card>,
     equations: Vec<Card>,
 }
 
@@ -26,19 +26,17 @@ impl Constraints {
         Self {
             by_case_control: selected.is_some(),
             selected: selected.unwrap_or_default(),
-            holds: Vec::new(),
+            supports: Vec::new(),
             equations: Vec::new(),
         }
     }
 
-    /// Takes an SPC1 or MPC card if its set counts; whether it does.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] for a second set where there is no case control to select one.
+    /// Takes an SPC1 or MPC card if its set counts; whether it does. A second set is an error where no case control selects
+    /// one.
     pub fn take(&mut self, card: Card) -> Result<bool, FileError> {
         let set = card.label(2)?;
         let (chosen, cards) = if card.name == "SPC1" {
-            (&mut self.selected.spc, &mut self.holds)
+            (&mut self.selected.spc, &mut self.supports)
         } else {
             (&mut self.selected.mpc, &mut self.equations)
         };
@@ -56,39 +54,28 @@ impl Constraints {
         Ok(true)
     }
 
-    /// Marks what is constrained.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] for a grid that does not exist.
-    pub fn hold(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
-        for card in &self.holds {
+    /// Marks what is constrained: the grids of every card one by one, or from the first to the last of `G1 THRU G2`.
+    pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
+        for card in &self.supports {
             let directions = card.directions(3)?;
             if card.text(3).is_empty() {
                 return Err(card.error(3, "components from 1 to 6"));
             }
-            let fields: Vec<usize> = (4..=card.last_field())
-                .filter(|&field| !card.text(field).is_empty())
-                .collect();
-            if fields.is_empty() {
+            let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
+            if fields.peek().is_none() {
                 return Err(card.error(4, "a grid"));
             }
-            let mut at = 0;
-            while let Some(&field) = fields.get(at) {
+            while let Some(field) = fields.next() {
                 let first = card.label(field)?;
                 let mut last = first;
-                if let Some(&word) = fields.get(at + 1)
-                    && card.text(word) == "THRU"
-                {
-                    let Some(&end) = fields.get(at + 2) else {
-                        return Err(card.error(word + 1, "a grid after THRU"));
-                    };
+                if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
+                    let end = fields.next();
+                    let end = end.ok_or_else(|| card.error(word + 1, "a grid after THRU"))?;
                     last = card.label(end)?;
                     if last < first {
                         return Err(card.error(end, format!("a grid after {first}")));
                     }
-                    at += 2;
                 }
-                at += 1;
                 let mut is_known = false;
                 for (_, grid) in grids.range_mut(first..=last) {
                     is_known = true;
@@ -104,11 +91,8 @@ impl Constraints {
         Ok(())
     }
 
-    /// The equations, by dependent DOF; `grid` checks the grid named in a field of a card.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] for a DOF that does not exist, a dependent DOF that is constrained, has another equation or stands in one
-    /// as a term, and a zero coefficient of a dependent DOF.
+    /// The equations, by dependent DOF. A dependent DOF may be neither constrained nor in another equation, and its
+    /// coefficient may not be zero.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
         for card in &self.equations {
@@ -120,10 +104,7 @@ impl Constraints {
                 return Err(card.error(5, "a coefficient that is not zero"));
             }
             let key = (dependent.grid, dependent.direction);
-            if grids
-                .get(&key.0)
-                .is_some_and(|grid| grid.constrained[key.1])
-            {
+            if grids.get(&key.0).is_some_and(|g| g.constrained[key.1]) {
                 return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
             }
             let tie = Tie {
@@ -155,17 +136,27 @@ fn terms(
     grids: &BTreeMap<usize, Grid>,
 ) -> Result<Vec<(StructuralDof, f64)>, FileError> {
     let mut terms = Vec::new();
-    while term_field(terms.len()) <= card.last_field() {
+    let last = card.filled().pop().unwrap_or(0);
+    while term_field(terms.len()) <= last {
         let field = term_field(terms.len());
-        let grid = card.label(field)?;
-        if !grids.contains_key(&grid) {
-            return Err(card.error(field, "the number of a GRID card"));
-        }
+        let grid = known_grid(card, field, grids)?;
         let direction = card.direction(field + 1)?;
-        let coefficient = card.real(field + 2)?;
-        terms.push((StructuralDof { grid, direction }, coefficient));
+        terms.push((StructuralDof { grid, direction }, card.real(field + 2)?));
     }
     Ok(terms)
+}
+
+/// The grid that a field names, which must exist.
+pub(super) fn known_grid(
+    card: &Card,
+    field: usize,
+    grids: &BTreeMap<usize, Grid>,
+) -> Result<usize, FileError> {
+    let label = card.label(field)?;
+    match grids.contains_key(&label) {
+        true => Ok(label),
+        false => Err(card.error(field, "the number of a GRID card")),
+    }
 }
 
 /// Field of the grid of a term, counted from zero: two terms to a line, in fields 3 and 6.

@@ -1,12 +1,14 @@
 //! Cards of elements, properties, materials and masses.
 
 use super::card::Card;
+use super::constraints::known_grid;
 use super::model::PointMass;
 use super::number::nearest_in_field;
 use super::numbered::{Kept, Numbered};
 use crate::files::error::FileError;
 use crate::method::error::Error;
-use crate::method::structure::{Element, ElementKind, Material};
+use crate::method::structure::{Element, ElementKind, Grid, Material};
+use std::collections::BTreeMap;
 
 /// Connection card, property card and kind of the elements that have a property of their own.
 pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
@@ -46,33 +48,26 @@ impl ElementCards {
     }
 
     /// Takes a card if it is one of an element, a property or a material; whether it was.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`].
     pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
-        let starts: &[usize] =
-            if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
-                &[2, 6]
-            } else {
-                &[2]
-            };
+        let is_double = TWO_TO_A_CARD.contains(&card.name.as_str())
+            && card.filled().last().is_some_and(|&last| last > 5);
+        let starts = if is_double { &[2, 6][..] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             if card.name == connection {
                 for &start in starts {
-                    self.connections
-                        .insert(card, start, (kind, Size::Property(row)))?;
+                    let element = (kind, Size::Property(row));
+                    self.connections.insert(card, start, element)?;
                 }
                 return Ok(true);
             }
             if card.name == property {
                 for &start in starts {
                     let size = card.positive(start + 2)?;
-                    let mass = if kind == ElementKind::Rod {
+                    let mut mass = start + 3;
+                    if kind == ElementKind::Rod {
                         card.absent(start + 3, "torsion of rods")?;
-                        start + 5
-                    } else {
-                        start + 3
-                    };
+                        mass = start + 5;
+                    }
                     card.absent(mass, "nonstructural mass")?;
                     self.properties[row].insert(card, start, size)?;
                 }
@@ -93,39 +88,29 @@ impl ElementCards {
         Ok(true)
     }
 
-    /// The elements by number; `grid` checks the grid named in a field of a card.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] for a property, a material or a grid that does not exist.
-    pub fn elements(
-        &self,
-        grid: impl Fn(&Card, usize) -> Result<usize, FileError>,
-    ) -> Result<Vec<Element>, FileError> {
+    /// The elements by number; property, material and grids must exist.
+    pub fn elements(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Element>, FileError> {
         let put_together = |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
-            let Kept { card, start, .. } = kept;
-            let (kind, size) = &kept.value;
+            let Kept { card, start, value } = kept;
+            let (kind, size) = value;
             let (size, material, first_grid) = match size {
-                Size::Own(size) => {
-                    let material = self.materials.referred(card, 5, "MAT1")?;
-                    (*size, material.value, 3)
-                }
+                Size::Own(size) => (*size, self.materials.referred(card, 5, "MAT1")?, 3),
                 Size::Property(row) => {
                     let name = ELEMENT_CARDS[*row].1;
                     let property = self.properties[*row].referred(card, start + 1, name)?;
-                    let material =
-                        self.materials
-                            .referred(&property.card, property.start + 1, "MAT1")?;
-                    (property.value, material.value, start + 2)
+                    let field = property.start + 1;
+                    let material = self.materials.referred(&property.card, field, "MAT1")?;
+                    (property.value, material, start + 2)
                 }
             };
             Ok(Element {
                 label,
                 kind: *kind,
                 grids: (first_grid..first_grid + kind.corner_count())
-                    .map(|field| grid(card, field))
-                    .collect::<Result<_, FileError>>()?,
+                    .map(|field| known_grid(card, field, grids))
+                    .collect::<Result<_, _>>()?,
                 size,
-                material,
+                material: material.value,
             })
         };
         self.connections.iter().map(put_together).collect()
@@ -134,11 +119,8 @@ impl ElementCards {
 
 /// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are.
 fn material(card: &Card) -> Result<Material, FileError> {
-    let (e, g, nu) = (
-        card.optional_real(3)?,
-        card.optional_real(4)?,
-        card.optional_real(5)?,
-    );
+    let [e, g, nu] = [3, 4, 5].map(|field| card.optional_real(field));
+    let (e, g, nu) = (e?, g?, nu?);
     // A number that is worked out is rounded to what a deck can hold, so that writing it loses nothing.
     let (e, nu) = match (e, g, nu) {
         (Some(e), _, Some(nu)) => (e, nu),

@@ -1,15 +1,17 @@
 //! From a file to its lines: sections, comments, and the free, small and large formats.
 
-use super::card::{FIELDS_PER_LINE, Field, LARGE_FIELDS_PER_LINE};
+use super::card::{FIELDS_PER_LINE, Field};
 use super::number::{LARGE_FIELD, SMALL_FIELD};
 use crate::files::error::FileError;
 
+/// Data fields of a line in the large format.
+pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Columns of a line that count.
 const LINE_WIDTH: usize = 80;
 
 /// Sets of constraints that case control selects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Selected {
+pub(super) struct Selected {
     /// `SPC = n`.
     pub spc: Option<usize>,
     /// `MPC = n`.
@@ -42,34 +44,31 @@ impl Line {
     }
 }
 
-/// Case control's selection and the lines of bulk data.
+/// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
+///
+/// # Errors
+/// [`FileError::DeckLine`] for a line that is neither a card nor a continuation and for a selection that is not one set.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
-    let lines: Vec<(usize, String)> = text
-        .lines()
-        .enumerate()
-        .map(|(row, line)| {
-            let code = line.split('$').next().unwrap_or_default();
-            (row + 1, code.trim_end().to_ascii_uppercase())
-        })
+    let code = |line: &str| line.split('$').next().map(str::to_ascii_uppercase);
+    let lines: Vec<(usize, String)> = (1..)
+        .zip(text.lines())
+        .map(|(number, line)| (number, code(line).unwrap_or_default()))
         .filter(|(_, line)| !line.trim().is_empty())
         .collect();
-    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let is = |line: &str, words: [&str; 2]| line.split_whitespace().eq(words);
     let begin = lines
         .iter()
-        .position(|(_, line)| words(line) == "BEGIN BULK");
+        .position(|(_, line)| is(line, ["BEGIN", "BULK"]));
+    let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
     let mut selected = begin.map(|_| Selected::default());
-    let bulk = begin.map_or(0, |row| row + 1);
     if let Some(selected) = &mut selected {
-        for (number, line) in &lines[..bulk] {
+        for (number, line) in control {
             select(file, *number, line, selected)?;
         }
     }
-    let bulk = lines[bulk..]
-        .iter()
-        .take_while(|(_, line)| words(line) != "ENDDATA")
-        .map(|(number, line)| fields(file, *number, line))
-        .collect::<Result<_, _>>()?;
-    Ok((selected, bulk))
+    let bulk = bulk.iter().take_while(|(_, line)| line.trim() != "ENDDATA");
+    let bulk = bulk.map(|(number, line)| fields(file, *number, line.trim_end()));
+    Ok((selected, bulk.collect::<Result<_, _>>()?))
 }
 
 /// Takes notice of `SPC = n` and `MPC = n`.
@@ -87,46 +86,43 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
             *slot = Some(set);
             Ok(())
         }
-        _ => Err(FileError::DeckLine {
-            file: file.to_owned(),
-            line,
-            expected: "one set of constraints, by its number",
-            found: text.trim().to_owned(),
-        }),
+        _ => {
+            let expected = "one set of constraints, by its number";
+            Err(FileError::line(file, line, expected, text.trim()))
+        }
     }
 }
 
 /// Cuts a line into its fields.
+///
+/// A line with a comma is in free format; otherwise an asterisk behind the name or in front of a continuation means
+/// fields of 16 characters, its absence fields of 8.
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
-    let wrong = |expected, found: &str| FileError::DeckLine {
-        file: file.to_owned(),
-        line: number,
-        expected,
-        found: found.trim().to_owned(),
-    };
-    let free = text.contains(',');
-    let mut parts: Vec<String> = if free {
+    let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
+    let is_large = |name: &str| name.ends_with('*') || name.starts_with('*');
+    let mut parts: Vec<String> = if text.contains(',') {
         text.split(',').map(|part| part.trim().to_owned()).collect()
     } else {
         let columns: Vec<char> = expand_tabs(text).chars().take(LINE_WIDTH).collect();
-        let name: String = columns.iter().take(SMALL_FIELD).collect();
-        let large = name.trim_end().ends_with('*') || name.starts_with('*');
+        let (name, data) = columns.split_at(SMALL_FIELD.min(columns.len()));
+        let field = |columns: &[char]| columns.iter().collect::<String>().trim().to_owned();
+        let large = is_large(name.iter().collect::<String>().trim_end());
         let width = if large { LARGE_FIELD } else { SMALL_FIELD };
         // The last columns, which a large field would overrun, are the tag of a continuation: a chunk of their own.
-        let data = columns.get(SMALL_FIELD..).unwrap_or_default();
-        let cut = data.chunks(width).map(|field| field.iter().collect());
-        let parts: Vec<String> = std::iter::once(name).chain(cut).collect();
-        parts.iter().map(|part| part.trim().to_owned()).collect()
+        std::iter::once(name)
+            .chain(data.chunks(width))
+            .map(field)
+            .collect()
     };
     let first = parts.remove(0);
-    let large = first.ends_with('*') || first.starts_with('*');
+    let large = is_large(&first);
     let (width, count) = if large {
         (LARGE_FIELD, LARGE_FIELDS_PER_LINE)
     } else {
         (SMALL_FIELD, FIELDS_PER_LINE)
     };
-    let named = first.starts_with(|c: char| c.is_ascii_alphabetic());
-    if !named && !first.is_empty() && !first.starts_with(['+', '*']) {
+    let is_named = first.starts_with(|c: char| c.is_ascii_alphabetic());
+    if !is_named && !first.is_empty() && !first.starts_with(['+', '*']) {
         return Err(wrong("a card's name or a continuation", &first));
     }
     if parts.len() > count + 1 {
@@ -135,10 +131,8 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     parts.resize(count + 1, String::new());
     let tag = parts.pop().unwrap_or_default();
     if let Some(long) = parts.iter().find(|part| part.chars().count() > width) {
-        return Err(wrong(
-            "a field of 8 characters, or of 16 with an asterisk",
-            long,
-        ));
+        let expected = "a field of 8 characters, or of 16 with an asterisk";
+        return Err(wrong(expected, long));
     }
     let data = parts.into_iter().map(|text| Field { text, line: number });
     Ok(Line {
@@ -153,16 +147,15 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
 /// Replaces every tab by blanks up to the next multiple of eight columns.
 fn expand_tabs(text: &str) -> String {
     let mut expanded = String::new();
-    let mut column = 0;
+    let mut column = 0_usize;
     for c in text.chars() {
-        if c == '\t' {
-            let next = (column + 1_usize).next_multiple_of(SMALL_FIELD);
-            expanded.extend(std::iter::repeat_n(' ', next - column));
-            column = next;
-        } else {
-            expanded.push(c);
-            column += 1;
-        }
+        let next = match c {
+            '\t' => (column + 1).next_multiple_of(SMALL_FIELD),
+            _ => column + 1,
+        };
+        let c = if c == '\t' { ' ' } else { c };
+        expanded.extend(std::iter::repeat_n(c, next - column));
+        column = next;
     }
     expanded
 }

@@ -1,6 +1,6 @@
 //! NASTRAN decks: the model as bulk data, written and read.
 //!
-//! A deck holds what [`crate::method::model::FiniteElementModel`] holds and nothing of the correlation. The dynamic points are grids
+//! A deck contains what [`crate::method::model::FiniteElementModel`] contains and nothing of the correlation. The dynamic points are grids
 //! of their own, tied to the structure by MPC equations whose coefficients are the load distribution $T$, with the masses on
 //! them. The points are the dependent DOF, $q_D = T^t q_S$; a program that eliminates them puts
 //!
@@ -14,20 +14,20 @@
 //!
 //! which is similar to $K_D^{-1} M$. So NASTRAN's own solution of the deck must be the modes of Appendix A, and is.
 //!
-//! Reading: [`lines`] cuts a file into fields, [`continuation`] joins lines to [`card`]s, [`read()`] makes a model of them;
+//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, [`read()`] makes a model of them;
 //! [`modes()`] finds its modes.
 
-pub mod card;
+mod card;
 mod constraints;
-pub mod continuation;
+mod continuation;
 mod elements;
-pub mod lines;
-pub mod model;
+mod lines;
+mod model;
 pub mod number;
 mod numbered;
-pub mod read;
-pub mod write;
+mod read;
+mod write;
 
 pub use model::{BulkData, PointMass, Tie, modes};
 pub use read::{Deck, Reason, Unread, read};
-pub use write::{Task, write};
+pub use write::{Task, bulk_data, write};

@@ -25,28 +25,20 @@ impl<T> Numbered<T> {
         Self(BTreeMap::new())
     }
 
-    /// Adds the entry whose number stands in field `start`.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] for a bad number or one that another card has.
+    /// Adds the entry whose number stands in field `start`; no other card may have it.
     pub fn insert(&mut self, card: &Card, start: usize, value: T) -> Result<(), FileError> {
         let label = card.label(start)?;
         if let Some(first) = self.0.get(&label) {
             let line = first.card.line;
-            return Err(card.error(
-                start,
-                format!("a number other than that of the card in line {line}"),
-            ));
+            let expected = format!("a number other than that of the card in line {line}");
+            return Err(card.error(start, expected));
         }
         let card = card.clone();
         self.0.insert(label, Kept { value, card, start });
         Ok(())
     }
 
-    /// The entry that a field of another card refers to.
-    ///
-    /// # Errors
-    /// [`FileError::DeckField`] about that field when there is none; `what` is the card looked for.
+    /// The entry that a field of another card refers to, which must exist; `what` is the card looked for.
     pub fn referred(&self, card: &Card, field: usize, what: &str) -> Result<&Kept<T>, FileError> {
         self.0
             .get(&card.label(field)?)

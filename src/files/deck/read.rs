@@ -1,9 +1,10 @@
 //! From cards to the model they describe.
 
 use super::card::Card;
-use super::constraints::Constraints;
-use super::continuation::{Cards, cut};
+use super::constraints::{Constraints, known_grid};
+use super::continuation::join;
 use super::elements::{ElementCards, point_mass};
+use super::lines::sections;
 use super::model::{BulkData, PointMass};
 use super::numbered::Numbered;
 use crate::files::error::FileError;
@@ -50,27 +51,22 @@ pub enum Reason {
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] name file, line, card and field.
 pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
-    let Cards { cards, selected } = cut(file, text)?;
+    let (selected, lines) = sections(file, text)?;
     let mut unread = Vec::new();
     let mut default: Option<Card> = None;
     let mut grids = Numbered::new();
     let mut elements = ElementCards::new();
     let mut masses = Numbered::new();
     let mut constraints = Constraints::new(selected);
-    for card in cards {
-        let (name, line) = (card.name.clone(), card.line);
-        let reason = match name.as_str() {
+    for card in join(&file.into(), lines)? {
+        let reason = match card.name.as_str() {
             "GRID" => {
                 grids.insert(&card, 2, ())?;
                 continue;
             }
             "GRDSET" if default.is_some() => {
-                return Err(FileError::DeckLine {
-                    file: file.to_owned(),
-                    line,
-                    expected: "one GRDSET card at most",
-                    found: "another".into(),
-                });
+                let expected = "one GRDSET card at most";
+                return Err(FileError::line(file, card.line, expected, "another"));
             }
             "GRDSET" => {
                 default = Some(card);
@@ -86,30 +82,22 @@ pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
             _ if elements.take(&card)? => continue,
             _ => Reason::Unknown,
         };
-        let card = name;
+        let (card, line) = (card.name, card.line);
         unread.push(Unread { card, line, reason });
     }
     let mut grids: BTreeMap<usize, Grid> = grids
         .iter()
         .map(|(label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)))
         .collect::<Result<_, FileError>>()?;
-    constraints.hold(&mut grids)?;
-    let known = |card: &Card, field: usize| {
-        let label = card.label(field)?;
-        match grids.contains_key(&label) {
-            true => Ok(label),
-            false => Err(card.error(field, "the number of a GRID card")),
-        }
-    };
-    let masses = masses
-        .iter()
-        .map(|(_, kept)| {
-            known(&kept.card, if kept.card.name == "CMASS2" { 4 } else { 3 })?;
-            Ok(kept.value.clone())
-        })
-        .collect::<Result<Vec<PointMass>, FileError>>()?;
+    constraints.constrain(&mut grids)?;
+    let masses = masses.iter().map(|(_, kept)| {
+        let field = if kept.card.name == "CMASS2" { 4 } else { 3 };
+        known_grid(&kept.card, field, &grids)?;
+        Ok(kept.value.clone())
+    });
+    let masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
     let model = BulkData {
-        elements: elements.elements(known)?,
+        elements: elements.elements(&grids)?,
         ties: constraints.ties(&grids)?,
         masses,
         grids: grids.into_values().collect(),

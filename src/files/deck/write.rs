@@ -1,10 +1,14 @@
 //! From the model to a deck that NASTRAN-95 runs unchanged.
 
-use super::card::{Entry, write_card};
+use super::card::{FIELDS_PER_LINE, LARGEST_LABEL};
 use super::elements::ELEMENT_CARDS;
-use super::model::{BulkData, PointMass};
+use super::lines::LARGE_FIELDS_PER_LINE;
+use super::model::BulkData;
+use super::number::{LARGE_FIELD, SMALL_FIELD, exact_real, large_real};
 use crate::files::error::FileError;
+use crate::method::error::Error;
 use crate::method::structure::{Grid, Material};
+use std::fmt::Write;
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
@@ -32,48 +36,35 @@ pub enum Task {
 /// # Errors
 /// Those of [`bulk_data`].
 pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
-    let mut text = String::from(
-        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n",
-    );
-    if *task == Task::Matrices {
-        text.push_str(
-            "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n",
-        );
-    }
-    text.push_str(&format!("CEND\nTITLE = {}\n", title.to_ascii_uppercase()));
-    text.push_str(&format!("SPC = {SET}\n"));
-    if !model.ties.is_empty() {
-        text.push_str(&format!("MPC = {SET}\n"));
-    }
-    text.push_str(&format!("METHOD = {SET}\n"));
-    if let Task::Modes { .. } = task {
-        text.push_str("DISPLACEMENT = ALL\n");
-    }
-    text.push_str("BEGIN BULK\n");
-    let mut tag = 0;
-    text.push_str(&bulk_data(model, &mut tag)?);
     // Rigid format 3 wants a method even where the run ends before it is used.
-    let (count, [lower, upper]) = match task {
-        Task::Modes { count, range_hz } => (*count, *range_hz),
-        Task::Matrices => (1, [1.0, 2.0]),
+    let (count, [lower, upper], alter, output) = match task {
+        Task::Modes { count, range_hz } => (*count, *range_hz, "", "DISPLACEMENT = ALL\n"),
+        Task::Matrices => {
+            let alter =
+                "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n";
+            (1, [1.0, 2.0], alter, "")
+        }
     };
-    let eigenvalues = [
-        Entry::Label(SET),
-        Entry::Word("INV".into()),
-        Entry::Real(lower),
-        Entry::Real(upper),
-        Entry::Label(count),
-        Entry::Label(count),
-        Entry::Blank,
-        Entry::Blank,
-        Entry::Word("MASS".into()),
-    ];
-    text.push_str(&write_card("EIGR", &eigenvalues, false, &mut tag)?);
-    text.push_str("ENDDATA\n");
-    Ok(text)
+    let ties = match model.ties.is_empty() {
+        true => String::new(),
+        false => format!("MPC = {SET}\n"),
+    };
+    let text = format!(
+        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n{alter}CEND\n\
+         TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
+        title.to_ascii_uppercase()
+    );
+    let mut cards = Cards { text, tag: 0 };
+    cards.model(model)?;
+    let mut eigenvalues = vec![SET.into(), "INV".into(), lower.into(), upper.into()];
+    eigenvalues.extend([count.into(), count.into(), Entry::Blank, Entry::Blank]);
+    eigenvalues.push("MASS".into());
+    cards.put("EIGR", eigenvalues)?;
+    cards.text.push_str("ENDDATA\n");
+    Ok(cards.text)
 }
 
-/// The bulk data alone, without a `BEGIN BULK` or `ENDDATA`. `tag` counts continuations.
+/// The bulk data alone, without a `BEGIN BULK` or `ENDDATA`.
 ///
 /// Grids have fields of 16 characters, other cards where 8 would lose digits; a number that needs more than 16
 /// characters is rounded to the nearest that fits (see [`super::number::large_real`]). Every element has a property card of its
@@ -81,128 +72,177 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
 ///
 /// # Errors
 /// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
-pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError> {
-    let mut text = String::new();
-    let mut put = |name: &str, entries: &[Entry], large: bool| -> Result<(), FileError> {
-        text.push_str(&write_card(name, entries, large, tag)?);
-        Ok(())
-    };
-    for grid in &model.grids {
-        let mut entries = vec![Entry::Label(grid.label), Entry::Blank];
-        entries.extend(grid.position.iter().map(|&x| Entry::Real(x)));
-        put("GRID", &entries, true)?;
-    }
-    let mut materials: Vec<Material> = Vec::new();
-    for element in &model.elements {
-        let number = match materials
-            .iter()
-            .position(|known| *known == element.material)
-        {
-            Some(row) => row + 1,
-            None => {
-                materials.push(element.material);
-                materials.len()
-            }
-        };
-        let mut connection = vec![Entry::Label(element.label); 2];
-        connection.extend(element.grids.iter().map(|&grid| Entry::Label(grid)));
-        let property = [
-            Entry::Label(element.label),
-            Entry::Label(number),
-            Entry::Real(element.size),
-        ];
-        for (connection_card, property_card, kind) in ELEMENT_CARDS {
-            if kind == element.kind {
-                put(connection_card, &connection, false)?;
-                put(property_card, &property, false)?;
-            }
-        }
-    }
-    for (row, material) in materials.iter().enumerate() {
-        let Material {
-            youngs_modulus: e,
-            poissons_ratio: nu,
-            shear_modulus: g,
-            density,
-        } = *material;
-        let derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-        let optional = |blank: bool, value| {
-            if blank {
-                Entry::Blank
-            } else {
-                Entry::Real(value)
-            }
-        };
-        let entries = [
-            Entry::Label(row + 1),
-            Entry::Real(e),
-            optional(derived, g),
-            Entry::Real(nu),
-            optional(density == 0.0, density),
-        ];
-        put("MAT1", &entries, false)?;
-    }
-    for PointMass {
-        label,
-        grid,
-        direction,
-        mass,
-    } in &model.masses
-    {
-        let (label, grid, mass) = (
-            Entry::Label(*label),
-            Entry::Label(*grid),
-            Entry::Real(*mass),
-        );
-        match direction {
-            Some(direction) => {
-                let component = Entry::Label(direction + 1);
-                put("CMASS2", &[label, mass, grid, component], false)?;
-            }
-            None => put("CONM2", &[label, grid, Entry::Blank, mass], false)?,
-        }
-    }
-    for tie in &model.ties {
-        let own = std::iter::once((tie.dependent, tie.coefficient));
-        let mut entries = vec![Entry::Label(SET)];
-        for (row, (dof, coefficient)) in own.chain(tie.terms.iter().copied()).enumerate() {
-            // Two terms to a line; the last field of one and the first of the next stay blank.
-            if row > 0 && row % 2 == 0 {
-                entries.extend([Entry::Blank, Entry::Blank]);
-            }
-            entries.push(Entry::Label(dof.grid));
-            entries.push(Entry::Label(dof.direction + 1));
-            entries.push(Entry::Real(coefficient));
-        }
-        put("MPC", &entries, false)?;
-    }
-    for entries in constraint_cards(&model.grids) {
-        put("SPC1", &entries, false)?;
-    }
-    Ok(text)
+pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
+    let mut cards = Cards::default();
+    cards.model(model)?;
+    Ok(cards.text)
 }
 
-/// Fields of the SPC1 cards, one for every run of grids that are constrained alike. The rotations of every grid are constrained, for
-/// nothing here resists them.
-fn constraint_cards(grids: &[Grid]) -> Vec<Vec<Entry>> {
-    grids
-        .chunk_by(|a, b| a.constrained == b.constrained && a.label + 1 == b.label)
-        .map(|run| {
-            let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
-            let constrained = (0..3).filter(|&direction| first.constrained[direction]);
-            let mut components: String = constrained
-                .map(|direction| (b'1' + direction as u8) as char)
-                .collect();
-            components.push_str("456");
-            let mut entries = vec![
-                Entry::Label(SET),
-                Entry::Word(components),
-                Entry::Label(first.label),
-            ];
-            if run.len() > 1 {
-                entries.extend([Entry::Word("THRU".into()), Entry::Label(last.label)]);
+/// A field to be written.
+#[derive(Clone)]
+enum Entry {
+    Blank,
+    /// A number of a grid, an element and so on.
+    Label(usize),
+    /// A word or a list of components.
+    Word(String),
+    Real(f64),
+}
+
+impl From<usize> for Entry {
+    fn from(label: usize) -> Self {
+        Self::Label(label)
+    }
+}
+
+impl From<&str> for Entry {
+    fn from(word: &str) -> Self {
+        Self::Word(word.to_owned())
+    }
+}
+
+impl From<f64> for Entry {
+    fn from(value: f64) -> Self {
+        Self::Real(value)
+    }
+}
+
+/// Cards as text.
+#[derive(Default)]
+struct Cards {
+    text: String,
+    /// Counts the continuations of the deck, so that each has a name of its own.
+    tag: usize,
+}
+
+impl Cards {
+    /// All cards of a model.
+    fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
+        for grid in &model.grids {
+            let mut entries = vec![grid.label.into(), Entry::Blank];
+            entries.extend(grid.position.iter().map(|&x| Entry::Real(x)));
+            self.put_sized("GRID", entries, true)?;
+        }
+        let mut materials: Vec<Material> = Vec::new();
+        for element in &model.elements {
+            let known = materials.iter().position(|m| *m == element.material);
+            let row = known.unwrap_or(materials.len());
+            if known.is_none() {
+                materials.push(element.material);
             }
-            entries
-        })
-        .collect()
+            let mut connection = vec![Entry::Label(element.label); 2];
+            connection.extend(element.grids.iter().map(|&grid| Entry::Label(grid)));
+            let property = vec![element.label.into(), (row + 1).into(), element.size.into()];
+            for (connection_card, property_card, kind) in ELEMENT_CARDS {
+                if kind == element.kind {
+                    self.put(connection_card, connection.clone())?;
+                    self.put(property_card, property.clone())?;
+                }
+            }
+        }
+        for (row, material) in materials.iter().enumerate() {
+            let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
+            let (g, density) = (material.shear_modulus, material.density);
+            let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
+            let mut entries = vec![(row + 1).into(), e.into(), g.into(), nu.into()];
+            if is_derived {
+                entries[2] = Entry::Blank;
+            }
+            if density != 0.0 {
+                entries.push(density.into());
+            }
+            self.put("MAT1", entries)?;
+        }
+        for point in &model.masses {
+            let (label, grid, mass) = (point.label.into(), point.grid.into(), point.mass.into());
+            match point.direction {
+                Some(direction) => {
+                    self.put("CMASS2", vec![label, mass, grid, (direction + 1).into()])?;
+                }
+                None => self.put("CONM2", vec![label, grid, Entry::Blank, mass])?,
+            }
+        }
+        for tie in &model.ties {
+            let own = std::iter::once((tie.dependent, tie.coefficient));
+            let mut entries = vec![SET.into()];
+            for (row, (dof, coefficient)) in own.chain(tie.terms.iter().copied()).enumerate() {
+                // Two terms to a line; the last field of one and the first of the next stay blank.
+                if row > 0 && row % 2 == 0 {
+                    entries.extend([Entry::Blank, Entry::Blank]);
+                }
+                entries.extend([dof.grid.into(), (dof.direction + 1).into()]);
+                entries.push(coefficient.into());
+            }
+            self.put("MPC", entries)?;
+        }
+        let alike = |a: &Grid, b: &Grid| a.constrained == b.constrained && a.label + 1 == b.label;
+        for run in model.grids.chunk_by(alike) {
+            let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
+            let named = ["1", "2", "3"].into_iter().zip(first.constrained);
+            let mut components: String = named
+                .filter_map(|(component, is_constrained)| is_constrained.then_some(component))
+                .collect();
+            // The rotations of every grid are constrained, for nothing here resists them.
+            components.push_str("456");
+            let mut entries = vec![SET.into(), Entry::Word(components), first.label.into()];
+            if run.len() > 1 {
+                entries.extend(["THRU".into(), last.label.into()]);
+            }
+            self.put("SPC1", entries)?;
+        }
+        Ok(())
+    }
+
+    /// A card with fields of 8 characters if they hold every number exactly, of 16 otherwise.
+    fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
+        let is_exact = |entry: &Entry| match entry {
+            Entry::Real(value) => exact_real(*value, SMALL_FIELD).is_some(),
+            _ => true,
+        };
+        let large = !entries.iter().all(is_exact);
+        self.put_sized(name, entries, large)
+    }
+
+    fn put_sized(&mut self, name: &str, entries: Vec<Entry>, large: bool) -> Result<(), FileError> {
+        let (width, per_line, mark, plus) = if large {
+            (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*')
+        } else {
+            (SMALL_FIELD, FIELDS_PER_LINE, "", '+')
+        };
+        let written = entries.into_iter().enumerate().map(|entry| match entry {
+            (_, Entry::Blank) => Ok(String::new()),
+            (_, Entry::Label(label)) if label > LARGEST_LABEL => Err(Error::TooMany {
+                what: "number of a grid or element in a deck",
+                available: LARGEST_LABEL,
+                requested: label,
+            }),
+            (_, Entry::Label(label)) => Ok(label.to_string()),
+            (_, Entry::Word(word)) => Ok(word),
+            (column, Entry::Real(value)) => large_real(value).ok_or(Error::NotFinite {
+                what: "number on a bulk data card",
+                row: 0,
+                column,
+                value,
+            }),
+        });
+        let mut fields = written.collect::<Result<Vec<String>, _>>()?;
+        // NASTRAN-95 takes a line of the large format for half a card and wants the other half too.
+        let whole = fields.len().next_multiple_of(FIELDS_PER_LINE);
+        fields.resize(whole, String::new());
+        let mut first = format!("{name}{mark}");
+        for (row, line) in fields.chunks(per_line).enumerate() {
+            let mut written = format!("{first:SMALL_FIELD$}");
+            for field in line {
+                let _ = write!(written, "{field:width$}");
+            }
+            if (row + 1) * per_line < whole {
+                self.tag += 1;
+                first = format!("{plus}{}", self.tag);
+                written.push_str(&first);
+            }
+            self.text.push_str(written.trim_end());
+            self.text.push('\n');
+        }
+        Ok(())
+    }
 }

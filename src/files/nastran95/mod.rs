@@ -6,12 +6,13 @@
 //! the structure's and nothing else. What is taken over is
 //!
 //! - each element's stiffness, from its block of KGG; their sum is $K_S$, which must be NASTRAN's own assembled KAA;
-//! - nothing of the mass, but MAA must be $T M T^t$ as NASTRAN's elimination of the MPC equations makes it.
+//! - nothing of the mass, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it, with the lumped
+//!   mass of elements that have a density.
 //!
 //! Appendix A, the eigensolution of the nine dynamic DOF and everything else is computed here from these matrices: $M_S$ is
 //! singular, and NASTRAN's own eigenvalues are good to five or six digits only.
 //!
-//! NASTRAN-95 holds coordinates, gages and material in single precision: its matrices differ from the crate's by up to
+//! NASTRAN-95 keeps coordinates, gages and material in single precision: its matrices differ from the crate's by up to
 //! 1.5e-7 of the largest entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
 mod matrices;
@@ -90,7 +91,7 @@ impl Nastran95 {
     /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`], [`FileError::SolverFatal`] with
     /// NASTRAN's own message; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
-        process::run(self, &self.home, deck)
+        process::run(self, deck)
     }
 
     /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15.
@@ -99,23 +100,21 @@ impl Nastran95 {
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
-        match answer.unit_15 {
-            Some(text) => read_output5(&text),
-            None => Err(FileError::SolverAnswer {
-                expected: "matrices on Fortran unit 15".into(),
-                found: format!(
-                    "none; printed last: {}",
-                    process::last_lines(&answer.printed)
-                ),
-            }),
-        }
+        let text = answer.unit_15.ok_or_else(|| FileError::SolverAnswer {
+            expected: "matrices on Fortran unit 15".into(),
+            found: format!(
+                "none; printed last: {}",
+                process::last_lines(&answer.printed)
+            ),
+        })?;
+        read_output5(&text)
     }
 
     /// The finite element analysis at the given parameter factors, as [`FiniteElementModel::analyze`] with NASTRAN's elements.
     ///
     /// # Errors
     /// Those of [`Self::matrices`], [`BulkData::of`] and [`FiniteElementModel::analyze`]; [`FileError::SolverAnswer`] when
-    /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
+    /// KAA is not the sum of the elements to 1e-9 or MAA not the mass of points and elements to 1e-6 of its largest entry.
     pub fn analyze(
         &self,
         model: &FiniteElementModel,

@@ -1,5 +1,6 @@
 //! The formatted file of NASTRAN's module OUTPUT5.
 
+use crate::files::deck::number::parse_real;
 use crate::files::error::FileError;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -31,27 +32,19 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, expected: &str| FileError::SolverAnswer {
         expected: format!("{expected} in line {} of the OUTPUT5 file", line + 1),
-        found: lines
-            .get(line)
-            .map_or("its end", |line| line.trim())
-            .to_owned(),
+        found: lines.get(line).map_or("its end", |l| l.trim()).to_owned(),
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
-        lines
-            .get(line)
-            .and_then(|text| text.get(start..start + INTEGER))
-            .and_then(|text| text.trim().parse().ok())
-            .ok_or_else(|| wrong(line, "an integer"))
+        let field = lines.get(line).and_then(|l| l.get(start..start + INTEGER));
+        let value = field.and_then(|text| text.trim().parse().ok());
+        value.ok_or_else(|| wrong(line, "an integer"))
     };
     let mut matrices = Matrices::new();
     let mut current: Option<(String, DMatrix<f64>)> = None;
     let mut at = 1;
     while at < lines.len() {
-        let (column, first, last) = (
-            integer(at, 0)?,
-            integer(at, INTEGER)?,
-            integer(at, 2 * INTEGER)?,
-        );
+        let [column, first, last] = [0, 1, 2].map(|place| integer(at, place * INTEGER));
+        let (column, first, last) = (column?, first?, last?);
         at += 1;
         if column == 0 {
             matrices.extend(current.take());
@@ -76,7 +69,9 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
             let line = lines.get(at).ok_or_else(|| wrong(at, "reals"))?;
             let bytes = line.trim_end().as_bytes();
             for field in bytes.chunks(REAL) {
-                let value = std::str::from_utf8(field).ok().and_then(real);
+                let value = std::str::from_utf8(field).ok();
+                // Of an exponent of three digits Fortran drops the letter.
+                let value = value.and_then(|text| parse_real(text.trim()));
                 match value {
                     Some(value) if row < last => matrix[(row, column - 1)] = value,
                     _ => return Err(wrong(at, "reals of the format D26.17, as many as rows")),
@@ -91,9 +86,4 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     }
     matrices.extend(current);
     Ok(matrices)
-}
-
-/// A Fortran real; an exponent of three digits drops its letter.
-fn real(text: &str) -> Option<f64> {
-    crate::files::deck::number::parse_real(text.trim())
 }

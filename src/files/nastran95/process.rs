@@ -23,12 +23,12 @@ const ANSWER: &str = "ftn15";
 const MESSAGE_LINES: usize = 3;
 
 /// Runs a deck in a folder of its own.
-pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer, FileError> {
+pub(super) fn run(solver: &Nastran95, deck: &str) -> Result<Answer, FileError> {
     let scratch = tempfile::Builder::new()
         .prefix("corfem-nastran95-")
         .tempdir()
         .map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
-    let answer = in_scratch(solver, home, deck, scratch.path());
+    let answer = in_scratch(solver, deck, scratch.path());
     let path = scratch.path().to_owned();
     let removed = scratch.close().map_err(FileError::of_file(&path, "remove"));
     // What went wrong with the run matters more than what went wrong in tidying up.
@@ -37,18 +37,13 @@ pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer,
     Ok(answer)
 }
 
-fn in_scratch(
-    solver: &Nastran95,
-    home: &Path,
-    deck: &str,
-    scratch: &Path,
-) -> Result<Answer, FileError> {
+fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, FileError> {
     let path = |name: &str| scratch.join(name);
     std::fs::write(path("deck"), deck).map_err(FileError::of_file(&path("deck"), "write"))?;
     let open = |name: &str| File::open(path(name)).map_err(FileError::of_file(&path(name), "read"));
     let create =
         |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
-    let program = home.join(PROGRAM);
+    let program = solver.home.join(PROGRAM);
     let mut command = Command::new(&program);
     command
         .current_dir(scratch)
@@ -56,7 +51,7 @@ fn in_scratch(
         .stdout(Stdio::from(create("printed")?))
         .stderr(Stdio::from(create("errors")?))
         .envs(MEMORY)
-        .env("RFDIR", home.join(RIGID_FORMATS))
+        .env("RFDIR", solver.home.join(RIGID_FORMATS))
         .env("DIRCTY", scratch)
         .env("OPTPNM", "none");
     for (variable, name) in [
@@ -161,26 +156,18 @@ fn fatal_message(printed: &str) -> Option<String> {
     let rest = lines
         .take(MESSAGE_LINES - 1)
         .take_while(|line| !line.trim().is_empty() && !line.contains("***"));
-    let words: Vec<&str> = std::iter::once(first)
-        .chain(rest)
-        .flat_map(str::split_whitespace)
-        .collect();
+    let words = std::iter::once(first).chain(rest);
+    let words: Vec<&str> = words.flat_map(str::split_whitespace).collect();
+    let message = words.join(" ");
     // The first column is the printer's carriage control.
-    Some(
-        words
-            .join(" ")
-            .trim_start_matches(['0', '1', '*', ' '])
-            .to_owned(),
-    )
+    let message = message.trim_start_matches(['0', '1', '*', ' ']);
+    Some(message.to_owned())
 }
 
 /// The last lines that are not blank.
 pub(super) fn last_lines(text: &str) -> String {
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .collect();
+    let lines = text.lines().map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
         last => last.join(" / "),
