@@ -130,7 +130,7 @@ impl Case {
     /// The model of this case with other gages than its first, in inches, elements 1 to 15.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
+    /// [`crate::method::error::Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
     pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
         check_length("panel gages", gages.len(), self.panels.len())?;
         let panels: Vec<Panel> = self

@@ -135,7 +135,7 @@ fn mat1_derives_what_is_blank() {
 }
 
 #[test]
-fn spc1_lists_and_ranges_hold_grids() {
+fn spc1_lists_and_ranges_constrain_grids() {
     let deck = "\
 GRID,1
 GRID,2
@@ -155,6 +155,26 @@ SPC1,1,3,12,THRU,12
     assert_eq!(constrained, [x, x, x, yz, yz, yz]);
 }
 
+/// The field after the last of a line is the first of the next: fields 10 and 11 are no data.
+#[test]
+fn a_range_may_go_on_in_the_next_line() {
+    let grids = "GRID,1\nGRID,2\nGRID,3\nGRID,4\n";
+    let supports = "SPC1,1,1,,,,,,1,+B\n+B,THRU,3\nSPC1,1,2,,,,,2,THRU,+C\n+C,3,4\n";
+    let model = deck::read("test", &format!("{grids}{supports}"))
+        .expect("it reads")
+        .model;
+    let constrained = model.grids.iter().map(|grid| grid.constrained);
+    let x = [true, false, false];
+    let xy = [true, true, false];
+    assert!(constrained.eq([x, xy, xy, [false, true, false]]));
+    let unknown = format!("{grids}SPC1,1,1,,,,,,1,+B\n+B,7\n");
+    let error = deck::read("test", &unknown).expect_err("there is no grid 7");
+    assert!(
+        matches!(&error, FileError::DeckField { line: 6, field: 12, found, .. } if found == "7"),
+        "{error}"
+    );
+}
+
 #[test]
 fn grdset_holds_where_a_grid_says_nothing() {
     let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
@@ -164,7 +184,7 @@ fn grdset_holds_where_a_grid_says_nothing() {
 }
 
 #[test]
-fn neighbors_held_alike_are_written_as_a_range_and_one_alone_is_not() {
+fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
     let model = deck::read("test", deck).expect("it reads").model;
     let text = bulk_data(&model).expect("a deck");

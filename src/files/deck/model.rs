@@ -45,7 +45,7 @@ pub struct PointMass {
 /// give equal models. Rotations have no place in it: the crate's elements do not resist them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BulkData {
-    /// Grids by number, with what SPC1 cards hold.
+    /// Grids by number, with what SPC1 cards constrain.
     pub grids: Vec<Grid>,
     /// Elements by number.
     pub elements: Vec<Element>,
@@ -103,24 +103,20 @@ impl BulkData {
                 return Err(Error::CoupledMass { dof: column }.into());
             }
             let label = base + column;
-            let mut constrained = [true; 3];
-            constrained[DYNAMIC_DIRECTION] = false;
             all.grids.push(Grid {
                 label,
                 position,
-                constrained,
+                constrained: [0, 1, 2].map(|direction| direction != DYNAMIC_DIRECTION),
             });
-            let free = structure.free_dof().iter().copied();
+            let dofs = structure.free_dof().iter().copied();
+            let terms = dofs.zip(t.column(column).iter().copied());
             all.ties.push(Tie {
                 dependent: StructuralDof {
                     grid: label,
                     direction: DYNAMIC_DIRECTION,
                 },
                 coefficient: -1.0,
-                terms: free
-                    .zip(t.column(column).iter().copied())
-                    .filter(|(_, coefficient)| *coefficient != 0.0)
-                    .collect(),
+                terms: terms.filter(|(_, factor)| *factor != 0.0).collect(),
             });
             if mass[(column, column)] != 0.0 {
                 all.masses.push(PointMass {
@@ -164,8 +160,8 @@ impl BulkData {
         }
         let mut grids = self.grids.clone();
         for grid in &mut grids {
-            for direction in 0..3 {
-                grid.constrained[direction] |= tied.contains_key(&(grid.label, direction));
+            for (direction, constrained) in grid.constrained.iter_mut().enumerate() {
+                *constrained |= tied.contains_key(&(grid.label, direction));
             }
         }
         Ok(Structure::new(grids, self.elements.clone())?)
@@ -193,10 +189,9 @@ impl BulkData {
     ) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, &self.sizes(), free.len());
-        let mut mass: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-        for (dof, &lumped) in free.iter().zip(&lumped) {
-            mass.insert((dof.grid, dof.direction), lumped);
-        }
+        let at = |dof: &StructuralDof| (dof.grid, dof.direction);
+        let mut mass: BTreeMap<(usize, usize), f64> =
+            free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {
             for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
                 *mass.entry((point.grid, direction)).or_default() += point.mass;

@@ -58,7 +58,7 @@ impl DerivativeMap {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
+    /// [`crate::method::error::Error::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_derivatives", self.case);
         let title = format!("Case {}: derivatives of the first model", self.case);

@@ -31,7 +31,7 @@ pub struct ModeAgreement {
 /// Matrices of a case before and after its correlation.
 ///
 /// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit.
+/// [`crate::method::error::Error::WrongShape`] when shapes and mass do not fit.
 pub fn mode_agreement(result: &CaseResult) -> Result<ModeAgreement, PresentError> {
     let mass = result.case.reconstruction.mass();
     let agreement = |check: &Check| -> Result<Agreement, PresentError> {

@@ -41,7 +41,7 @@ pub struct NodeLines {
 /// Modes of a case in the order and with the signs of the test modes.
 ///
 /// # Errors
-/// [`Error::WrongShape`] unless the modes have nine DOF.
+/// [`crate::method::error::Error::WrongShape`] unless the modes have nine DOF.
 pub fn node_lines(result: &CaseResult) -> Result<NodeLines, PresentError> {
     let planform = Planform::of(&result.case.reconstruction);
     let correlation = &result.correlation;

@@ -51,7 +51,7 @@ pub(super) fn number(
 /// Rows are the test modes; frequencies of the paired analysis modes, exact solutions all.
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
+/// [`crate::cases::error::CaseError::Table`] if the published table were damaged.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let case = result.case.number;
     let paper = published([3, 5, 7], result)?;
@@ -145,7 +145,7 @@ pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
+/// [`crate::cases::error::CaseError::Table`] if the published table were damaged.
 pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let case = result.case.number;
     let paper = published([4, 6, 8], result)?;

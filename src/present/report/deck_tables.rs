@@ -88,7 +88,7 @@ pub fn not_read(unread: &Unread) -> String {
 /// The same as JSON; components in the order of `dof`.
 ///
 /// # Errors
-/// [`Error::Table`] when the writer fails.
+/// [`crate::cases::error::CaseError::Table`] when the writer fails.
 pub fn deck_json(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
     let document = Document {

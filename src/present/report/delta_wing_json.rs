@@ -55,7 +55,7 @@ struct PassDocument {
 /// factors on the first gages in the order of the groups; `solver` did the finite element analyses of the correlation.
 ///
 /// # Errors
-/// Those of the wing's analyses; [`Error::Table`] if a number were not finite.
+/// Those of the wing's analyses; [`crate::cases::error::CaseError::Table`] if a number were not finite.
 pub fn delta_wing_json(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
     let correlation = &run.correlation;
     written(&Document {

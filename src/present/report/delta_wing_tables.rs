@@ -20,7 +20,7 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 /// All tables: deflections under both loads, frequencies, and the correlation's groups, frequencies and passes.
 ///
 /// # Errors
-/// Those of the wing's analyses; [`Error::Table`] if what others found were damaged.
+/// Those of the wing's analyses; [`crate::cases::error::CaseError::Table`] if what others found were damaged.
 pub fn delta_wing_tables(
     wing: &DeltaWing,
     run: &WingCorrelation,

@@ -28,7 +28,7 @@ const RMS_ROWS: [RmsRow; 2] = [
 /// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
+/// [`crate::cases::error::CaseError::Table`] if published tables were damaged.
 pub fn fewer_modes_tables(
     case: &Case,
     published: &[FewerModesRun],

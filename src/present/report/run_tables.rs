@@ -73,7 +73,7 @@ fn parameter_word(result: &CaseResult) -> &'static str {
 /// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
+/// [`crate::cases::error::CaseError::Table`] if the published table were damaged.
 pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(13)?;
     let most = results
@@ -160,7 +160,7 @@ pub fn fit_table(fit: &Fit) -> Table {
 /// Every table of a run, in the order of the report.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
+/// [`crate::cases::error::CaseError::Table`] if published tables were damaged.
 pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
     let mut tables = Vec::new();
     for result in results {

@@ -12,7 +12,7 @@ const COUNT: Digits = Digits::Fixed(0);
 /// Iterations of the paper's runs, as in Tables 10 to 12.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
+/// [`crate::cases::error::CaseError::Table`] if published tables were damaged.
 pub fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
     let papers = GAGE_TABLES
         .map(|(paper, test_modes)| Ok((test_modes, PublishedTable::number(paper)?)))
