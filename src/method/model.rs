@@ -13,8 +13,8 @@ use nalgebra::DMatrix;
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
 ///
 /// A stiffness parameter scales stiffness alone. An element keeps the mass of its first size, times the factor of a mass
-/// parameter if there is one: in the paper, too, the mass is known and never changes. So a gage that a correlation finds is
-/// a factor on what the element resists, and does not make it heavier. [`Self::sizes`], [`Self::mass_sizes`] and
+/// parameter if there is one: in the paper, too, the mass is known and never changes. A gage that a correlation finds is
+/// therefore a statement about stiffness and does not make the element heavier. [`Self::sizes`], [`Self::mass_sizes`] and
 /// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {

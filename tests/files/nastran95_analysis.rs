@@ -27,9 +27,10 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
             .expect("stiffness");
     let t = model.load_distribution();
     let mut maa = t * model.mass() * t.transpose();
-    for (element, size) in model.element_matrices().iter().zip(&sizes) {
+    // Stiffness factors leave every element the mass of its first size.
+    for (element, first) in model.element_matrices().iter().zip(structure.elements()) {
         for (&row, mass) in element.dof.iter().zip(element.unit_mass.iter()) {
-            maa[(row, row)] += size * mass;
+            maa[(row, row)] += first.size * mass;
         }
     }
     // In KGG the elements stand by themselves after all grids, in the order of their numbers.
