@@ -88,10 +88,11 @@ proptest! {
         let [own, written] = both(&model, &factors);
         prop_assert_eq!(written.len(), DOF);
         // A change of every stiffness and mass by a part changes every root by no more than that part of both. Round-off of
-        // the flexibility is relative to its largest root.
+        // the flexibility is relative to its largest root, and the box is up to ten thousand times stiffer along its rods
+        // than across: even there what is left is far below what a mass of another size would change.
         let spread = own[DOF - 1] / own[0];
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * spread;
-        prop_assert!(tolerance < 1e-5, "{}", spread);
+        prop_assert!(tolerance < 1e-4, "{}", spread);
         for (own, written) in own.iter().zip(&written) {
             prop_assert!((own / written - 1.0).abs() < tolerance, "{own} {written} {tolerance}");
         }
