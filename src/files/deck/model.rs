@@ -108,8 +108,8 @@ impl BulkData {
                 position,
                 constrained: [0, 1, 2].map(|direction| direction != DYNAMIC_DIRECTION),
             });
-            let dofs = structure.free_dof().iter().copied();
-            let terms = dofs.zip(t.column(column).iter().copied());
+            let (dofs, factors) = (structure.free_dof().iter(), t.column(column));
+            let terms = dofs.copied().zip(factors.iter().copied());
             all.ties.push(Tie {
                 dependent: StructuralDof {
                     grid: label,
