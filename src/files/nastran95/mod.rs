@@ -114,7 +114,7 @@ impl Nastran95 {
     ///
     /// # Errors
     /// Those of [`Self::matrices`], [`BulkData::of`] and [`FiniteElementModel::analyze`]; [`FileError::SolverAnswer`] when
-    /// KAA is not the sum of the elements to 1e-9 or MAA not the mass of points and elements to 1e-6 of its largest entry.
+    /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
     pub fn analyze(
         &self,
         model: &FiniteElementModel,
