@@ -7,7 +7,7 @@ use corfem::cases::Case;
 use corfem::files::deck::{self, BulkData, bulk_data};
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::solve;
-use corfem::method::parameters::{Parameter, Scaled};
+use corfem::method::model::{Parameter, Scaled};
 use corfem::method::structure::Structure;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
@@ -55,7 +55,7 @@ fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
 
 /// Squared frequencies of the model, and of its deck written and read again.
 fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
-    let dynamic = model.analyze(factors).expect("an analysis");
+    let dynamic = model.matrices(factors).expect("an analysis");
     let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes");
     let bulk = BulkData::of(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
     let text = bulk_data(&bulk).expect("a deck");
