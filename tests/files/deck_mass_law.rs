@@ -6,8 +6,8 @@ use crate::method::mass_parameters::DENSITY;
 use corfem::cases::Case;
 use corfem::files::deck::{self, BulkData, bulk_data};
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::solve;
 use corfem::method::model::{Parameter, Scaled};
+use corfem::method::modes::solve;
 use corfem::method::structure::Structure;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
@@ -61,7 +61,7 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
     let text = bulk_data(&bulk).expect("a deck");
     let read = deck::read("box", &text).expect("it reads").model;
     let modes = deck::modes(&read).expect("modes").modes;
-    [own.omega_squared, modes.omega_squared].map(|squared| squared.as_slice().to_vec())
+    [&own.omega_squared, &modes.omega_squared].map(|squared| squared.as_slice().to_vec())
 }
 
 proptest! {
