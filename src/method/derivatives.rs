@@ -48,10 +48,10 @@ pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRul
     }
 }
 
-/// $\Delta e_e = e_f + e_v - e_S$ of every parameter, for $\Delta K = 0.001\, c_e K_e$ or $\Delta M = 0.001\, c_e M_e$ at the
+/// $\Delta e_e = e_f + e_v - e_S$ of every parameter, for $\Delta K = 0.001 c_e K_e$ or $\Delta M = 0.001 c_e M_e$ at the
 /// present factors $c_e$ (12).
 ///
-/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by
+/// For each, $\beta = 0.001 c_e V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by
 /// first order (C.20, C.21) and the error sum is taken anew with the present pairing. Modes closer than
 /// [`HELD_SEPARATION`] keep their own shapes.
 ///
@@ -93,11 +93,11 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
 /// $\Delta e_e/0.001$ for smaller and smaller changes.
 ///
-/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r\, \beta_{ri}/(\omega_i^2 - \omega_r^2)$, so
+/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$, so
 /// that with $e_S$ as a function of $\omega_i^2$ and of the shapes
 ///
 /// $$ \frac{\partial e_S}{\partial \beta_{ii}} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
-///    \frac{\partial e_S}{\partial \beta_{ri}} = \frac{1}{\omega_i^2 - \omega_r^2}\, v_r^t \frac{\partial e_v}{\partial v_i}, \qquad
+///    \frac{\partial e_S}{\partial \beta_{ri}} = \frac{1}{\omega_i^2 - \omega_r^2} v_r^t \frac{\partial e_v}{\partial v_i}, \qquad
 ///    \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{ri} \frac{\partial e_S}{\partial \beta_{ri}} (V^t K_e V)_{ri}. $$
 ///
 /// A change of mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. Where an error is zero its root has a kink and no derivative;

@@ -123,7 +123,7 @@ pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
 
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
 ///
-/// $$ A\, Y = Y\, \mathrm{diag}(\mu), \qquad Y^t Y = I $$
+/// $$ A Y = Y \mathrm{diag}(\mu), \qquad Y^t Y = I $$
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NoConvergence`].

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StepRule {
     /// Root sum of squares over the test modes of the element's own relative generalized stiffness changes,
-    /// $0.001\, c_e V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$. The primary rule.
+    /// $0.001 c_e V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$. The primary rule.
     #[default]
     RootSumOfSquares,
     /// Their sum instead: smaller steps, on the torque box one and a half to two times the iterations.
@@ -36,9 +36,9 @@ pub fn stiffness_changes(model: &ModalModel, state: &ModalState, error_changes: 
 
 /// Unlimited stiffness change factors by (13).
 ///
-/// $$ c_e = 1 - R\, e_S\, \frac{\Delta e_e}{\Delta k_e} $$
+/// $$ c_e = 1 - R e_S \frac{\Delta e_e}{\Delta k_e} $$
 ///
-/// The paper prints $c = R\, e_S\, (\Delta e/\Delta k)$, which is the change of the factor, not the factor
+/// The paper prints $c = R e_S (\Delta e/\Delta k)$, which is the change of the factor, not the factor
 /// (`paper/errata.md`). A parameter without stiffness in any test mode keeps factor one.
 pub fn unlimited_factors(
     error_changes: &[f64],

@@ -69,7 +69,7 @@ pub struct WholeModes {
 ///
 /// With $F = T M^{1/2}$ the roots $\lambda = 1/\omega^2$ are the eigenvalues of
 ///
-/// $$ F^t K_S^{-1} F\, y = \lambda\, y, \qquad v = M^{-1/2} y, $$
+/// $$ F^t K_S^{-1} F y = \lambda y, \qquad v = M^{-1/2} y, $$
 ///
 /// the modes of $(K_D, M)$ without a $K_D$: no root is lost or invented where masses are more than the structure can
 /// tell apart, which would leave the dynamic flexibility $T^t K_S^{-1} T$ without an inverse.

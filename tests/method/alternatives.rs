@@ -12,7 +12,7 @@
 
 use crate::common::appendix_c::exact;
 use crate::common::boxes::{first_problem, problem_of};
-use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY};
+use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY, STATED_ERROR_SUM};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
@@ -110,7 +110,7 @@ fn stopping_at_the_first_rise_stops_early() {
     for (number, error_sum) in [(2, 0.062), (3, 0.040)] {
         let run = at_first_rise(number);
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!((run.last.errors.sum() - error_sum).abs() < 5e-4, "{}", run.last.errors.sum());
+        assert!((run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM, "{}", run.last.errors.sum());
         let halved = first_pass(number, |_| {});
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));
     }

@@ -2,7 +2,7 @@
 
 use crate::common::appendix_c::{FORMULAE, Rule, three_mass_chain};
 use crate::common::close_roots::{repeated_chain, residual, root_error, separate_chain, solved, spring_change};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
@@ -202,7 +202,7 @@ fn shapes_are_signed_by_their_largest_component() {
         let shapes = solved(&spring_change(&modes, [size, 0.0, 0.0], [0.0, 0.0, 0.2])).settled.perturbed.shapes;
         assert_eq!(shapes.shape(), (3, 3));
         for shape in shapes.column_iter() {
-            assert!(shape.max() >= shape.amax() * (1.0 - 1e-6));
+            assert!(shape.max() >= shape.amax() * (1.0 - EQUALLY_LARGE));
         }
     }
 }

@@ -4,7 +4,7 @@
 
 use crate::common::appendix_c::exact;
 use crate::common::boxes::first_problem;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SRSS};
 use approx::assert_relative_eq;
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
@@ -48,8 +48,8 @@ fn print_of_the_transformation_has_a_transpose_too_many() {
     // (2), (A.7), (A.8) print Tᵗ where T (structural by dynamic DOF) alone has as many rows as K_S.
     let model = Case::new(1).expect("a case").model().expect("a model");
     let t = model.load_distribution();
-    assert_eq!(t.shape(), (36, 9));
-    assert_ne!(t.transpose().nrows(), model.structure().free_dof().len());
+    assert_eq!(t.nrows(), model.structure().free_dof().len());
+    assert_eq!(t.ncols(), model.mass().nrows());
 }
 
 #[test]
@@ -138,8 +138,7 @@ fn frequency_error_is_relative() {
         relative += (percent / 100.0_f64).powi(2);
         absolute += difference * difference;
     }
-    // Nine percentages of one decimal leave 0.0002 to chance.
-    assert!((relative.sqrt() - 0.3828).abs() < 0.0002, "{}", relative.sqrt());
+    assert!((relative.sqrt() - 0.3828).abs() < PRINTED_SRSS, "{}", relative.sqrt());
     assert!(absolute.sqrt() > 1.0);
 }
 

@@ -75,7 +75,7 @@ impl BulkData {
     /// next multiple of a hundred above every grid and element, with the other directions constrained, and with a point mass
     /// unless its mass is zero. Its MPC equation is its column of $T$:
     ///
-    /// $$ -u_m + \sum_s T_{sm}\, u_s = 0 $$
+    /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// so that a program's own elimination of the dependent DOF puts $T M T^t$ on the structural ones.
     ///

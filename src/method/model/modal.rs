@@ -93,7 +93,7 @@ pub struct ModalModel {
     pub cross: DMatrix<f64>,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
     pub shares: Vec<Share>,
-    /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi}\,\omega_{Gj})$ or
+    /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
     pub test_shares: Vec<DMatrix<f64>>,
 }

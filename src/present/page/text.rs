@@ -23,6 +23,8 @@ pub(super) fn section(markdown: &str, heading: &str) -> String {
         Event::Start(Tag::Heading { id, classes, attrs, .. }) => {
             vec![Event::Start(Tag::Heading { level: HeadingLevel::H3, id, classes, attrs })]
         }
+        // Comments, which mark computed tables.
+        Event::Html(_) => Vec::new(),
         Event::End(TagEnd::Heading(_)) => vec![Event::End(TagEnd::Heading(HeadingLevel::H3))],
         other => vec![other],
     });
