@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
 /// [`crate::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
-/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3}
-///    + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
+/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} +
+///    \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
 ///
 /// $X_i$, $Y_i$ are the corners in the mean plane (corner 1 at the origin, $Y_2 = 0$), $A$ the area. The caller says
 /// that the sides are parallel; nothing is tested. Source: NASA SP-222, shear panel; rederived.
@@ -23,7 +23,7 @@ pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
 
 /// $Z$ of a shear panel whose sides 1-2 and 3-4 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
 ///
-/// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3}\,\frac{s^2 + sc + c^2}{1+\nu}\Big), \qquad
+/// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3} \frac{s^2 + sc + c^2}{1+\nu}\Big), \qquad
 ///    p_i = y_b - Y_i, \quad s = \frac{X_2 - x_b}{y_b}, \quad c = -\frac{x_b}{y_b} $$
 ///
 /// $(x_b, y_b)$ is where sides 1-4 and 2-3 meet.
@@ -38,7 +38,7 @@ pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
 
 /// $Z$ of a shear panel whose sides 1-4 and 2-3 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
 ///
-/// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3}\,\frac{b^2 + bD + D^2}{1+\nu}\Big), \qquad
+/// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3} \frac{b^2 + bD + D^2}{1+\nu}\Big), \qquad
 ///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3-X_2}{Y_3}\Big), $$
 /// $$ p_i = \frac{x_a - X_i - D Y_i}{\sqrt{1+D^2}}, \qquad b = \frac{(x_a - X_4) D + Y_4}{(x_a - X_4) - Y_4 D} $$
 ///

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 /// Stiffness of spring $s$ of a chain of `mass_count` masses, lbf/in (d × d): spring 0 holds mass 0 to the ground,
 /// spring $s$ joins masses $s-1$ and $s$, and spring d, if there is one, holds the last mass to the ground.
 ///
-/// $$ K_s = k_s\, b b^t, \qquad b = e_s - e_{s-1}, $$
+/// $$ K_s = k_s b b^t, \qquad b = e_s - e_{s-1}, $$
 ///
 /// without the unit vector of a mass that does not exist. Any other spring touches no mass and gives zero.
 pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMatrix<f64> {
@@ -27,7 +27,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
 /// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) between $d+1$ springs $k$ (lbf/in), both ends held:
 ///
 /// $$ \omega_i^2 = 4\frac{k}{m}\sin^2\frac{i\pi}{2(d+1)}, \qquad
-///    v_{ji} = \sqrt{\frac{2}{(d+1)m}}\,\sin\frac{ij\pi}{d+1}, \qquad i, j = 1 \dots d $$
+///    v_{ji} = \sqrt{\frac{2}{(d+1)m}} \sin\frac{ij\pi}{d+1}, \qquad i, j = 1 \dots d $$
 ///
 /// # Errors
 /// [`Error::Empty`] without masses; [`Error::NotPositive`] for a spring or mass that is not.

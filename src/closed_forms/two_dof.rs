@@ -7,11 +7,11 @@ use nalgebra::{DMatrix, DVector};
 
 /// Squared circular frequencies of $K v = \omega^2 M v$ (2 × 2), ascending, rad²/s².
 ///
-/// The characteristic equation $\omega^4 \det M - b\,\omega^2 + \det K = 0$ has
+/// The characteristic equation $\omega^4 \det M - b \omega^2 + \det K = 0$ has
 ///
 /// $$ b = k_{11} m_{22} + k_{22} m_{11} - 2 k_{12} m_{12}, $$
-/// $$ b^2 - 4 \det K \det M = (k_{11} m_{22} - k_{22} m_{11})^2
-///    + 4 (k_{12} m_{11} - k_{11} m_{12})(k_{12} m_{22} - k_{22} m_{12}), $$
+/// $$ b^2 - 4 \det K \det M = (k_{11} m_{22} - k_{22} m_{11})^2 +
+///    4 (k_{12} m_{11} - k_{11} m_{12})(k_{12} m_{22} - k_{22} m_{12}), $$
 ///
 /// the second form without the cancellation of the first. The larger root in magnitude is
 /// $q = \big(b \pm \sqrt{b^2 - 4\det K\det M}\big)/(2 \det M)$ with the sign of $b$, the other $\det K/(q \det M)$.

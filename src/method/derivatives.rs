@@ -27,7 +27,7 @@ pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
 /// What a small change of each parameter does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
-    /// Change of the error sum, $\Delta e_e = e_f + e_v - e_S$, for $\Delta K = 0.001\, c_e K_e$ or $\Delta M = 0.001\, c_e M_e$.
+    /// Change of the error sum, $\Delta e_e = e_f + e_v - e_S$, for $\Delta K = 0.001 c_e K_e$ or $\Delta M = 0.001 c_e M_e$.
     pub error_change: Vec<f64>,
     /// The same change's relative generalized stiffness or mass on the test modes, one column per parameter
     /// (test modes × parameters).
@@ -36,7 +36,7 @@ pub struct Derivatives {
 
 /// $\Delta e$ and $\Delta k$ of (12) for every parameter at the present state.
 ///
-/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by first order
+/// For each, $\beta = 0.001 c_e V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by first order
 /// (C.20, C.21), modes closer than [`HELD_SEPARATION`] held to their own shapes, and the error sum is taken anew with the
 /// present pairing. The loop allocates nothing.
 ///

@@ -61,7 +61,7 @@ pub fn errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Errors {
     }
 }
 
-/// $\sum_j (\pm v_j/|v|_\infty - w_j/|w|_\infty)^2$.
+/// $\sum_j (\pm v_j/\max|v| - w_j/\max|w|)^2$.
 pub(crate) fn squared_shape_difference(
     analysis: DVectorView<f64>,
     sign: f64,

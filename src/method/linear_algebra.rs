@@ -152,7 +152,7 @@ pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
 
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
 ///
-/// $$ A\, Y = Y\, \mathrm{diag}(\mu), \qquad Y^t Y = I $$
+/// $$ A Y = Y \mathrm{diag}(\mu), \qquad Y^t Y = I $$
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NoConvergence`].
@@ -183,7 +183,7 @@ pub struct RankOneTerms {
 ///
 /// A semidefinite matrix, as every element's share is, is taken apart by Cholesky's factorization with the largest
 /// diagonal entry as pivot, $f = a_p/\sqrt{a_{pp}}$, which ends when its rank is reached. Any other is taken apart by its
-/// eigenvectors, $f_t = \sqrt{|\mu_t|}\, y_t$.
+/// eigenvectors, $f_t = \sqrt{|\mu_t|} y_t$.
 ///
 /// # Errors
 /// Those of [`symmetric_eigen`].

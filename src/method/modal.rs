@@ -126,7 +126,7 @@ impl ModalProblem {
 
     /// The state at `factors` on the shares, the cumulative change since the last exact modes taken at once:
     ///
-    /// $$ \beta = \sum_{stiffness} (c_e - 1)\, V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1)\, V^t M_e V $$
+    /// $$ \beta = \sum_{stiffness} (c_e - 1) V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1) V^t M_e V $$
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; those of [`perturb`] and

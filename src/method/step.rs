@@ -4,7 +4,7 @@ use crate::method::derivatives::Derivatives;
 use crate::method::error::Error;
 use serde::{Deserialize, Serialize};
 
-/// How the derivatives become factors. All give $c_e = 1 - R\, e_S\, g_e$ and differ in $g_e$.
+/// How the derivatives become factors. All give $c_e = 1 - R e_S g_e$ and differ in $g_e$.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StepRule {
     /// $g_e = \Delta e_e/\Delta k_e$ with $\Delta k_e$ the root sum of squares over the test modes of the relative
@@ -22,9 +22,9 @@ pub enum StepRule {
 
 /// Unlimited stiffness change factors by (13).
 ///
-/// $$ c_e = 1 - R\, e_S\, \frac{\Delta e_e}{\Delta k_e} $$
+/// $$ c_e = 1 - R e_S \frac{\Delta e_e}{\Delta k_e} $$
 ///
-/// The paper prints $c = R\, e_S\, (\Delta e/\Delta k)$, which is the change of the factor, not the factor
+/// The paper prints $c = R e_S (\Delta e/\Delta k)$, which is the change of the factor, not the factor
 /// (`paper/errata.md`). A parameter without stiffness in any test mode keeps factor one.
 pub fn unlimited_factors(
     derivatives: &Derivatives,

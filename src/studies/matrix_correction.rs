@@ -20,10 +20,10 @@ const LARGEST_CROSS_MASS: f64 = 1e-8;
 
 /// Baruch's correction of the stiffness, lbf/in (d × d):
 ///
-/// $$ K = K_A - K_A \Phi\Phi^t M - M \Phi\Phi^t K_A + M \Phi\Phi^t K_A \Phi\Phi^t M + M \Phi\,\Omega^2 \Phi^t M $$
+/// $$ K = K_A - K_A \Phi\Phi^t M - M \Phi\Phi^t K_A + M \Phi\Phi^t K_A \Phi\Phi^t M + M \Phi \Omega^2 \Phi^t M $$
 ///
 /// with the analysis stiffness $K_A$, the mass $M$, and test shapes $\Phi$ (d × g, $\Phi^t M \Phi = I$) of squared circular
-/// frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi\,\Omega^2$ it is the one of smallest [`weighted_norm`] of $K - K_A$.
+/// frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest [`weighted_norm`] of $K - K_A$.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for test
@@ -47,7 +47,7 @@ pub fn baruch_stiffness(
 
 /// Berman and Nagy's correction of the mass, lbf·s²/in (d × d):
 ///
-/// $$ M = M_A + M_A \Phi\, m_A^{-1} (I - m_A)\, m_A^{-1} \Phi^t M_A, \qquad m_A = \Phi^t M_A \Phi $$
+/// $$ M = M_A + M_A \Phi m_A^{-1} (I - m_A) m_A^{-1} \Phi^t M_A, \qquad m_A = \Phi^t M_A \Phi $$
 ///
 /// with the analysis mass $M_A$ and measured shapes $\Phi$ (d × g) at the scale they are to keep. Of all symmetric $M$ with
 /// $\Phi^t M \Phi = I$ it is the one of smallest [`weighted_norm`] of $M - M_A$.
@@ -83,7 +83,7 @@ const SMALLEST_MASS_PIVOT: f64 = 1e-12;
 /// Berman and Nagy's correction of the stiffness, lbf/in (d × d), to follow that of the mass:
 ///
 /// $$ K = K_A + \Delta + \Delta^t, \qquad
-///    \Delta = \tfrac12 M \Phi\, (\Phi^t K_A \Phi + \Omega^2)\, \Phi^t M - K_A \Phi \Phi^t M $$
+///    \Delta = \tfrac12 M \Phi (\Phi^t K_A \Phi + \Omega^2) \Phi^t M - K_A \Phi \Phi^t M $$
 ///
 /// with the *corrected* mass $M$, so that $\Phi^t M \Phi = I$. With the same mass it is Baruch's, written another way.
 ///
@@ -102,7 +102,7 @@ pub fn berman_nagy_stiffness(
     Ok(symmetric_part(&(stiffness + &half + half.transpose())))
 }
 
-/// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2}\, \Delta\, M^{-1/2} \rVert$: the root of the
+/// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2} \Delta M^{-1/2} \rVert$: the root of the
 /// sum of squares of all entries, each divided by the masses of its row and column when $M$ is diagonal.
 ///
 /// For a change of stiffness in lbf/in it is in rad²/s², for a change of mass a fraction.
@@ -113,7 +113,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
     Ok(mass_weighted(change, mass)?.norm())
 }
 
-/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2}\, \Delta\, M^{-1/2}$, and of the same norm.
+/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2} \Delta M^{-1/2}$, and of the same norm.
 pub(crate) fn mass_weighted(
     change: &DMatrix<f64>,
     mass: &DMatrix<f64>,

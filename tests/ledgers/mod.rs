@@ -1,5 +1,23 @@
-//! The lists of equations and routes, held against the code.
+//! The lists of equations and routes, the rooms and the formulas of the documentation, held against the code.
 
 pub mod equations;
+pub mod formulas;
 pub mod rooms;
 pub mod routes;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Every file of a folder and of those in it.
+pub fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("it reads") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files.extend(files_below(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files
+}

@@ -1,7 +1,8 @@
 //! The rooms of `src/`: each imports only from those above it, and `method` from none.
 
+use crate::ledgers::files_below;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// From the top down.
 const ROOMS: [&str; 7] = [
@@ -13,19 +14,6 @@ const ROOMS: [&str; 7] = [
     "present",
     "program",
 ];
-
-fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).expect("it reads") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files.extend(files_below(&path));
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            files.push(path);
-        }
-    }
-    files
-}
 
 /// The rooms that a text names as `crate::room` or `corfem::room`, in code or in documentation.
 fn rooms_named(text: &str) -> Vec<&str> {
@@ -52,7 +40,9 @@ fn every_room_imports_only_from_rooms_above_it() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut count = 0;
     for (room, name) in ROOMS.iter().enumerate() {
-        for file in files_below(&source.join(name)) {
+        let mut files = files_below(&source.join(name));
+        files.retain(|file| file.extension().is_some_and(|end| end == "rs"));
+        for file in files {
             let text = fs::read_to_string(&file).expect("it reads");
             let below = imports_from_below(room, &text);
             assert!(below.is_empty(), "{}: {below:?}", file.display());

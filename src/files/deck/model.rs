@@ -68,7 +68,7 @@ impl BulkData {
     /// Every dynamic DOF becomes the z of a grid of its own at the position given in `points` (in), numbered after the
     /// next multiple of a hundred above every grid and element, with the other directions held. Its MPC equation is its column of $T$:
     ///
-    /// $$ -u_m + \sum_s T_{sm}\, u_s = 0 $$
+    /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// so that a program's own elimination of the dependent DOF puts $T M T^t$ on the structural ones.
     ///

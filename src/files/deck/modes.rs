@@ -28,7 +28,7 @@ pub struct DeckModes {
 /// The dynamic DOF are those with mass: dependent ones through their MPC equations, free ones as they are
 /// ([`BulkData::dynamic_dof`]). With $F = T M^{1/2}$ the roots $\lambda = 1/\omega^2$ are the eigenvalues of
 ///
-/// $$ F^t K_S^{-1} F\, y = \lambda\, y, \qquad v = M^{-1/2} y, $$
+/// $$ F^t K_S^{-1} F y = \lambda y, \qquad v = M^{-1/2} y, $$
 ///
 /// the modes of $(K_D, M)$ without a $K_D$: no root is lost or invented where masses are more than the structure can
 /// tell apart, which would leave the dynamic flexibility $T^t K_S^{-1} T$ without an inverse.
@@ -68,7 +68,7 @@ pub fn modes(model: &BulkData) -> Result<DeckModes, Error> {
     })
 }
 
-/// $A\,\mathrm{diag}(s)$.
+/// $A \mathrm{diag}(s)$.
 fn scale_columns(matrix: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
     let mut scaled = matrix.clone();
     for (mut column, scale) in scaled.column_iter_mut().zip(scale.iter()) {

@@ -28,7 +28,7 @@ pub struct Balanced {
     /// Coefficients $r$ of the rigid-body vectors (m × n): a translation has the shape's unit, a rotation that per inch.
     pub coefficients: DMatrix<f64>,
     /// Size of each change relative to its shape, in the mass norm:
-    /// $\sqrt{(\Phi r_i)^t M \Phi r_i}\,/\sqrt{v_i^t M v_i}$.
+    /// $\sqrt{(\Phi r_i)^t M \Phi r_i} / \sqrt{v_i^t M v_i}$.
     pub change: Vec<f64>,
 }
 
@@ -36,9 +36,9 @@ pub struct Balanced {
 ///
 /// With $R_i = \omega_i^2 M - K$ and the rigid-body vectors in the columns of $\Phi$, the coefficients solve
 ///
-/// $$ \Phi^t R_i\, (v_i + \Phi r_i) = 0, $$
+/// $$ \Phi^t R_i (v_i + \Phi r_i) = 0, $$
 ///
-/// which for the symmetric case, $\Phi = (\{1\}, \{x\})$, is (B.3) and (B.4). On a free structure $K\Phi = 0$ and the
+/// which for the symmetric case, $\Phi = (\lbrace 1 \rbrace, \lbrace x \rbrace)$, is (B.3) and (B.4). On a free structure $K\Phi = 0$ and the
 /// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion, so the change is at most
 /// one. The equations are solved in the suspension modes, the mass-orthonormal combinations
 /// $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$) on which $K$ is diagonal:

@@ -51,7 +51,7 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f
 /// The raw shapes are scaled to unit generalized mass, and the equations of motion in them, with the test
 /// frequencies $\omega_{Gi}$ on the diagonal, are the symmetric-definite eigenproblem
 ///
-/// $$ \mathrm{diag}(\omega_{Gi}^2\, m_{1,ii})\, q = \omega^2\, m_1\, q, \qquad q^t m_1 q = 1. $$
+/// $$ \mathrm{diag}(\omega_{Gi}^2 m_{1,ii}) q = \omega^2 m_1 q, \qquad q^t m_1 q = 1. $$
 ///
 /// The new shapes $V q$ are orthonormal in mass. Each is paired with a raw one by their cross-orthogonality, and takes
 /// its place and sign. When $m_1$ is diagonal every frequency and shape stays as it is; an overlap $e$ of two

@@ -30,7 +30,7 @@ pub enum Motion {
     Yaw,
 }
 
-/// The motions of the symmetric boundary condition: with z alone measured, $\{1\}$ and $\{x\}$ of (B.1) and (B.2).
+/// The motions of the symmetric boundary condition: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of (B.1) and (B.2).
 ///
 /// Fore-and-aft motion is symmetric too; add [`Motion::ForeAft`] where x is measured.
 pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];

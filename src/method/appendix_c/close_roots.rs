@@ -5,7 +5,7 @@
 //! span the block's modes, and a matrix $\Gamma$ stands where one root $\gamma_j$ stood. With the changed
 //! generalized stiffness $A = k + \beta$ and $G = k\Lambda + \alpha$ (both n × n, symmetric), row $i$ outside the block reads
 //!
-//! $$ P_i\,(A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I)\,P_s, \qquad
+//! $$ P_i (A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I) P_s, \qquad
 //!    A_{CC}\Gamma = G_{CC} - \sum_{s \notin C}(A_{Cs}P_s\Gamma - G_{Cs}P_s), $$
 //!
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1

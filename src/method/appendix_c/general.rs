@@ -3,7 +3,7 @@
 //! With $k = U^t K V$ diagonal (C.10), $\beta = U^t \Delta K V$ and $\alpha = U^t \Delta G V$, the changed mode $j$ is
 //! $V p_j$ with root $\gamma_j = \lambda_j + \Delta\lambda_j$ and
 //!
-//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j - \alpha\big]\, p_j = 0, \qquad p_{jj} = 1 \quad \text{(C.14 to C.19)}. $$
+//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j - \alpha\big] p_j = 0, \qquad p_{jj} = 1 \quad \text{(C.14 to C.19)}. $$
 //!
 //! The print has $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to $U$. It
 //! has $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$. There is no (C.23).
@@ -55,9 +55,9 @@ where
 
 /// Recursive 1 (C.22 with $\alpha$ and a general $k$) to a given order; with $\rho = r - 1$:
 ///
-/// $$ (\Delta\lambda_i)_r = \frac{\alpha_{ii} - \beta_{ii}\lambda_i - \sum_{j\ne i}\big(\beta_{ij}(\gamma_i)_\rho - \alpha_{ij}\big)(p_{ji})_\rho}{k_{ii} + \beta_{ii}} $$
-/// $$ (p_{ij})_r = -\frac{\beta_{ij}(\gamma_j)_\rho - \alpha_{ij} + \sum_{s\ne i,j}\big(\beta_{is}(\gamma_j)_\rho - \alpha_{is}\big)(p_{sj})_\rho}
-///    {k_{ii}\big((\gamma_j)_\rho - \lambda_i\big) + \beta_{ii}(\gamma_j)_\rho - \alpha_{ii}} $$
+/// $$ \Delta\lambda_i^{(r)} = \frac{\alpha_{ii} - \beta_{ii}\lambda_i - \sum_{j\ne i}\big(\beta_{ij}\gamma_i^{(\rho)} - \alpha_{ij}\big)p_{ji}^{(\rho)}}{k_{ii} + \beta_{ii}} $$
+/// $$ p_{ij}^{(r)} = -\frac{\beta_{ij}\gamma_j^{(\rho)} - \alpha_{ij} + \sum_{s\ne i,j}\big(\beta_{is}\gamma_j^{(\rho)} - \alpha_{is}\big)p_{sj}^{(\rho)}}
+///    {k_{ii}\big(\gamma_j^{(\rho)} - \lambda_i\big) + \beta_{ii}\gamma_j^{(\rho)} - \alpha_{ii}} $$
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
@@ -124,10 +124,10 @@ where
 /// Recursive 2 (C.24 with $\alpha$ and a general $k$) to a given order: explicit roots, and shapes from one linear
 /// solution per mode.
 ///
-/// $$ (\Delta\lambda_i)_r = \frac{A_i - \lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}(p_{ji})_\rho, \quad
-///    A_i = \sum_j \alpha_{ij}(p_{ji})_\rho \quad (j = i \text{ included}) $$
-/// $$ \sum_{s \ne j}\big[k_{is}((\gamma_j)_r - \lambda_i) + \beta_{is}(\gamma_j)_r - \alpha_{is}\big](p_{sj})_r
-///    = \alpha_{ij} - \beta_{ij}(\gamma_j)_r, \qquad i \ne j $$
+/// $$ \Delta\lambda_i^{(r)} = \frac{A_i - \lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}p_{ji}^{(\rho)}, \quad
+///    A_i = \sum_j \alpha_{ij}p_{ji}^{(\rho)} \quad (j = i \text{ included}) $$
+/// $$ \sum_{s \ne j}\big[k_{is}(\gamma_j^{(r)} - \lambda_i) + \beta_{is}\gamma_j^{(r)} - \alpha_{is}\big]p_{sj}^{(r)}
+///    = \alpha_{ij} - \beta_{ij}\gamma_j^{(r)}, \qquad i \ne j $$
 ///
 /// # Errors
 /// As [`first_order`], [`Error::Setting`] for order zero, and [`Error::CoalescingModes`] when the linear system of

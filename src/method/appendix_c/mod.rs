@@ -4,7 +4,7 @@
 //! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through
 //! $\beta = V^t \Delta K V$ alone, and mode $j$ of the changed structure is $V p_j$ with root $\gamma_j$:
 //!
-//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j\big]\, p_j = 0, \qquad p_{jj} = 1. $$
+//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j\big] p_j = 0, \qquad p_{jj} = 1. $$
 //!
 //! Each function is one way of solving these equations without an eigensolution.
 

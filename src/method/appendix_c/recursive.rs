@@ -47,10 +47,11 @@ pub fn first_order(
     })
 }
 
-/// Recursive 1 (7, 8, C.22) to a given order, from first order on; with $\rho = r - 1$:
+/// Recursive 1 (7, 8, C.22) to a given order, from first order on. Superscripts in parentheses are orders, which the
+/// paper writes as outer subscripts; with $\rho = r - 1$:
 ///
-/// $$ (\Delta\lambda_i)_r = -\frac{\beta_{ii}\lambda_i + (\gamma_i)_\rho \sum_{j\ne i}\beta_{ij}(p_{ji})_\rho}{k_{ii}+\beta_{ii}}, \qquad
-///    (p_{ij})_r = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}(p_{sj})_\rho}{k_{ii}+\beta_{ii} - 1/(\gamma_j)_\rho} $$
+/// $$ \Delta\lambda_i^{(r)} = -\frac{\beta_{ii}\lambda_i + \gamma_i^{(\rho)} \sum_{j\ne i}\beta_{ij}p_{ji}^{(\rho)}}{k_{ii}+\beta_{ii}}, \qquad
+///    p_{ij}^{(r)} = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}p_{sj}^{(\rho)}}{k_{ii}+\beta_{ii} - 1/\gamma_j^{(\rho)}} $$
 ///
 /// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and $\lambda_i$ where the changed root of the previous
 /// order belongs (`paper/errata.md`).
@@ -116,9 +117,9 @@ pub fn recursive_1_converged(
 
 /// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.
 ///
-/// $$ (\Delta\lambda_i)_r = -\frac{\lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}(p_{ji})_\rho
+/// $$ \Delta\lambda_i^{(r)} = -\frac{\lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}p_{ji}^{(\rho)}
 ///    \quad (j = i \text{ included}) $$
-/// $$ \Big(k_{ii} + \beta_{ii} - \frac{1}{(\gamma_j)_r}\Big)(p_{ij})_r + \sum_{s \ne i,j}\beta_{is}(p_{sj})_r = -\beta_{ij},
+/// $$ \Big(k_{ii} + \beta_{ii} - \frac{1}{\gamma_j^{(r)}}\Big)p_{ij}^{(r)} + \sum_{s \ne i,j}\beta_{is}p_{sj}^{(r)} = -\beta_{ij},
 ///    \qquad i \ne j $$
 ///
 /// # Errors

@@ -62,7 +62,7 @@ impl Block {
         }
     }
 
-    /// The change $h\, p^t (V^t K_e V)\, p$ of every parameter, its lower triangle column by column (n × n), for present
+    /// The change $h p^t (V^t K_e V) p$ of every parameter, its lower triangle column by column (n × n), for present
     /// shapes $p$ in terms of the start's and relative changes $h$. `vector` is storage for n numbers.
     #[inline(always)]
     pub fn change_into(

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Stiffness of a rod of unit cross section, lbf/in per in² of area (6 × 6; x, y, z of each end).
 ///
-/// $$ K = \frac{E}{L}\, b\, b^t, \qquad b = (-n,\; n), \qquad n = (x_2 - x_1)/L $$
+/// $$ K = \frac{E}{L} b b^t, \qquad b = (-n, n), \qquad n = (x_2 - x_1)/L $$
 ///
 /// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists stretching alone.
 ///

@@ -14,7 +14,7 @@ const QUADRATURE_POINTS: usize = 12;
 
 /// Stiffness of a shear panel of unit thickness, lbf/in per inch of gage (12 × 12).
 ///
-/// $$ K = \frac{a\, a^t}{2 Z}, \qquad U = q_1^2 Z $$
+/// $$ K = \frac{a a^t}{2 Z}, \qquad U = q_1^2 Z $$
 ///
 /// with $a$ the corner forces of [`corner_forces`] and $Z$ the energy of [`energy_coefficient`], both for a unit
 /// mean shear flow $q_1$ on side 1-2. The panel resists one pattern of motion alone: rank one.
@@ -38,8 +38,8 @@ pub fn shear_panel(
 /// In mean-plane coordinates with corner 1 at the origin, $X_2$ the length of side 1-2 and
 /// $\tau = X_4 Y_3 - X_3 Y_4$,
 ///
-/// $$ f_1 = -\frac{X_2 Y_4}{2\tau}\, d_{13} = -f_3, \qquad
-///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)}\, d_{24} = -f_4 . $$
+/// $$ f_1 = -\frac{X_2 Y_4}{2\tau} d_{13} = -f_3, \qquad
+///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
 /// They act along the true diagonals, so force and moment vanish exactly, on a warped panel too.
 pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
@@ -54,10 +54,10 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 /// Strain energy of a unit-thickness panel for a unit mean shear flow on side 1-2, in²·(in²/lbf).
 ///
 /// Opposite sides meet in the points $P$ and $Q$. Lines through either carry pure shear, with the flow
-/// $q(x) = q_1\, p_1 p_2 / p(x)^2$ where $p$ is the distance from the line $PQ$; with $\varphi$ the angle between
+/// $q(x) = q_1 p_1 p_2 / p(x)^2$ where $p$ is the distance from the line $PQ$; with $\varphi$ the angle between
 /// the rays to $P$ and $Q$,
 ///
-/// $$ Z = \int \Big(\frac{p_1 p_2}{p^2}\Big)^{2} \frac{1}{2G}\Big(1 + \frac{2\cot^2\varphi}{1+\nu}\Big)\, dA . $$
+/// $$ Z = \int \Big(\frac{p_1 p_2}{p^2}\Big)^{2} \frac{1}{2G}\Big(1 + \frac{2\cot^2\varphi}{1+\nu}\Big) \thinspace dA . $$
 ///
 /// In homogeneous coordinates $P$, $Q$ and the line between them exist also when sides are parallel, so one
 /// quadrature serves rectangle, parallelogram, trapezoid and general panel.

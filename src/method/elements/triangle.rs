@@ -9,7 +9,7 @@ const SMALLEST_AREA_RATIO: f64 = 1e-10;
 
 /// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
 ///
-/// $$ K = A\, B^t D B, \qquad
+/// $$ K = A B^t D B, \qquad
 ///    D = \frac{E}{1-\nu^2}\begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
 ///
 /// $B$ maps the nine translations (x, y, z of each corner, global axes, inches) to the three strains in the

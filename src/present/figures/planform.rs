@@ -5,7 +5,7 @@
 //! $w_f$, and not the rotations at its ends; of all such cubics the one is taken whose ends turn by equal and opposite
 //! angles from the chord line, as in pure bending. Its cubic terms cancel:
 //!
-//! $$ w(\xi) = (1-\xi) w_r + \xi w_f + \kappa\, \xi(1-\xi), \qquad
+//! $$ w(\xi) = (1-\xi) w_r + \xi w_f + \kappa \xi(1-\xi), \qquad
 //!    \kappa = \frac{w_m - (1-\xi_m) w_r - \xi_m w_f}{\xi_m(1-\xi_m)} $$
 //!
 //! with $\xi$ from the rear spar and $\xi_m$ the mid point's. Every other cubic through the three adds a multiple of
