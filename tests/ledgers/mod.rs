@@ -1,5 +1,7 @@
-//! The lists of equations and routes, the rooms and the formulas of the documentation, held against the code.
+//! The lists of equations and routes, the rooms, the formulas of the documentation and the numbers in it, held
+//! against the code.
 
+pub mod documents;
 pub mod equations;
 pub mod formulas;
 pub mod rooms;
