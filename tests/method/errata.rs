@@ -54,8 +54,8 @@ fn print_of_the_transformation_has_a_transpose_too_many() {
     // (2), (A.7), (A.8) print Tᵗ where T (structural by dynamic DOF) alone has as many rows as K_S.
     let model = Case::new(1).expect("a case").model().expect("a model");
     let t = model.load_distribution();
-    assert_eq!(t.shape(), (36, 9));
-    assert_ne!(t.transpose().nrows(), model.structure().free_dof().len());
+    assert_eq!(t.nrows(), model.structure().free_dof().len());
+    assert_eq!(t.ncols(), model.mass().nrows());
 }
 
 #[test]
@@ -202,47 +202,5 @@ fn generalized_matrices_obey_g_equals_k_lambda() {
             max_relative = MATRIX_ROUND_OFF
         );
         assert!((k[(i, i)] / (g[(i, i)] * lambda) - 1.0).abs() > 0.5);
-    }
-}
-
-#[test]
-fn sum_over_modes_and_steepest_descent_are_slower_than_the_primary_step() {
-    // Why Δk is a root sum of squares: the alternatives on Case 1, its first pass.
-    let iterations = |step: StepRule| {
-        let mut case = Case::new(1).expect("a case");
-        case.settings.inner.step = step;
-        case.settings.least_passes = 1;
-        case.settings.most_passes = 1;
-        let result = corfem::cases::run_case(&case, |_, _| {}).expect("it runs");
-        let pass = &result.correlation.passes[0];
-        (pass.inner.iterations.len(), pass.inner.last.errors.sum())
-    };
-    let (primary, primary_sum) = iterations(StepRule::RootSumOfSquares);
-    let (sum, _) = iterations(StepRule::SumOverModes);
-    let (_, steepest_sum) = iterations(StepRule::SteepestDescent);
-    assert_eq!(primary, 14);
-    assert!(sum > primary, "{sum} iterations");
-    assert!(
-        primary_sum < 0.025 && steepest_sum > 0.025,
-        "{steepest_sum}"
-    );
-}
-
-#[test]
-fn stopping_at_the_first_rise_leaves_cases_2_and_3_short() {
-    // Why a local minimum is one that five halvings do not leave.
-    for number in [2, 3] {
-        let mut case = Case::new(number).expect("a case");
-        case.settings.inner.halvings = 0;
-        case.settings.least_passes = 1;
-        case.settings.most_passes = 1;
-        let result = corfem::cases::run_case(&case, |_, _| {}).expect("it runs");
-        let last = result.correlation.passes[0].inner.last.errors.sum();
-        // Case 2 stops at 6.2 % and Case 3 at 4.0 %; the tolerance is 2.5 %.
-        let expected = if number == 2 { 0.062 } else { 0.040 };
-        assert!(
-            (last - expected).abs() < 0.001,
-            "Case {number} stops at {last}"
-        );
     }
 }
