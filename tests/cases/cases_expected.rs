@@ -1,6 +1,6 @@
 //! The four cases against the independent program (golden/reference/), whole history and all.
 
-use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY};
+use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
@@ -64,7 +64,7 @@ fn all_twelve_published_columns_have_the_expected_frequencies() {
                 max_relative = EXPECTED_HISTORY
             );
         } else {
-            assert!(column.frequency_rms < 1e-12 && column.shape_rms < 1e-12);
+            assert!(column.frequency_rms.max(column.shape_rms) < 10.0 * ROUND_OFF);
         }
     }
 }

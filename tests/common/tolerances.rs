@@ -141,3 +141,34 @@ pub const HIDDEN_GAGE: f64 = 0.105;
 pub const SEEN_SHARE: f64 = 0.03;
 /// Static condensation of the delta wing to 19 points of 86, lowest twelve modes: 5.8e-5 in the highest.
 pub const CONDENSED_WING: f64 = 6e-5;
+/// Initial shape errors, to which the box was fitted: 7.56, 0.84 and 8.92 % where 7.67, 0.83 and 8.94 % are printed; relative.
+pub const FITTED_SHAPE_ERROR: f64 = 0.02;
+/// Initial RMS frequency errors of the fitted box, in percent: 12.11, 20.63 and 5.67 where 12.76, 21.11 and 5.01 are printed.
+pub const FITTED_FREQUENCY_ERROR: f64 = 0.7;
+/// Half a unit of the last digit of an RMS error written to 0.01 %, as a fraction.
+pub const PRINTED_RMS: f64 = 5e-5;
+/// Half a unit of the last digit of an error sum written to 0.1 %, as a fraction.
+pub const STATED_ERROR_SUM: f64 = 5e-4;
+/// Root sum of squares of nine errors printed in percent with one decimal, as a fraction: half a unit is 5e-4 of each, and
+/// they differ in sign.
+pub const PRINTED_SRSS: f64 = 2e-4;
+/// Frequencies of the delta wing by an analog computer, a coarser model of finite differences: 12.0 % off at worst.
+pub const ANALOG_FREQUENCY: f64 = 0.13;
+/// How far correcting a whole matrix moves the frequency errors of modes that it was not given: an eighth of a percent.
+pub const UNMEASURED_MODE: f64 = 1.25e-3;
+/// A factor where the loop stops at an error sum of 0.1 % in one frequency: stiffness is twice as far off.
+pub const STOPPED_FACTOR: f64 = 2e-3;
+/// The same at the default tolerance of 2.5 %.
+pub const STOPPED_FACTOR_BY_DEFAULT: f64 = 0.05;
+/// The first factor of one spring against its closed form: the derivative is a difference over 0.1 %.
+pub const FIRST_FACTOR: f64 = 1e-3;
+/// Areas of a chain of rods where the loop stops at an error sum of 0.2 %.
+pub const RECOVERED_AREA: f64 = 0.01;
+/// How much the joints of a chain differ in its motion on a suspension whose rods have a millionth of the chain's areas.
+pub const RIGID_ON_SUSPENSION: f64 = 1e-4;
+/// Root and shape of a mode that is weakly coupled to others well away: the root moves by the square of the coupling.
+pub const NEARLY_UNCOUPLED: f64 = 0.01;
+/// Covers as one group where the error is common to the group and the loop stops at the case's tolerance.
+pub const GROUPED_GAGE: f64 = 0.03;
+/// Components that count as equally large where the sign of a shape is chosen, relative.
+pub const EQUALLY_LARGE: f64 = 1e-6;

@@ -14,7 +14,7 @@
 //! On which side of the tolerance it ends hangs on the last digit of the shapes, so that no test says it.
 
 use crate::common::boxes::problem_of;
-use crate::common::tolerances::SAME_HISTORY;
+use crate::common::tolerances::{SAME_HISTORY, STATED_ERROR_SUM};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
@@ -119,7 +119,7 @@ fn stopping_at_the_first_rise_stops_early() {
         let run = at_first_rise(number);
         assert_eq!(run.stop, Stop::LocalMinimum);
         assert!(
-            (run.last.errors.sum() - error_sum).abs() < 5e-4,
+            (run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM,
             "{}",
             run.last.errors.sum()
         );

@@ -6,7 +6,9 @@ use crate::common::complex_pencils::{
     ComplexPencil, Complexes, amax, complex, complex_pencil, complex_square, roots_by_qz, through,
 };
 use crate::common::strategies;
-use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
+use crate::common::tolerances::{
+    COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
+};
 use corfem::method::appendix_c::complex_modes::{LeftRightModes, solve};
 use corfem::method::appendix_c::{ModalChange, general};
 use corfem::method::error::Error;
@@ -59,7 +61,7 @@ proptest! {
             let norm = shape.dotc(&(&k * shape));
             prop_assert!((norm - 1.0).norm() < COMPLEX_EIGEN_ROUND_OFF);
             let largest = shape.iter().map(|value| value.norm()).fold(0.0, f64::max);
-            let first = shape.iter().find(|value| value.norm() > (1.0 - 1e-6) * largest).unwrap();
+            let first = shape.iter().find(|value| value.norm() > (1.0 - EQUALLY_LARGE) * largest).unwrap();
             prop_assert!(first.re > 0.0 && first.im.abs() < ROUND_OFF * first.re, "{first}");
         }
     }

@@ -1,6 +1,8 @@
 //! The inner loop where roots are close or repeated: which rule can follow them, and what the others say.
 
-use crate::common::tolerances::ROUND_OFF;
+use crate::common::tolerances::{
+    FIRST_FACTOR, ROUND_OFF, STOPPED_FACTOR, STOPPED_FACTOR_BY_DEFAULT,
+};
 use corfem::method::appendix_c::{CloseRootsSettings, LARGEST_UNSETTLED_CHANGE, UpdateRule};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
@@ -30,7 +32,7 @@ fn repeated_roots_are_corrected_by_the_rule_that_holds_them() {
     };
     let corrected = by(UpdateRule::CloseRoots(CloseRootsSettings::default())).unwrap();
     assert_eq!(corrected.stop, Stop::Tolerance);
-    assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < 2e-3);
+    assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
     // The recursions divide by the roots' distance.
     assert!(matches!(
         by(UpdateRule::default()),
@@ -133,7 +135,7 @@ fn a_step_uphill_among_unsettled_ones_is_a_local_minimum() {
         Err(Error::UnsettledRoots { .. })
     ));
     let stopped = with_halvings(3).unwrap();
-    assert!((stopped.first_unlimited_factors[0] - 1.05).abs() < 1e-3);
+    assert!((stopped.first_unlimited_factors[0] - 1.05).abs() < FIRST_FACTOR);
     assert_eq!(stopped.stop, Stop::LocalMinimum);
     assert!(stopped.iterations.is_empty());
 }
@@ -165,7 +167,7 @@ fn modes_that_fall_together_end_a_correlation_begun() {
     ));
     let found = run([&apart, &together]).unwrap();
     assert_eq!(found.passes.len(), 1);
-    assert!((found.passes[0].factors[0] / 1.3 - 1.0).abs() < 0.05);
+    assert!((found.passes[0].factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR_BY_DEFAULT);
     assert!(!found.converged);
     assert_eq!(run([&apart, &apart]).unwrap().passes.len(), 10);
 }

@@ -2,7 +2,7 @@
 
 use crate::common::boxes::{first_problem, problem_of};
 use crate::common::loops::{assert_error_sum_only_falls, assert_limits_hold, chain_problem};
-use crate::common::tolerances::ROUND_OFF;
+use crate::common::tolerances::{FIRST_FACTOR, ROUND_OFF};
 use crate::common::vibrations::Chain;
 use corfem::cases::Case;
 use corfem::method::appendix_c::UpdateRule;
@@ -74,8 +74,8 @@ fn a_step_that_overshoots_is_halved() {
     let run = run_with(1);
     assert_eq!(run.iterations[0].halvings, 1);
     assert_eq!(run.iterations[0].limits, [Limit::None]);
-    assert!((run.last.factors[0] - 0.7).abs() < 1e-3);
-    assert!((run.iterations[0].unlimited_factors[0] - 0.4).abs() < 1e-3);
+    assert!((run.last.factors[0] - 0.7).abs() < FIRST_FACTOR);
+    assert!((run.iterations[0].unlimited_factors[0] - 0.4).abs() < FIRST_FACTOR);
     // Without halvings the place counts as a local minimum.
     let stuck = run_with(0);
     assert_eq!(stuck.stop, Stop::LocalMinimum);

@@ -1,7 +1,7 @@
 //! Natural modes (3): order, scale and sign; faer's route against nalgebra's and against a closed form.
 
 use crate::common::strategies::positive_definite;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{modes_by_nalgebra, pencil};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
 use corfem::method::modes::{Modes, apply_sign_rule, solve};
@@ -59,8 +59,7 @@ proptest! {
     fn the_first_of_the_largest_components_is_positive((stiffness, mass, _) in pencil()) {
         let modes = solve(&stiffness, &mass, stiffness.nrows()).unwrap();
         for shape in modes.shapes.column_iter() {
-            // Equal within a part in a million counts as equally large.
-            let largest = shape.amax() * (1.0 - 1e-6);
+            let largest = shape.amax() * (1.0 - EQUALLY_LARGE);
             let first = shape.iter().find(|component| component.abs() >= largest);
             prop_assert!(first.is_some_and(|&component| component > 0.0), "{shape}");
         }
