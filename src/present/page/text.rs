@@ -29,6 +29,8 @@ pub(super) fn section(markdown: &str, heading: &str) -> String {
             classes,
             attrs,
         })],
+        // Comments, which mark computed tables.
+        Event::Html(_) => Vec::new(),
         Event::End(TagEnd::Heading(_)) => vec![Event::End(TagEnd::Heading(HeadingLevel::H3))],
         other => vec![other],
     });
