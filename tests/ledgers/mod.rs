@@ -4,6 +4,7 @@
 pub mod documents;
 pub mod equations;
 pub mod formulas;
+pub mod places;
 pub mod rooms;
 pub mod routes;
 
