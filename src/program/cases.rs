@@ -6,8 +6,8 @@ use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::fit::fit;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
-use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
+use corfem::present::error::PresentError;
 use corfem::present::report::run_tables::all_tables;
 use corfem::present::report::{json, render};
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ pub struct CasesArguments {
 }
 
 /// Runs the cases asked for and writes the report; whether all of them succeeded.
-pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
+pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::of(&arguments.solver)?;
     let numbers = if arguments.cases.is_empty() {
@@ -53,8 +53,10 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
-        results.push(run_case_with(&case, solver.name(), analyze, |pass, done| {
+        let elements = |model: &FiniteElementModel, factors: &[f64]| {
+            Ok::<_, PresentError>(solver.elements(model, factors)?)
+        };
+        results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
                     "case {number}, pass {pass}: {} iterations, error sum {:.4} by perturbation, {:.4} exact",

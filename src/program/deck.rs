@@ -7,6 +7,7 @@ use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::error::Error;
+use corfem::present::error::PresentError;
 use corfem::present::report::deck_tables::{deck_json, deck_tables, not_read};
 use corfem::present::report::render;
 use std::path::PathBuf;
@@ -43,7 +44,7 @@ pub struct ModesArguments {
 }
 
 /// Writes the deck of a case.
-pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
+pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     let case = Case::on(
         arguments.case,
         reconstruction(arguments.box_file.as_deref())?,
@@ -59,13 +60,12 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
                     what: "pass",
                     available: passes.len(),
                     requested: arguments.pass,
-                });
+                }
+                .into());
             }
         };
     }
-    let dynamic = model.analyze(&factors)?;
-    let modes =
-        corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
+    let modes = model.modes(&factors)?;
     let frequencies = modes.frequencies_hz();
     let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
     let task = Task::Modes {
@@ -82,7 +82,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
 }
 
 /// Prints the modes of a deck.
-pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
+pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let name = arguments.deck.display().to_string();
     let deck = deck::read(&name, &read(&arguments.deck)?)?;
     for card in &deck.unread {
@@ -96,7 +96,8 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
             what: "modes of finite frequency",
             available: found,
             requested: count,
-        });
+        }
+        .into());
     }
     let tables = deck_tables(&deck, &modes, count);
     arguments.report.write(&tables, render::render_tables, || {

@@ -3,8 +3,8 @@
 use super::report::ReportArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
-use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
+use corfem::present::error::PresentError;
 use corfem::present::report::delta_wing_json::delta_wing_json;
 use corfem::present::report::delta_wing_tables::delta_wing_tables;
 use corfem::present::report::render;
@@ -20,11 +20,13 @@ pub struct DeltaWingArguments {
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
-pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, Error> {
+pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
-    let run = correlate_wing_with(&wing, solver.name(), analyze, |_, _| {})?;
+    let elements = |model: &FiniteElementModel, factors: &[f64]| {
+        Ok::<_, PresentError>(solver.elements(model, factors)?)
+    };
+    let run = correlate_wing_with(&wing, solver.name(), elements, |_, _| {})?;
     let tables = delta_wing_tables(&wing, &run)?;
     arguments.report.write(&tables, render::render_tables, || {
         delta_wing_json(&wing, &run)

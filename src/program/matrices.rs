@@ -3,7 +3,7 @@
 use super::report::ReportArguments;
 use clap::Args;
 use corfem::cases::Case;
-use corfem::method::error::Error;
+use corfem::present::error::PresentError;
 use corfem::present::report::matrix_tables::matrix_tables;
 use corfem::present::report::{json, render};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
@@ -21,7 +21,7 @@ pub struct MatricesArguments {
 }
 
 /// Corrects a case by elements and by matrices and writes what either knows afterwards.
-pub fn matrices(arguments: &MatricesArguments) -> Result<(), Error> {
+pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = matrix_tables(&case, &comparison);

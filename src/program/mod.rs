@@ -12,7 +12,8 @@ mod solver;
 use cases::CasesArguments;
 use clap::{Parser, Subcommand, ValueEnum};
 use corfem::cases::torque_box::Reconstruction;
-use corfem::method::error::Error;
+use corfem::files::error::FileError;
+use corfem::present::error::PresentError;
 use corfem::present::report::Format;
 use deck::{DeckArguments, ModesArguments};
 use delta_wing::DeltaWingArguments;
@@ -113,37 +114,29 @@ pub fn run() -> ExitCode {
 }
 
 /// The box of a file, or the reconstructed one.
-fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Error> {
-    match box_file {
-        None => Reconstruction::embedded(),
-        Some(path) => Reconstruction::parse(&path.display().to_string(), &read(path)?),
-    }
-}
-
-fn read(path: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|source| Error::File {
-        path: path.to_owned(),
-        action: "read",
-        source,
+fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, PresentError> {
+    Ok(match box_file {
+        None => Reconstruction::embedded()?,
+        Some(path) => Reconstruction::parse(&path.display().to_string(), &read(path)?)?,
     })
 }
 
+fn read(path: &Path) -> Result<String, PresentError> {
+    Ok(std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?)
+}
+
 /// Writes to a file, whole or not at all, or to standard output.
-fn put(path: Option<&Path>, text: &str) -> Result<(), Error> {
+fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
     let Some(path) = path else {
         // A reader that has seen enough closes the pipe; that is no error of ours.
         let _ = std::io::stdout().write_all(text.as_bytes());
         return Ok(());
     };
-    let failed = |source| Error::File {
-        path: path.to_owned(),
-        action: "write",
-        source,
-    };
+    let failed = FileError::of_file(path, "write");
     // A bare name has an empty parent, which is the present folder.
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(&failed)?;
+    file.write_all(text.as_bytes()).map_err(&failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }

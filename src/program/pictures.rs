@@ -5,7 +5,8 @@ use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, CaseResult, run_case};
-use corfem::method::error::Error;
+use corfem::files::error::FileError;
+use corfem::present::error::PresentError;
 use corfem::present::figures::{Figure, all_figures, comparison_figures, picture};
 use corfem::present::page::{Contents, page};
 use corfem::studies::matrix_comparison::{
@@ -46,7 +47,7 @@ struct Runs {
 }
 
 impl Runs {
-    fn new(quiet: bool) -> Result<Self, Error> {
+    fn new(quiet: bool) -> Result<Self, PresentError> {
         let run = |number| {
             let result = run_case(&Case::new(number)?, |_, _| {})?;
             if !quiet {
@@ -55,13 +56,16 @@ impl Runs {
             Ok(result)
         };
         Ok(Self {
-            cases: CASES.into_iter().map(run).collect::<Result<_, Error>>()?,
+            cases: CASES
+                .into_iter()
+                .map(run)
+                .collect::<Result<_, PresentError>>()?,
             fewer_modes: all_runs(&Case::new(PUBLISHED_CASE)?)?,
             matrices: compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?,
         })
     }
 
-    fn figures(&self) -> Result<Vec<Figure>, Error> {
+    fn figures(&self) -> Result<Vec<Figure>, PresentError> {
         let mut figures = all_figures(&self.cases)?;
         figures.extend(comparison_figures(
             PUBLISHED_CASE,
@@ -73,7 +77,7 @@ impl Runs {
 }
 
 /// Runs the four cases and what is compared with them, and writes the figures.
-pub fn figures(arguments: &FiguresArguments) -> Result<(), Error> {
+pub fn figures(arguments: &FiguresArguments) -> Result<(), PresentError> {
     let runs = Runs::new(arguments.quiet)?;
     let mut files = Vec::new();
     for figure in runs.figures()? {
@@ -91,7 +95,7 @@ pub fn figures(arguments: &FiguresArguments) -> Result<(), Error> {
 }
 
 /// Runs the four cases and what is compared with them, and writes the report.
-pub fn report(arguments: &ReportArguments) -> Result<(), Error> {
+pub fn report(arguments: &ReportArguments) -> Result<(), PresentError> {
     let runs = Runs::new(arguments.quiet)?;
     let fit = fit(&Reconstruction::embedded()?)?;
     let command = format!("corfem report --out {}", arguments.out.display());
@@ -115,15 +119,8 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Error> {
 
 /// Writes files into a folder, all of them or none: they are written elsewhere beside it first. A new folder then takes
 /// its place in one move; in an old one each file does, once every place is known to be free for a file.
-fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
-    let failed = |path: &Path| {
-        let path = path.to_owned();
-        move |source| Error::File {
-            path,
-            action: "write",
-            source,
-        }
-    };
+fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), PresentError> {
+    let failed = |path: &Path| FileError::of_file(path, "write");
     // A bare name has an empty parent, which is the present folder.
     let beside = folder.parent().unwrap_or(Path::new(""));
     let scratch = tempfile::tempdir_in(beside).map_err(failed(folder))?;
@@ -134,13 +131,13 @@ fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
         std::fs::write(staged.join(name), bytes).map_err(failed(&folder.join(name)))?;
     }
     if !folder.exists() {
-        return std::fs::rename(&staged, folder).map_err(failed(folder));
+        return Ok(std::fs::rename(&staged, folder).map_err(failed(folder))?);
     }
     for (name, _) in files {
         let path = folder.join(name);
         if path.is_dir() {
             let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
-            return Err(failed(&path)(source));
+            return Err(failed(&path)(source).into());
         }
     }
     for (name, _) in files {

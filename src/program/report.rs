@@ -2,7 +2,7 @@
 
 use super::{FormatArgument, put};
 use clap::Args;
-use corfem::method::error::Error;
+use corfem::present::error::PresentError;
 use corfem::present::report::table::Table;
 use corfem::present::report::{Format, render};
 use std::path::PathBuf;
@@ -23,8 +23,8 @@ impl ReportArguments {
         &self,
         tables: &[Table],
         words: fn(&[Table], bool) -> String,
-        json: impl FnOnce() -> Result<String, Error>,
-    ) -> Result<(), Error> {
+        json: impl FnOnce() -> Result<String, PresentError>,
+    ) -> Result<(), PresentError> {
         let report = match self.format.into() {
             Format::Text => words(tables, false),
             Format::Markdown => words(tables, true),

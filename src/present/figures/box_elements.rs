@@ -7,8 +7,8 @@ use super::canvas::{
 };
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
-use crate::method::error::Error;
 use crate::method::structure::ElementKind;
+use crate::present::error::PresentError;
 use nalgebra::Vector3;
 
 /// One of the three layers the box is taken apart into.
@@ -46,7 +46,7 @@ pub struct BoxElements {
 ///
 /// # Errors
 /// Those of [`Case::model`].
-pub fn box_elements(case: &Case) -> Result<BoxElements, Error> {
+pub fn box_elements(case: &Case) -> Result<BoxElements, PresentError> {
     let model = case.model()?;
     let structure = model.structure();
     let elements = structure
@@ -77,7 +77,7 @@ impl BoxElements {
     ///
     /// # Errors
     /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box taken apart: panels 1 to 15 and rods 16 to 39";
         svg("box_elements", title, (WIDTH, 690.0), |area| self.on(area))
     }

@@ -7,7 +7,7 @@ use super::canvas::{
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use nalgebra::Vector3;
 
 /// A structural grid point.
@@ -17,7 +17,7 @@ pub struct StructuralPoint {
     pub grid: usize,
     /// Position, in: x aft, y outboard, z up.
     pub position: Vector3<f64>,
-    /// Whether it is held in all directions.
+    /// Whether it is constrained in all directions.
     pub fixed: bool,
 }
 
@@ -36,7 +36,7 @@ pub struct BoxPoints {
 ///
 /// # Errors
 /// Those of [`Case::model`].
-pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
+pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
     let model = case.model()?;
     let structural: Vec<StructuralPoint> = model
         .structure()
@@ -45,7 +45,7 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
         .map(|grid| StructuralPoint {
             grid: grid.label,
             position: grid.position,
-            fixed: grid.held == [true; 3],
+            fixed: grid.constrained == [true; 3],
         })
         .collect();
     let dynamic = Planform::of(&case.reconstruction)
@@ -78,7 +78,7 @@ impl BoxPoints {
     ///
     /// # Errors
     /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box: structural and dynamic points";
         svg("box_points", title, (WIDTH, 480.0), |area| self.on(area))
     }

@@ -4,6 +4,7 @@
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
 use crate::method::error::Error;
+use crate::present::error::PresentError;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -160,7 +161,7 @@ pub(super) fn svg(
     title: &str,
     (width, height): (f64, f64),
     draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<String, Error> {
+) -> Result<String, PresentError> {
     let mut drawn = String::new();
     let size = (units(width).unsigned_abs(), units(height).unsigned_abs());
     {

@@ -8,8 +8,8 @@ use super::planform::PlanPoint;
 use super::view::Plan;
 use crate::cases::Case;
 use crate::cases::torque_box::TEST_GAGE;
-use crate::method::error::Error;
 use crate::method::structure::ElementKind;
+use crate::present::error::PresentError;
 use plotters::style::{RGBColor, WHITE};
 
 /// A cover panel of one configuration.
@@ -84,8 +84,8 @@ impl CoverGages {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let height = HEAD + ROW * self.configurations.len() as f64 + 62.0;
         let title = "Cover gages of the test configuration and of each case's first model";
         svg("cover_gages", title, (WIDTH, height), |area| self.on(area))

@@ -3,9 +3,9 @@
 use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH, svg, write};
 use super::heat_map::HeatMap;
 use crate::cases::CaseResult;
-use crate::method::derivatives::{DERIVATIVE_STEP, error_derivatives};
-use crate::method::error::Error;
-use crate::method::modal::ModalProblem;
+use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
+use crate::method::state::ModalState;
+use crate::present::error::PresentError;
 use nalgebra::DMatrix;
 
 /// What the figure shows.
@@ -30,22 +30,18 @@ pub struct DerivativeMap {
 /// with the mode paired with test mode $i$; the error sum's are those of the first iteration.
 ///
 /// # Errors
-/// Those of the model, its analysis and [`error_derivatives`].
-pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, Error> {
+/// Those of the model, its analysis and [`by_definition`].
+pub fn derivative_map(result: &CaseResult) -> Result<DerivativeMap, PresentError> {
     let model = result.case.model()?;
-    let dynamic = model.analyze(&vec![1.0; result.parameter_names.len()])?;
-    let problem = ModalProblem::new(&dynamic, &result.test, dynamic.mass.nrows())?;
-    let start = problem.start_state()?;
-    let derivatives = error_derivatives(&problem, &start)?;
-    let rows = problem.parameter_count();
+    let first = model.analyze(&vec![1.0; result.parameter_names.len()], &result.test, None)?;
+    let error_changes = by_definition(&first, &ModalState::start(&first))?;
+    let rows = first.shares.len();
     let frequency = DMatrix::from_fn(rows, result.test.len(), |e, j| {
-        let i = start.pairing.analysis_mode[j];
-        let share = problem.generalized_shares[e].matrix();
-        share[(i, i)] / (2.0 * problem.start.omega_squared[i])
+        let i = first.exact.pairing.analysis_mode[j];
+        let share = first.shares[e].matrix();
+        share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
     });
-    let error_sum = DMatrix::from_fn(rows, 1, |e, _| {
-        derivatives.error_change[e] / DERIVATIVE_STEP
-    });
+    let error_sum = DMatrix::from_fn(rows, 1, |e, _| error_changes[e] / DERIVATIVE_STEP);
     Ok(DerivativeMap {
         case: result.case.number,
         parameters: result.parameter_names.clone(),
@@ -59,7 +55,7 @@ impl DerivativeMap {
     ///
     /// # Errors
     /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_derivatives", self.case);
         let title = format!("Case {}: derivatives of the first model", self.case);
         let height = 106.0 + 26.0 * self.parameters.len() as f64;

@@ -5,7 +5,7 @@ use super::canvas::{
     between, line, mark, name_upright, svg, units, write,
 };
 use crate::cases::CaseResult;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::present::report::correlation_tables::gage_table;
 use crate::present::report::table::{Cell, Table};
 use plotters::prelude::*;
@@ -36,7 +36,7 @@ pub struct GageErrors {
 ///
 /// # Errors
 /// Those of [`gage_table`].
-pub fn gage_errors(result: &CaseResult) -> Result<GageErrors, Error> {
+pub fn gage_errors(result: &CaseResult) -> Result<GageErrors, PresentError> {
     let table = gage_table(result)?;
     let panels: Vec<(String, String)> = table.rows[..result.case.panels.len()]
         .iter()
@@ -92,8 +92,8 @@ impl GageErrors {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_gages", self.case);
         let title = format!("Case {}: gage errors by panel", self.case);
         svg(&name, &title, (WIDTH, HEIGHT), |area| self.on(area))

@@ -23,7 +23,7 @@ mod view;
 
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::cases::{CASES, Case, CaseResult};
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
 
 /// A figure, drawn.
@@ -40,12 +40,12 @@ pub struct Figure {
 /// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
 ///
 /// # Errors
-/// [`Error::Drawing`].
+/// [`crate::method::error::Error::Drawing`].
 pub fn comparison_figures(
     case: usize,
     runs: &[FewerModesRun],
     comparison: &MatrixComparison,
-) -> Result<Vec<Figure>, Error> {
+) -> Result<Vec<Figure>, PresentError> {
     let changes = stiffness_change::stiffness_change(comparison);
     let predictions = predictions::predictions(comparison);
     let (corrected, given) = (comparison.case, comparison.test_modes);
@@ -77,8 +77,8 @@ pub fn comparison_figures(
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///
 /// # Errors
-/// Those of the figures' data; [`Error::Drawing`].
-pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, Error> {
+/// Those of the figures' data; [`crate::method::error::Error::Drawing`].
+pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |name: &str, caption: String, svg: String| {
         figures.push(Figure {
@@ -137,7 +137,7 @@ pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, Error> {
 }
 
 /// Figures of a case that is carried through its passes: name, caption, drawing.
-fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, String, String)>, Error> {
+fn correlated(result: &CaseResult) -> Result<Vec<(&'static str, String, String)>, PresentError> {
     let nodes = node_lines::node_lines(result)?;
     let paper = match result.case.number {
         1 => " (Figure 5)",

@@ -3,9 +3,9 @@
 use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH, svg, write};
 use super::heat_map::{HeatMap, percent};
 use crate::cases::CaseResult;
-use crate::method::error::Error;
-use crate::method::outer_loop::Check;
+use crate::method::model::Check;
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
+use crate::present::error::PresentError;
 use nalgebra::DMatrix;
 
 /// The two matrices of one exact solution, analysis modes by test modes.
@@ -32,9 +32,9 @@ pub struct ModeAgreement {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
-pub fn mode_agreement(result: &CaseResult) -> Result<ModeAgreement, Error> {
+pub fn mode_agreement(result: &CaseResult) -> Result<ModeAgreement, PresentError> {
     let mass = result.case.reconstruction.mass();
-    let agreement = |check: &Check| -> Result<Agreement, Error> {
+    let agreement = |check: &Check| -> Result<Agreement, PresentError> {
         Ok(Agreement {
             cross_orthogonality: cross_orthogonality(&check.modes, &result.test, &mass)?,
             modal_assurance: modal_assurance(&check.modes.shapes, &result.test.shapes)?,
@@ -56,8 +56,8 @@ impl ModeAgreement {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_agreement", self.case);
         let title = format!(
             "Case {}: analysis against test modes before and after",

@@ -7,11 +7,11 @@ use super::canvas::{
 use super::planform::{PlanPoint, Planform, RibShape};
 use super::view::{Plan, View};
 use crate::cases::CaseResult;
-use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::Check;
-use crate::method::pairing::matched;
+use crate::method::model::Check;
+use crate::method::modes::ModeSet;
+use crate::method::pairing::paired;
+use crate::present::error::PresentError;
 use crate::present::report::table::Digits;
 use nalgebra::Vector3;
 use plotters::style::WHITE;
@@ -42,21 +42,21 @@ pub struct NodeLines {
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless the modes have nine DOF.
-pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
+pub fn node_lines(result: &CaseResult) -> Result<NodeLines, PresentError> {
     let planform = Planform::of(&result.case.reconstruction);
     let correlation = &result.correlation;
     let last = correlation
         .passes
         .last()
         .map_or(&correlation.initial, |pass| &pass.check);
-    let paired = |check: &Check| matched(&check.modes, &check.pairing);
+    let paired = |check: &Check| paired(&check.modes, &check.pairing);
     let states = [
         result.test.clone(),
         paired(&correlation.initial),
         paired(last),
     ];
     check_shape("mode shapes", &states[0].shapes, 9, result.test.len())?;
-    let state = |modes: &Modes, mode: usize| {
+    let state = |modes: &ModeSet, mode: usize| {
         let column = modes.shapes.column(mode);
         let largest = column.amax();
         let shape = std::array::from_fn(|dof| column[dof] / largest);
@@ -100,8 +100,8 @@ impl NodeLines {
     /// The node lines in plan as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_node_lines", self.case);
         let title = format!("Case {}: node lines", self.case);
         let size = (WIDTH, HEAD + CELL.1 * self.rows());
@@ -123,8 +123,8 @@ impl NodeLines {
     /// The mode shapes in the quasi-isometric view as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw_shapes(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw_shapes(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_mode_shapes", self.case);
         let title = format!("Case {}: mode shapes", self.case);
         let size = (WIDTH, HEAD + CELL.1 * self.rows());

@@ -1,6 +1,7 @@
 //! An SVG figure as PNG, with letters that need no font of the system.
 
 use crate::method::error::Error;
+use crate::present::error::PresentError;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
@@ -10,8 +11,8 @@ const DOTS: f32 = 2.0;
 /// A PNG picture of an SVG document, two dots to its pixel; letters are set in Noto Sans, which the program carries.
 ///
 /// # Errors
-/// [`Error::Drawing`] naming the figure when the document does not read or has no size.
-pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, Error> {
+/// [`crate::method::error::Error::Drawing`] naming the figure when the document does not read or has no size.
+pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, PresentError> {
     let failed = |found: String| Error::Drawing {
         figure: name.to_owned(),
         found,
@@ -30,7 +31,6 @@ pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, Error> {
         Transform::from_scale(DOTS, DOTS),
         &mut pixels.as_mut(),
     );
-    pixels
-        .encode_png()
-        .map_err(|error| failed(error.to_string()))
+    let png = pixels.encode_png();
+    Ok(png.map_err(|error| failed(error.to_string()))?)
 }

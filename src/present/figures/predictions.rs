@@ -4,7 +4,7 @@ use super::canvas::{
     Area, BLUE, Dash, Drawn, GRAY, INK, LETTERS, Letters, ORANGE, PALE, Pen, SMALL, Side, WIDTH,
     bar, line, name_upright, svg, write,
 };
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
 use plotters::style::{RGBColor, WHITE};
 
@@ -64,8 +64,8 @@ impl Predictions {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!(
             "Case {}: frequency errors of the corrected models",
             self.case

@@ -2,7 +2,7 @@
 
 use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH, svg, write};
 use super::heat_map::{HeatMap, percent};
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
 use nalgebra::DMatrix;
 
@@ -51,8 +51,8 @@ impl StiffnessChange {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!(
             "Case {}: change of the dynamic stiffness, entry by entry",
             self.case

@@ -3,7 +3,7 @@
 use super::canvas::{Area, BLUE, Drawn, LETTERS, Letters, Side, VERMILION, WIDTH, svg, write};
 use super::heat_map::HeatMap;
 use crate::cases::fewer_modes::FewerModesRun;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use nalgebra::DMatrix;
 
 /// One error over the pairs.
@@ -63,8 +63,8 @@ impl Truncation {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!("Case {}: errors with fewer modes", self.case);
         svg("truncation", &title, (WIDTH, 760.0), |area| self.on(area))
     }

@@ -5,8 +5,8 @@ use super::canvas::{
     between, line, mark, name_upright, rectangle, svg, units, write,
 };
 use crate::cases::CaseResult;
-use crate::method::error::Error;
-use crate::method::step::Range;
+use crate::method::model::Range;
+use crate::present::error::PresentError;
 use crate::present::report::run_tables::factor_table;
 use crate::present::report::table::{Cell, Digits};
 use plotters::prelude::*;
@@ -72,8 +72,8 @@ impl UnlimitedFactors {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_factors", self.case);
         let title = format!("Case {}: unlimited stiffness change factors", self.case);
         let height = MARGINS[2] + MARGINS[3] + ROW * self.factors.len() as f64;

@@ -5,10 +5,11 @@
 
 mod text;
 
+use crate::cases::error::CaseError;
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::present::figures::Figure;
 use crate::present::report::correlation_tables::frequency_table;
 use crate::present::report::fewer_modes_tables::fewer_modes_tables;
@@ -75,8 +76,8 @@ struct Part<'a> {
 /// The page.
 ///
 /// # Errors
-/// [`Error::Table`] for damaged published tables; [`Error::Page`] when the page cannot be put together.
-pub fn page(contents: &Contents) -> Result<String, Error> {
+/// [`CaseError::Table`] for damaged published tables; [`crate::method::error::Error::Page`] when the page cannot be put together.
+pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let &Contents {
         results,
         fit,
@@ -133,7 +134,9 @@ pub fn page(contents: &Contents) -> Result<String, Error> {
         fit_rms_percent: Digits::Fixed(3).write(100.0 * fit.rms),
         fit_largest_percent: Digits::Fixed(2).write(100.0 * fit.largest),
     };
-    page.render().map_err(|source| Error::Page { source })
+    Ok(page
+        .render()
+        .map_err(|source| crate::method::error::Error::Page { source })?)
 }
 
 /// Figures whose names begin alike.
@@ -143,7 +146,7 @@ fn named<'a>(figures: &'a [Figure], prefix: &str) -> Vec<&'a Figure> {
 }
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
-fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
+fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
     let is_published =
         |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
     let published: Vec<FewerModesRun> = runs.iter().filter(is_published).cloned().collect();
@@ -153,18 +156,19 @@ fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
 }
 
 /// What the corrections know and the factors they stand for; entry by entry they are left to their figure.
-fn whole_tables(comparison: &MatrixComparison) -> Result<Vec<Table>, Error> {
+fn whole_tables(comparison: &MatrixComparison) -> Result<Vec<Table>, PresentError> {
     let mut tables = matrix_tables(&Case::new(comparison.case)?, comparison);
     tables.retain(|table| table.name.starts_with("matrix_"));
     Ok(tables)
 }
 
-fn only(mut tables: Vec<Table>, name: &str) -> Result<Table, Error> {
-    tables.pop().ok_or_else(|| Error::Table {
+fn only(mut tables: Vec<Table>, name: &str) -> Result<Table, PresentError> {
+    let missing = || CaseError::Table {
         name: name.to_owned(),
         expected: "one such table in the report".into(),
         found: "none".into(),
-    })
+    };
+    Ok(tables.pop().ok_or_else(missing)?)
 }
 
 /// What a case of the paper is about.
@@ -180,8 +184,8 @@ fn about(case: usize) -> &'static str {
 /// First and last RMS errors and the iterations of every case, with the published ones.
 ///
 /// # Errors
-/// [`Error::Table`] for damaged published tables.
-pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
+/// [`CaseError::Table`] for damaged published tables.
+pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     let mut rows = Vec::new();
     for result in results {
         let table = frequency_table(result)?;

@@ -4,9 +4,9 @@ use super::table::{Cell, Column, Digits, Row, Table};
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::TEST_GAGE;
 use crate::cases::{BUILT_IN, CaseResult, Grouping};
-use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::structure::ElementKind;
+use crate::present::error::PresentError;
 
 pub(super) const HERTZ: Digits = Digits::Significant(4);
 pub(super) const INCHES: Digits = Digits::Fixed(5);
@@ -22,9 +22,12 @@ fn stages(result: &CaseResult) -> Vec<(String, String)> {
 }
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
-fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, Error> {
+fn published(
+    numbers: [usize; 3],
+    result: &CaseResult,
+) -> Result<Option<PublishedTable>, PresentError> {
     match (numbers.get(result.case.number - 1), result.case.grouping) {
-        (Some(&number), Grouping::Elements) => PublishedTable::number(number).map(Some),
+        (Some(&number), Grouping::Elements) => Ok(Some(PublishedTable::number(number)?)),
         _ => Ok(None),
     }
 }
@@ -49,7 +52,7 @@ pub(super) fn number(
 ///
 /// # Errors
 /// [`Error::Table`] if the published table were damaged.
-pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
+pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let case = result.case.number;
     let paper = published([3, 5, 7], result)?;
     let stages = stages(result);
@@ -143,7 +146,7 @@ pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
 ///
 /// # Errors
 /// [`Error::Table`] if the published table were damaged.
-pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
+pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let case = result.case.number;
     let paper = published([4, 6, 8], result)?;
     let stages = stages(result);

@@ -2,9 +2,10 @@
 
 use super::json::written;
 use super::table::{Cell, Column, Digits, Row, Table};
-use crate::files::deck::{Deck, DeckModes, Reason, Unread};
-use crate::method::error::Error;
+use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
+use crate::method::whole_modes::WholeModes;
+use crate::present::error::PresentError;
 use serde::Serialize;
 
 /// Modes side by side in one table of shapes: as many as a terminal is wide.
@@ -16,7 +17,7 @@ const SHAPE: Digits = Digits::Fixed(5);
 /// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one.
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
-pub fn deck_tables(deck: &Deck, modes: &DeckModes, count: usize) -> Vec<Table> {
+pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
     let scaled = UnitShapes::new(modes, count);
     let number = |computed, digits| Cell::Number {
         computed,
@@ -88,7 +89,7 @@ pub fn not_read(unread: &Unread) -> String {
 ///
 /// # Errors
 /// [`Error::Table`] when the writer fails.
-pub fn deck_json(deck: &Deck, modes: &DeckModes, count: usize) -> Result<String, Error> {
+pub fn deck_json(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
     let document = Document {
         units: "inch, lbf, second; frequencies in Hz",
@@ -134,7 +135,7 @@ struct UnitShapes {
 }
 
 impl UnitShapes {
-    fn new(modes: &DeckModes, count: usize) -> Self {
+    fn new(modes: &WholeModes, count: usize) -> Self {
         let mut frequencies_hz = modes.modes.frequencies_hz();
         frequencies_hz.truncate(count);
         let columns = modes.modes.shapes.column_iter().take(count);

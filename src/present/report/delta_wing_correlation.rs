@@ -5,7 +5,7 @@ use super::delta_wing_tables::plain;
 use super::table::{Cell, Digits, Row, Table};
 use crate::cases::BUILT_IN;
 use crate::method::inner_loop::Stop;
-use crate::method::outer_loop::Check;
+use crate::method::model::Check;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 
 const TEST_HERTZ: Digits = Digits::Significant(5);

@@ -1,9 +1,10 @@
 //! The delta wing as JSON.
 
 use super::json::{PROGRAM, UNITS, VERSION, written};
-use crate::method::error::Error;
 use crate::method::inner_loop::Stop;
-use crate::method::outer_loop::{Check, Pass};
+use crate::method::model::Check;
+use crate::method::outer_loop::Pass;
+use crate::present::error::PresentError;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use serde::Serialize;
@@ -56,7 +57,7 @@ struct PassDocument {
 ///
 /// # Errors
 /// Those of the wing's analyses; [`Error::Table`] if a number were not finite.
-pub fn delta_wing_json(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Error> {
+pub fn delta_wing_json(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
     let correlation = &run.correlation;
     written(&Document {
         program: PROGRAM,

@@ -4,7 +4,7 @@ use super::correlation_tables::{PERCENT, column};
 use super::delta_wing_correlation::correlation_tables;
 use super::table::{Cell, Column, Digits, Row, Table};
 use crate::cases::published::PublishedTable;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 use crate::studies::delta_wing::correlation::WingCorrelation;
 use crate::studies::delta_wing::{
     DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
@@ -21,7 +21,10 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 ///
 /// # Errors
 /// Those of the wing's analyses; [`Error::Table`] if what others found were damaged.
-pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, Error> {
+pub fn delta_wing_tables(
+    wing: &DeltaWing,
+    run: &WingCorrelation,
+) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
@@ -54,7 +57,7 @@ fn beside_others(
     rows: Vec<(String, f64)>,
     unit: &'static str,
     others: &[Other],
-) -> Result<(Vec<Column>, Vec<Row>), Error> {
+) -> Result<(Vec<Column>, Vec<Row>), PresentError> {
     let mut columns = vec![column("Computed", unit)];
     for other in others {
         columns.push(column(other.title, unit));
@@ -72,11 +75,11 @@ fn beside_others(
             }
             Ok(Row { label, cells })
         })
-        .collect::<Result<_, Error>>()?;
+        .collect::<Result<_, PresentError>>()?;
     Ok((columns, rows))
 }
 
-fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, Error> {
+fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentError> {
     let (short, long) = match load {
         TipLoad::TrailingEdge => ("te", "trailing edge"),
         TipLoad::LeadingEdge => ("le", "leading edge"),
@@ -110,7 +113,7 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, Error> {
     })
 }
 
-fn frequency_table(wing: &DeltaWing) -> Result<Table, Error> {
+fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
     let known = known_frequencies()?;
     let others = [
         other(

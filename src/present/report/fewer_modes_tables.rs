@@ -9,7 +9,7 @@ use crate::cases::Case;
 use crate::cases::fewer_modes::{Agreement, FewerModesRun};
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::TEST_GAGE;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 
 /// The paper's frequencies with fewer modes are those of five test modes.
 const TABLE_9_TEST_MODES: usize = 5;
@@ -33,7 +33,7 @@ pub fn fewer_modes_tables(
     case: &Case,
     published: &[FewerModesRun],
     all: &[FewerModesRun],
-) -> Result<Vec<Table>, Error> {
+) -> Result<Vec<Table>, PresentError> {
     let five = with_test_modes(published, TABLE_9_TEST_MODES);
     let mut tables = vec![inner_frequency_table(&five)?, exact_frequency_table(&five)];
     for (paper, test_modes) in GAGE_TABLES {
@@ -51,7 +51,7 @@ fn with_test_modes(runs: &[FewerModesRun], test_modes: usize) -> Vec<&FewerModes
 }
 
 /// Table 9: the inner loop's own frequencies, as the paper prints them.
-fn inner_frequency_table(runs: &[&FewerModesRun]) -> Result<Table, Error> {
+fn inner_frequency_table(runs: &[&FewerModesRun]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(9)?;
     let note = "The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the paper prints is read as these.";
     Ok(Table {
@@ -160,7 +160,7 @@ fn gage_table(
     paper: usize,
     test_modes: usize,
     runs: &[&FewerModesRun],
-) -> Result<Table, Error> {
+) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(paper)?;
     let first = case.first_gages();
     let mut stages = vec![("initial".to_owned(), &first)];

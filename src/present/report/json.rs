@@ -1,12 +1,13 @@
 //! The whole history of a run as JSON.
 
 use crate::cases::CaseResult;
+use crate::cases::error::CaseError;
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
-use crate::method::error::Error;
 use crate::method::inner_loop::{Iteration, Stop};
 use crate::method::step::Limit;
+use crate::present::error::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
 use serde::Serialize;
 
@@ -85,8 +86,8 @@ struct AnomalyDocument {
 /// last exact solution; `solver` did the finite element analyses.
 ///
 /// # Errors
-/// [`Error::Table`] if Table 13 were damaged or a number were not finite.
-pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, Error> {
+/// [`CaseError::Table`] if Table 13 were damaged or a number were not finite.
+pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
     let paper = PublishedTable::number(13)?;
     let document = Document {
         program: PROGRAM,
@@ -104,8 +105,8 @@ pub fn json(results: &[CaseResult], fit: &Fit) -> Result<String, Error> {
 /// Runs with fewer modes as JSON, units and errors as in [`json`].
 ///
 /// # Errors
-/// [`Error::Table`] if a number were not finite.
-pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, Error> {
+/// [`CaseError::Table`] if a number were not finite.
+pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
     written(&Headed {
         program: PROGRAM,
         version: VERSION,
@@ -117,8 +118,8 @@ pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, Error> {
 /// A comparison of matrix corrections as JSON, units and errors as in [`json`].
 ///
 /// # Errors
-/// [`Error::Table`] if a number were not finite.
-pub fn matrices(comparison: &MatrixComparison) -> Result<String, Error> {
+/// [`CaseError::Table`] if a number were not finite.
+pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     written(&Headed {
         program: PROGRAM,
         version: VERSION,
@@ -145,8 +146,8 @@ enum Content<'a> {
 }
 
 /// A document as pretty-printed JSON with a final newline.
-pub(super) fn written(document: &impl Serialize) -> Result<String, Error> {
-    let mut text = serde_json::to_string_pretty(document).map_err(|error| Error::Table {
+pub(super) fn written(document: &impl Serialize) -> Result<String, PresentError> {
+    let mut text = serde_json::to_string_pretty(document).map_err(|error| CaseError::Table {
         name: "JSON output".into(),
         expected: "finite numbers".into(),
         found: error.to_string(),

@@ -90,9 +90,9 @@ fn write_cell(cell: &Cell) -> String {
 /// and the published one as printed.
 ///
 /// # Errors
-/// [`crate::method::error::Error::Table`] when the writer fails, which memory alone could make it do.
-pub fn csv(tables: &[Table]) -> Result<String, crate::method::error::Error> {
-    let failed = |found: String| crate::method::error::Error::Table {
+/// [`crate::cases::error::CaseError::Table`] when the writer fails, which memory alone could make it do.
+pub fn csv(tables: &[Table]) -> Result<String, crate::present::error::PresentError> {
+    let failed = |found: String| crate::cases::error::CaseError::Table {
         name: "CSV output".into(),
         expected: "room for the tables".into(),
         found,
@@ -133,7 +133,7 @@ pub fn csv(tables: &[Table]) -> Result<String, crate::method::error::Error> {
     let bytes = writer
         .into_inner()
         .map_err(|error| failed(error.to_string()))?;
-    String::from_utf8(bytes).map_err(|error| failed(error.to_string()))
+    Ok(String::from_utf8(bytes).map_err(|error| failed(error.to_string()))?)
 }
 
 /// Ten significant digits in the shortest form that keeps them.

@@ -3,8 +3,9 @@
 use super::correlation_tables::column;
 use super::table::{Cell, Digits, Row, Table};
 use crate::cases::table_1::{problems, table_1};
-use crate::method::appendix_c::UpdateRule;
-use crate::method::error::Error;
+
+use crate::cases::table_1::Formula;
+use crate::present::error::PresentError;
 
 /// Orders shown.
 const ORDERS: usize = 6;
@@ -15,12 +16,12 @@ const ORDERS: usize = 6;
 ///
 /// # Errors
 /// Those of [`table_1`].
-pub fn root_error_table() -> Result<Table, Error> {
+pub fn root_error_table() -> Result<Table, PresentError> {
     let table = table_1(&problems(), ORDERS)?;
     let mut columns = vec![column("Coupling", ""), column("Change", "")];
     columns.extend(
         table
-            .rules
+            .formulae
             .iter()
             .map(|&rule| column(&rule_name(rule), "%")),
     );
@@ -53,12 +54,11 @@ pub fn root_error_table() -> Result<Table, Error> {
     })
 }
 
-fn rule_name(rule: UpdateRule) -> String {
+fn rule_name(rule: Formula) -> String {
     match rule {
-        UpdateRule::FirstOrder => "First order".to_owned(),
-        UpdateRule::Original => "Original".to_owned(),
-        UpdateRule::Recursive1 { order } => format!("Recursive 1, order {order}"),
-        UpdateRule::Recursive2 { order } => format!("Recursive 2, order {order}"),
-        other => format!("{other:?}"),
+        Formula::FirstOrder => "First order".to_owned(),
+        Formula::Original => "Original".to_owned(),
+        Formula::Recursive1 { order } => format!("Recursive 1, order {order}"),
+        Formula::Recursive2 { order } => format!("Recursive 2, order {order}"),
     }
 }

@@ -7,7 +7,7 @@ use super::table::{Cell, Digits, Row, Table};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::{CASES, CaseResult, Grouping};
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 
 const FACTOR: Digits = Digits::Fixed(1);
 
@@ -74,7 +74,7 @@ fn parameter_word(result: &CaseResult) -> &'static str {
 ///
 /// # Errors
 /// [`Error::Table`] if the published table were damaged.
-pub fn iteration_table(results: &[CaseResult]) -> Result<Table, Error> {
+pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(13)?;
     let most = results
         .iter()
@@ -161,7 +161,7 @@ pub fn fit_table(fit: &Fit) -> Table {
 ///
 /// # Errors
 /// [`Error::Table`] if published tables were damaged.
-pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Error> {
+pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
     let mut tables = Vec::new();
     for result in results {
         tables.push(frequency_table(result)?);

@@ -5,7 +5,7 @@ use super::fewer_modes_tables::GAGE_TABLES;
 use super::table::{Cell, Column, Digits, Row, Table};
 use crate::cases::fewer_modes::{FewerModesRun, ITERATIONS};
 use crate::cases::published::PublishedTable;
-use crate::method::error::Error;
+use crate::present::error::PresentError;
 
 const COUNT: Digits = Digits::Fixed(0);
 
@@ -13,11 +13,11 @@ const COUNT: Digits = Digits::Fixed(0);
 ///
 /// # Errors
 /// [`Error::Table`] if published tables were damaged.
-pub fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, Error> {
+pub fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
     let papers = GAGE_TABLES
         .map(|(paper, test_modes)| Ok((test_modes, PublishedTable::number(paper)?)))
         .into_iter()
-        .collect::<Result<Vec<_>, Error>>()?;
+        .collect::<Result<Vec<_>, PresentError>>()?;
     let cell = |run: &FewerModesRun| {
         let paper = papers
             .iter()

@@ -1,8 +1,8 @@
 //! The history drawn: errors on a logarithmic scale, passes side by side.
 
 use super::{ErrorHistory, Moment};
-use crate::method::error::Error;
 use crate::method::error_sum::Errors;
+use crate::present::error::PresentError;
 use crate::present::figures::canvas::{
     Area, BLUE, Dash, Drawn, Form, GRAY, INK, LETTERS, Letters, PALE, Pen, Side, VERMILION, WIDTH,
     line, mark, name_upright, svg, units, write,
@@ -39,8 +39,8 @@ impl ErrorHistory {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`crate::method::error::Error::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_errors", self.case);
         let title = format!("Case {}: errors against iteration", self.case);
         svg(&name, &title, (WIDTH, HEIGHT), |area| self.on(area))
