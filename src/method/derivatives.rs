@@ -12,7 +12,7 @@ use crate::method::error_sum::{errors, unit_shape_difference};
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::state::ModalState;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 use serde::Serialize;
 
 /// Relative change of a parameter's stiffness for a derivative.
@@ -93,62 +93,92 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
 /// $\Delta e_e/0.001$ for smaller and smaller changes.
 ///
-/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$, so
-/// that with $e_S$ as a function of $\omega_i^2$ and of the shapes
+/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r\, \beta_{ri}/(\omega_i^2 - \omega_r^2)$. With
+/// $g_i = \partial e_v/\partial v_i$, and because $\beta$ is symmetric,
 ///
-/// $$ \frac{\partial e_S}{\partial \beta_{ii}} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
-///    \frac{\partial e_S}{\partial \beta_{ri}} = \frac{1}{\omega_i^2 - \omega_r^2} v_r^t \frac{\partial e_v}{\partial v_i}, \qquad
-///    \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{ri} \frac{\partial e_S}{\partial \beta_{ri}} (V^t K_e V)_{ri}. $$
+/// $$ \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{r,i} \Sigma_{ri} (V^t K_e V)_{ri}, \qquad
+///    \Sigma_{ii} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
+///    \Sigma_{ri} = \Sigma_{ir} = \frac{v_r^t g_i - v_i^t g_r}{2(\omega_i^2 - \omega_r^2)} . $$
 ///
 /// A change of mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. Where an error is zero its root has a kink and no derivative;
 /// that error then counts as constant. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
-    let sensitivity = sensitivity_to_change(model, state);
-    let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
-    // The shares are those of the exact modes, so the sensitivity goes to them and not each share to the present modes.
-    let to_stiffness = p * &sensitivity * p.transpose();
+    let pull = shape_pull(model, state);
+    let of_stiffness = in_exact_modes(sensitivity(model, state, &pull, |_| 1.0), state);
     let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
-    let to_mass = has_mass.then(|| {
-        let mut weighted = sensitivity;
-        for (mut column, k) in weighted.column_iter_mut().zip(k.iter()) {
-            column *= -k;
-        }
-        p * weighted * p.transpose()
-    });
-    let slope = |share: &Share| match (share, &to_mass) {
-        (Share::Mass(matrix), Some(to_mass)) => to_mass.dot(matrix),
-        (share, _) => to_stiffness.dot(share.matrix()),
+    let of_mass =
+        has_mass.then(|| in_exact_modes(sensitivity(model, state, &pull, |omega_squared| -omega_squared), state));
+    let slope = |share: &Share| match (share, &of_mass) {
+        (Share::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
+        (share, _) => entries(&of_stiffness).dot(&entries(share.matrix())),
     };
     model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
 }
 
-/// $\partial e_S/\partial \beta$ at the present modes (n × n), the adjoint sweep over the test modes.
-fn sensitivity_to_change(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
-    let (k, shapes) = (&state.modes.omega_squared, &state.modes.shapes);
+/// $v_r^t\, \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test
+/// modes.
+fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
+    let shapes = &state.modes.shapes;
     let (dof_count, count) = shapes.shape();
-    let mut sensitivity = DMatrix::zeros(count, count);
+    let mut pull = DMatrix::zeros(count, count);
     let mut to_shape = DVector::zeros(dof_count);
+    if state.errors.shape == 0.0 {
+        return pull;
+    }
+    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
+        // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
+        // the scale takes away at component m.
+        let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
+        unit_shape_difference(shape, sign, model.test.shapes.column(j), &mut to_shape);
+        let largest = shape.icamax();
+        to_shape[largest] -= to_shape.dot(&shape) / shape[largest];
+        to_shape *= sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
+        for (pull, other) in pull.column_mut(i).iter_mut().zip(shapes.column_iter()) {
+            *pull = other.iter().zip(to_shape.iter()).map(|(a, b)| a * b).sum();
+        }
+    }
+    pull
+}
+
+/// $\Sigma$ (n × n), with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.
+fn sensitivity(
+    model: &ModalModel,
+    state: &ModalState,
+    pull: &DMatrix<f64>,
+    per_change: impl Fn(f64) -> f64,
+) -> DMatrix<f64> {
+    let k = &state.modes.omega_squared;
+    let mut sensitivity = DMatrix::zeros(k.len(), k.len());
     for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
         if state.errors.frequency > 0.0 {
             let ratio = (k[i] / model.test.omega_squared[j]).sqrt();
-            sensitivity[(i, i)] = (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
+            let of_root = (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
+            sensitivity[(i, i)] = per_change(k[i]) * of_root;
         }
-        if state.errors.shape > 0.0 {
-            // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
-            // the scale takes away at component m.
-            let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
-            unit_shape_difference(shape, sign, model.test.shapes.column(j), &mut to_shape);
-            let largest = shape.icamax();
-            let scale = sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
-            let by_scale = to_shape.dot(&shape) / shape[largest];
-            to_shape[largest] -= by_scale;
-            for (r, other) in shapes.column_iter().enumerate().filter(|(r, _)| *r != i) {
-                let apart = k[i] - k[r];
-                if apart.abs() > SMALLEST_SEPARATION * k[i].max(k[r]) {
-                    sensitivity[(r, i)] = scale * to_shape.dot(&other) / apart;
-                }
+    }
+    for i in 0..k.len() {
+        for r in i + 1..k.len() {
+            let apart = k[i] - k[r];
+            if apart.abs() > SMALLEST_SEPARATION * k[i].max(k[r]) {
+                let both = per_change(k[i]) * pull[(r, i)] - per_change(k[r]) * pull[(i, r)];
+                sensitivity[(r, i)] = 0.5 * both / apart;
+                sensitivity[(i, r)] = sensitivity[(r, i)];
             }
         }
     }
     sensitivity
+}
+
+/// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p\, \Sigma\, p^t$.
+fn in_exact_modes(sensitivity: DMatrix<f64>, state: &ModalState) -> DMatrix<f64> {
+    if state.is_exact() {
+        return sensitivity;
+    }
+    let p = &state.generalized_shapes;
+    p * sensitivity * p.transpose()
+}
+
+/// The entries of a matrix as one vector, whose products with another are faster than a matrix's column by column.
+fn entries(matrix: &DMatrix<f64>) -> DVectorView<'_, f64> {
+    DVectorView::from_slice(matrix.as_slice(), matrix.len())
 }
