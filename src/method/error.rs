@@ -308,20 +308,6 @@ pub enum Error {
         /// What it was.
         found: f64,
     },
-    /// A figure that cannot be drawn.
-    #[error("figure {figure}: expected to draw it, found {found}")]
-    Drawing {
-        /// The figure's name.
-        figure: String,
-        /// The drawing library's own message.
-        found: String,
-    },
-    /// A page that cannot be put together.
-    #[error("page: expected to fill it, found an error: {source}")]
-    Page {
-        /// The template library's own message.
-        source: askama::Error,
-    },
     /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
     #[error(
         "rigid-body vector {vector} (from zero): expected a motion independent of those before it, found a combination of them at the dynamic degrees of freedom"

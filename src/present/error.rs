@@ -16,4 +16,15 @@ pub enum PresentError {
     /// A file or another program fails.
     #[error(transparent)]
     Files(#[from] FileError),
+    /// A figure that cannot be drawn.
+    #[error("figure {figure}: expected to draw it, found {found}")]
+    Drawing {
+        /// The figure's name.
+        figure: String,
+        /// The drawing library's own message.
+        found: String,
+    },
+    /// A document that cannot be written as JSON.
+    #[error("JSON: expected to write the document, found an error: {0}")]
+    Json(#[from] serde_json::Error),
 }

@@ -1,15 +1,13 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::report::ReportArguments;
-use super::{put, read, reconstruction};
+use super::output::{OutputArguments, put, read, reconstruction};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::error::Error;
-use corfem::present::error::PresentError;
-use corfem::present::report::deck_tables::{deck_json, deck_tables, not_read};
-use corfem::present::report::render;
+use corfem::present::tables::deck::{deck_tables, not_read};
+use corfem::present::{PresentError, json};
 use std::path::PathBuf;
 
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
@@ -37,7 +35,7 @@ pub struct ModesArguments {
     #[arg(value_name = "DECK")]
     deck: PathBuf,
     #[command(flatten)]
-    report: ReportArguments,
+    output: OutputArguments,
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
     count: Option<usize>,
@@ -84,5 +82,5 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
         return Err(Error::TooMany { what: "modes of finite frequency", available: found, requested: count }.into());
     }
     let tables = deck_tables(&deck, &modes, count);
-    arguments.report.write(&tables, render::render_tables, || deck_json(&deck, &modes, count))
+    arguments.output.write(&tables, || json::deck_modes(&deck, &modes, count))
 }

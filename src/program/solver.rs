@@ -5,7 +5,7 @@ use corfem::cases::BUILT_IN;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::FiniteElementModel;
-use corfem::present::error::PresentError;
+use corfem::present::PresentError;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
