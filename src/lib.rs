@@ -52,7 +52,11 @@ pub mod studies;
 
 pub mod files;
 
+#[cfg(feature = "program")]
 pub mod present;
+
+/// The matrices and vectors of this crate's interface, so that a user needs no version of their own.
+pub use nalgebra;
 
 /// The README's code, compiled and run with the documentation tests.
 #[cfg(doctest)]

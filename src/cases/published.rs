@@ -62,27 +62,25 @@ impl PublishedTable {
     /// # Errors
     /// [`Error::Table`] for rows of unequal length.
     pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, Error> {
-        let malformed = |error: csv::Error| Error::Table {
-            name: name.to_owned(),
-            expected: "rows of equal length under a heading".into(),
-            found: error.to_string(),
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let headings: Vec<String> = reader
-            .headers()
-            .map_err(malformed)?
-            .iter()
-            .skip(1)
-            .map(str::to_owned)
-            .collect();
+        // No cell of these tables holds a comma or a quote.
+        let rows = text
+            .lines()
+            .filter(|line| !line.starts_with('#') && !line.is_empty());
+        let mut rows = rows.map(|line| line.split(',').map(str::to_owned));
+        let headings: Vec<String> = rows.next().into_iter().flatten().skip(1).collect();
         let (mut labels, mut cells) = (Vec::new(), HashMap::new());
-        for record in reader.records() {
-            let record = record.map_err(malformed)?;
-            let label = record.get(0).unwrap_or_default().to_owned();
-            for (heading, cell) in headings.iter().zip(record.iter().skip(1)) {
-                cells.insert((label.clone(), heading.clone()), cell.to_owned());
+        for mut row in rows {
+            let label = row.next().unwrap_or_default();
+            let row: Vec<String> = row.collect();
+            if row.len() != headings.len() {
+                return Err(Error::Table {
+                    name: name.to_owned(),
+                    expected: format!("{} cells in row {label}", headings.len()),
+                    found: row.len().to_string(),
+                });
+            }
+            for (heading, cell) in headings.iter().zip(row) {
+                cells.insert((label.clone(), heading.clone()), cell);
             }
             labels.push(label);
         }

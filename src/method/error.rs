@@ -357,20 +357,6 @@ pub enum Error {
         /// What stood there.
         found: String,
     },
-    /// A figure that cannot be drawn.
-    #[error("figure {figure}: expected to draw it, found {found}")]
-    Drawing {
-        /// The figure's name.
-        figure: String,
-        /// The drawing library's own message.
-        found: String,
-    },
-    /// A page that cannot be put together.
-    #[error("page: expected to fill it, found an error: {source}")]
-    Page {
-        /// The template library's own message.
-        source: askama::Error,
-    },
     /// A line of a deck that is not what it must be.
     #[error("{file}, line {line}: expected {expected}, found {found}")]
     DeckLine {

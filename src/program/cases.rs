@@ -1,15 +1,13 @@
 //! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
 
-use super::reconstruction;
-use super::report::ReportArguments;
+use super::output::{OutputArguments, reconstruction};
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::fit::fit;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
-use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::present::report::run_tables::all_tables;
-use corfem::present::report::{json, render};
+use corfem::present::table::counted;
+use corfem::present::{PresentError, json, tables};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -18,7 +16,7 @@ pub struct CasesArguments {
     #[arg(value_name = "CASE")]
     cases: Vec<usize>,
     #[command(flatten)]
-    report: ReportArguments,
+    output: OutputArguments,
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
@@ -36,16 +34,15 @@ pub struct CasesArguments {
 }
 
 /// Runs the cases asked for and writes the report; whether all of them succeeded.
-pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
+pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::of(&arguments.solver)?;
-    let numbers = if arguments.cases.is_empty() {
-        CASES.to_vec()
-    } else {
-        arguments.cases.clone()
+    let numbers = match arguments.cases.as_slice() {
+        [] => &CASES[..],
+        named => named,
     };
     let mut results = Vec::new();
-    for number in numbers {
+    for &number in numbers {
         let mut case = Case::on(number, reconstruction.clone())?;
         if let Some(most) = arguments.iterations {
             case.settings.inner.iterations = case.settings.inner.iterations.min(most as usize);
@@ -57,8 +54,8 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         results.push(run_case_with(&case, solver.name(), analyze, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
-                    "case {number}, pass {pass}: {} iterations, error sum {:.4} by perturbation, {:.4} exact",
-                    done.inner.iterations.len(),
+                    "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
+                    counted(done.inner.iterations.len(), "iteration", "iterations"),
                     done.inner.last.errors.sum(),
                     done.check.errors.sum(),
                 );
@@ -66,9 +63,9 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, Error> {
         })?);
     }
     let fit = fit(&reconstruction)?;
-    let tables = all_tables(&results, &fit)?;
+    let tables = tables::cases::all_tables(&results, &fit)?;
     arguments
-        .report
-        .write(&tables, render::render, || json::json(&results, &fit))?;
+        .output
+        .write(&tables, || json::cases(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

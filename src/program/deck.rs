@@ -1,14 +1,14 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::report::ReportArguments;
-use super::{put, read, reconstruction};
+use super::output::{OutputArguments, put, read, reconstruction};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::error::Error;
-use corfem::present::report::deck_tables::{deck_json, deck_tables, not_read};
-use corfem::present::report::render;
+use corfem::method::modes::solve;
+use corfem::present::tables::deck::{deck_tables, not_read};
+use corfem::present::{PresentError, json};
 use std::path::PathBuf;
 
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
@@ -36,14 +36,14 @@ pub struct ModesArguments {
     #[arg(value_name = "DECK")]
     deck: PathBuf,
     #[command(flatten)]
-    report: ReportArguments,
+    output: OutputArguments,
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
     count: Option<usize>,
 }
 
 /// Writes the deck of a case.
-pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
+pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     let case = Case::on(
         arguments.case,
         reconstruction(arguments.box_file.as_deref())?,
@@ -59,13 +59,13 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
                     what: "pass",
                     available: passes.len(),
                     requested: arguments.pass,
-                });
+                }
+                .into());
             }
         };
     }
     let dynamic = model.analyze(&factors)?;
-    let modes =
-        corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
+    let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
     let frequencies = modes.frequencies_hz();
     let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
     let task = Task::Modes {
@@ -82,7 +82,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), Error> {
 }
 
 /// Prints the modes of a deck.
-pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
+pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let name = arguments.deck.display().to_string();
     let deck = deck::read(&name, &read(&arguments.deck)?)?;
     for card in &deck.unread {
@@ -96,10 +96,11 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), Error> {
             what: "modes of finite frequency",
             available: found,
             requested: count,
-        });
+        }
+        .into());
     }
     let tables = deck_tables(&deck, &modes, count);
-    arguments.report.write(&tables, render::render_tables, || {
-        deck_json(&deck, &modes, count)
-    })
+    arguments
+        .output
+        .write(&tables, || json::deck_modes(&deck, &modes, count))
 }

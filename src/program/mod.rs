@@ -2,25 +2,17 @@
 
 mod cases;
 mod deck;
-mod delta_wing;
-mod fewer_modes;
-mod matrices;
+mod output;
 mod pictures;
-mod report;
 mod solver;
+mod studies;
 
 use cases::CasesArguments;
-use clap::{Parser, Subcommand, ValueEnum};
-use corfem::cases::torque_box::Reconstruction;
-use corfem::method::error::Error;
-use corfem::present::report::Format;
+use clap::{Parser, Subcommand};
 use deck::{DeckArguments, ModesArguments};
-use delta_wing::DeltaWingArguments;
-use fewer_modes::FewerModesArguments;
-use matrices::MatricesArguments;
-use std::io::Write;
-use std::path::Path;
+use pictures::FolderArguments;
 use std::process::ExitCode;
+use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments};
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -28,9 +20,9 @@ const NOT_CONVERGED: u8 = 3;
 /// Corrects a finite element model until its frequencies and mode shapes agree with a ground vibration test.
 ///
 /// Without a command it does what `corfem cases` does: it correlates the paper's four cases on its wing torque box
-/// and prints every table beside the published one.
+/// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
+#[command(version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -47,7 +39,7 @@ Results go to standard output, progress to standard error.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Correlate the paper's cases and print the tables beside the published ones
+    /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers
     Cases(CasesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
@@ -55,37 +47,14 @@ enum Command {
     Matrices(MatricesArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
-    /// Write every figure as SVG
-    Figures(pictures::FiguresArguments),
-    /// Write the report as one web page with tables, figures and assumptions
-    Report(pictures::ReportArguments),
+    /// Write the figures of the cases, of fewer modes and of matrices as SVG
+    Figures(FolderArguments),
+    /// Write one web page with the tables and figures of cases, fewer modes and matrices, and the assumptions
+    Report(FolderArguments),
     /// Write the torque box of a case as a NASTRAN deck
     Deck(DeckArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck
     Modes(ModesArguments),
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FormatArgument {
-    /// Tables for a terminal
-    Text,
-    /// Tables in Markdown
-    Markdown,
-    /// The whole history as JSON
-    Json,
-    /// One number a line
-    Csv,
-}
-
-impl From<FormatArgument> for Format {
-    fn from(argument: FormatArgument) -> Self {
-        match argument {
-            FormatArgument::Text => Self::Text,
-            FormatArgument::Markdown => Self::Markdown,
-            FormatArgument::Json => Self::Json,
-            FormatArgument::Csv => Self::Csv,
-        }
-    }
 }
 
 /// Runs the program.
@@ -94,9 +63,9 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => cases::cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases::cases(&arguments),
-        Some(Command::FewerModes(arguments)) => fewer_modes::fewer_modes(&arguments).map(|()| true),
-        Some(Command::Matrices(arguments)) => matrices::matrices(&arguments).map(|()| true),
-        Some(Command::DeltaWing(arguments)) => delta_wing::delta_wing(&arguments),
+        Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
+        Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
+        Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::figures(&arguments).map(|()| true),
         Some(Command::Report(arguments)) => pictures::report(&arguments).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
@@ -110,40 +79,4 @@ pub fn run() -> ExitCode {
             ExitCode::from(BAD_INPUT)
         }
     }
-}
-
-/// The box of a file, or the reconstructed one.
-fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Error> {
-    match box_file {
-        None => Reconstruction::embedded(),
-        Some(path) => Reconstruction::parse(&path.display().to_string(), &read(path)?),
-    }
-}
-
-fn read(path: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|source| Error::File {
-        path: path.to_owned(),
-        action: "read",
-        source,
-    })
-}
-
-/// Writes to a file, whole or not at all, or to standard output.
-fn put(path: Option<&Path>, text: &str) -> Result<(), Error> {
-    let Some(path) = path else {
-        // A reader that has seen enough closes the pipe; that is no error of ours.
-        let _ = std::io::stdout().write_all(text.as_bytes());
-        return Ok(());
-    };
-    let failed = |source| Error::File {
-        path: path.to_owned(),
-        action: "write",
-        source,
-    };
-    // A bare name has an empty parent, which is the present folder.
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
 }

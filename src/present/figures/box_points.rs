@@ -1,14 +1,13 @@
 //! The box with its structural and dynamic points (Figure 2).
 
-use super::canvas::{
-    Area, BLUE, Drawn, Form, INK, LETTERS, Letters, Pen, SILVER, SMALL, Side, VERMILION, WIDTH,
-    line, mark, svg, write,
-};
+use super::canvas::*;
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
 use crate::method::error::Error;
+use crate::present::PresentError;
 use nalgebra::Vector3;
+use plotters::style::WHITE;
 
 /// A structural grid point.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,33 +69,41 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
     })
 }
 
-const STRUCTURAL: (Form, f64) = (Form::Circle, 4.0);
-const DYNAMIC: (Form, f64) = (Form::Square, 4.5);
+const DYNAMIC: Mark = Mark(
+    Form::Square,
+    4.5,
+    Some(VERMILION),
+    Pen(VERMILION, 1.2, Dash::Solid),
+);
+
+fn structural(fixed: bool) -> Mark {
+    let fill = if fixed { INK } else { WHITE };
+    Mark(Form::Circle, 4.0, Some(fill), Pen::solid(BLUE, 1.6))
+}
 
 impl BoxPoints {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
+    /// [`PresentError::Drawing`].
+    pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box: structural and dynamic points";
-        svg("box_points", title, (WIDTH, 480.0), |area| self.on(area))
+        svg("box_points", title, 480.0, |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
         let positions: Vec<_> = self.structural.iter().map(|point| point.position).collect();
         let view = View::fitted(&positions, DEPTH_DRAWN, [40.0, 24.0, 680.0, 420.0]);
-        let at = |grid: usize| {
-            self.structural
-                .iter()
-                .find(|point| point.grid == grid)
-                .map(|point| view.place(point.position))
-        };
+        let point = |grid: usize| self.structural.iter().find(|point| point.grid == grid);
+        // The view looks down at the upper covers, the rear spar and the root: lower front points lie behind.
+        let is_hidden = |point: &StructuralPoint| point.grid.is_multiple_of(4) && !point.fixed;
         for &[from, to] in &self.edges {
-            if let (Some(a), Some(b)) = (at(from), at(to)) {
-                let hidden = self.is_hidden(from) || self.is_hidden(to);
-                let (color, width) = if hidden { (SILVER, 0.9) } else { (INK, 1.1) };
-                line(area, &[a, b], Pen::solid(color, width))?;
+            if let (Some(a), Some(b)) = (point(from), point(to)) {
+                let pen = match is_hidden(a) || is_hidden(b) {
+                    true => Pen::solid(SILVER, 0.9),
+                    false => Pen::solid(INK, 1.1),
+                };
+                line(area, &[view.place(a.position), view.place(b.position)], pen)?;
             }
         }
         for (row, point) in self.dynamic.iter().enumerate() {
@@ -104,107 +111,71 @@ impl BoxPoints {
             // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the mid
             // ones the tip's has no room beside it and a thin line leads to its number outside.
             let (place, side) = match row {
-                1 => ((x + 4.0, y - 34.0), Side::Center),
-                4 => ((x, y - 12.0), Side::Center),
-                7 => ((x, y + 14.0), Side::Center),
-                0 | 6 => ((x + 8.0, y), Side::Right),
-                _ => ((x - 9.0, y), Side::Left),
+                1 => ((x + 4.0, y - 34.0), MIDDLE),
+                4 => ((x, y - 12.0), MIDDLE),
+                7 => ((x, y + 14.0), MIDDLE),
+                0 | 6 => ((x + 8.0, y), START),
+                _ => ((x - 9.0, y), END),
             };
             if row == 1 {
                 let lead = [(x, y), (x + 3.0, y - 27.0)];
                 line(area, &lead, Pen::solid(VERMILION, 0.8))?;
             }
-            mark_dynamic(area, (x, y))?;
-            let letters = Letters::new(SMALL, side).color(VERMILION);
+            mark(area, (x, y), DYNAMIC)?;
+            let letters = side.small().color(VERMILION);
             write(area, &format!("D{}", row + 1), place, letters)?;
         }
         for point in &self.structural {
             let (x, y) = view.place(point.position);
-            let fill = if point.fixed {
-                INK
-            } else {
-                plotters::style::WHITE
-            };
-            mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
+            mark(area, (x, y), structural(point.fixed))?;
             // Away from the lines: rear points are numbered to the lower right, front ones above or below.
             let (place, side) = match point.grid % 4 {
-                1 | 2 => ((x + 8.0, y + 11.0), Side::Right),
-                3 => ((x - 2.0, y - 15.0), Side::Center),
-                _ => ((x, y + 16.0), Side::Center),
+                1 | 2 => ((x + 8.0, y + 11.0), START),
+                3 => ((x - 2.0, y - 15.0), MIDDLE),
+                _ => ((x, y + 16.0), MIDDLE),
             };
-            let letters = Letters::new(LETTERS, side).bold().color(BLUE);
-            write(area, &point.grid.to_string(), place, letters)?;
+            write(
+                area,
+                &point.grid.to_string(),
+                place,
+                side.bold().color(BLUE),
+            )?;
         }
-        self.legend(area)?;
-        axes(area, (70.0, 90.0))
-    }
-
-    /// The view looks down at the upper covers, the rear spar and the root: lower front points lie behind.
-    fn is_hidden(&self, grid: usize) -> bool {
-        let fixed = |point: &StructuralPoint| point.grid == grid && point.fixed;
-        grid.is_multiple_of(4) && !self.structural.iter().any(fixed)
-    }
-
-    fn legend(&self, area: &Area) -> Drawn {
-        let (x, mut y) = (430.0, 400.0);
-        let words = Letters::new(LETTERS, Side::Right);
-        let fixed = [
-            (
-                plotters::style::WHITE,
-                "structural point: x, y and z motion",
-            ),
-            (INK, "structural point, fixed"),
-        ];
-        for (fill, text) in fixed {
-            mark(area, (x, y), STRUCTURAL, Some(fill), Pen::solid(BLUE, 1.6))?;
-            write(area, text, (x + 12.0, y), words)?;
-            y += 20.0;
-        }
-        mark_dynamic(area, (x, y))?;
-        write(
-            area,
-            "dynamic point at mid-depth: z motion",
-            (x + 12.0, y),
-            words,
-        )?;
         let note = format!("Depth drawn {DEPTH_DRAWN:.0} times as large as the plan.");
-        write(area, &note, (x - 5.0, y + 22.0), words)
+        for (row, (form, words)) in [
+            (structural(false), "structural point: x, y and z motion"),
+            (structural(true), "structural point, fixed"),
+            (DYNAMIC, "dynamic point at mid-depth: z motion"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let y = 400.0 + 20.0 * row as f64;
+            mark(area, (430.0, y), form)?;
+            write(area, words, (442.0, y), START)?;
+        }
+        write(area, &note, (425.0, 462.0), START)?;
+        axes(area, (70.0, 90.0))
     }
 }
 
 /// The three directions, with the length that stands for five inches of plan.
-pub(super) fn axes(area: &Area, origin: (f64, f64)) -> Drawn {
+pub(super) fn axes(area: &Area, origin: Place) -> Drawn {
     let view = View {
         origin,
         scale: 11.0,
         heights: 1.0,
     };
-    for (direction, name, side, shift) in [
-        (Vector3::x(), "x, aft", Side::Right, (6.0, 4.0)),
-        (Vector3::y(), "y, outboard", Side::Right, (6.0, -4.0)),
-        (Vector3::z(), "z, up", Side::Center, (0.0, -10.0)),
+    for (direction, name, letters, shift) in [
+        (Vector3::x(), "x, aft", START, (6.0, 4.0)),
+        (Vector3::y(), "y, outboard", START, (6.0, -4.0)),
+        (Vector3::z(), "z, up", MIDDLE, (0.0, -10.0)),
     ] {
         let (x, y) = view.place(5.0 * direction);
         line(area, &[origin, (x, y)], Pen::solid(INK, 1.2))?;
-        mark(
-            area,
-            (x, y),
-            (Form::Circle, 1.8),
-            Some(INK),
-            Pen::solid(INK, 1.0),
-        )?;
-        let letters = Letters::new(SMALL, side);
-        write(area, name, (x + shift.0, y + shift.1), letters)?;
+        let end = Mark(Form::Circle, 1.8, Some(INK), Pen::solid(INK, 1.0));
+        mark(area, (x, y), end)?;
+        write(area, name, (x + shift.0, y + shift.1), letters.small())?;
     }
     Ok(())
-}
-
-fn mark_dynamic(area: &Area, at: (f64, f64)) -> Drawn {
-    mark(
-        area,
-        at,
-        DYNAMIC,
-        Some(VERMILION),
-        Pen::solid(VERMILION, 1.2),
-    )
 }

@@ -3,8 +3,10 @@
 //! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
-use crate::method::error::Error;
+use crate::present::PresentError;
+use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -17,11 +19,6 @@ pub(super) const WIDTH: f64 = 760.0;
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
 const LETTER_SCALE: f64 = 1.24;
-
-/// Height of ordinary letters, px.
-pub(super) const LETTERS: f64 = 13.0;
-/// Height of small letters, px.
-pub(super) const SMALL: f64 = 11.0;
 
 // The colors of Okabe and Ito, which people with any common color blindness tell apart. Figures never rely on color
 // alone: lines differ in dashes, marks in form, cells carry their numbers.
@@ -48,6 +45,10 @@ fn place((x, y): Place) -> (i32, i32) {
     (units(x), units(y))
 }
 
+/// How a line is drawn: its color, its width in px, and how it is broken.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pen(pub RGBColor, pub f64, pub Dash);
+
 /// How a line is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dash {
@@ -56,25 +57,23 @@ pub(super) enum Dash {
     Dotted,
 }
 
-/// How a line is drawn.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pen {
-    pub color: RGBColor,
-    /// px
-    pub width: f64,
-    pub dash: Dash,
-}
-
 impl Pen {
     pub fn solid(color: RGBColor, width: f64) -> Self {
-        let dash = Dash::Solid;
-        Self { color, width, dash }
+        Self(color, width, Dash::Solid)
+    }
+
+    pub fn dashed(color: RGBColor, width: f64) -> Self {
+        Self(color, width, Dash::Dashed)
     }
 
     pub fn style(&self) -> ShapeStyle {
-        self.color.stroke_width(units(self.width).unsigned_abs())
+        self.0.stroke_width(units(self.1).unsigned_abs())
     }
 }
+
+/// A mark: its form, its size as the radius of the circle in px, its fill (open without one) and its outline.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mark(pub Form, pub f64, pub Option<RGBColor>, pub Pen);
 
 /// Forms of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,72 +83,67 @@ pub(super) enum Form {
     Diamond,
 }
 
-/// Where letters lie about their place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    /// They begin there.
-    Right,
-    /// They are centered on it.
-    Center,
-    /// They end there.
-    Left,
+/// How letters look; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
+#[derive(Clone, Copy)]
+pub(super) struct Letters {
+    height: f64,
+    color: RGBColor,
+    weight: FontStyle,
+    across: HPos,
+    upward: bool,
 }
 
-/// How letters look.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Letters {
-    pub height: f64,
-    pub color: RGBColor,
-    pub bold: bool,
-    pub side: Side,
-    /// Whether they read upward.
-    pub upward: bool,
+const fn letters(across: HPos) -> Letters {
+    Letters {
+        height: 13.0,
+        color: INK,
+        weight: FontStyle::Normal,
+        across,
+        upward: false,
+    }
 }
+
+/// Letters that begin at their place.
+pub(super) const START: Letters = letters(HPos::Left);
+/// Letters that are centered on their place.
+pub(super) const MIDDLE: Letters = letters(HPos::Center);
+/// Letters that end at their place.
+pub(super) const END: Letters = letters(HPos::Right);
 
 impl Letters {
-    pub fn new(height: f64, side: Side) -> Self {
-        Self {
-            height,
-            color: INK,
-            bold: false,
-            side,
-            upward: false,
-        }
+    pub fn bold(self) -> Self {
+        let weight = FontStyle::Bold;
+        Self { weight, ..self }
     }
 
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
+    pub fn small(self) -> Self {
+        self.high(11.0)
+    }
+
+    pub fn high(self, height: f64) -> Self {
+        Self { height, ..self }
     }
 
     pub fn color(self, color: RGBColor) -> Self {
         Self { color, ..self }
     }
 
+    pub fn upward(self) -> Self {
+        let upward = true;
+        Self { upward, ..self }
+    }
+
     /// In the library's terms.
     pub fn style(self) -> TextStyle<'static> {
-        let weight = if self.bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
-        };
-        let mut font = FontDesc::new(
-            FontFamily::Name(FACE),
-            UNITS * LETTER_SCALE * self.height,
-            weight,
-        );
+        let height = UNITS * LETTER_SCALE * self.height;
+        let mut font = FontDesc::new(FontFamily::Name(FACE), height, self.weight);
         if self.upward {
             font = font.transform(FontTransform::Rotate270);
         }
-        let across = match self.side {
-            Side::Right => HPos::Left,
-            Side::Center => HPos::Center,
-            Side::Left => HPos::Right,
-        };
-        let style: TextStyle<'static> = font.into();
         TextStyle {
             color: self.color.to_backend_color(),
-            pos: Pos::new(across, VPos::Center),
-            ..style
+            pos: Pos::new(self.across, VPos::Center),
+            ..font.into()
         }
     }
 }
@@ -158,17 +152,17 @@ impl Letters {
 pub(super) fn svg(
     name: &str,
     title: &str,
-    (width, height): (f64, f64),
+    height: f64,
     draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<String, Error> {
+) -> Result<String, PresentError> {
     let mut drawn = String::new();
-    let size = (units(width).unsigned_abs(), units(height).unsigned_abs());
+    let size = (units(WIDTH).unsigned_abs(), units(height).unsigned_abs());
     {
         let area = SVGBackend::with_string(&mut drawn, size).into_drawing_area();
         area.fill(&WHITE)
             .and_then(|()| draw(&area))
             .and_then(|()| area.present())
-            .map_err(|error| Error::Drawing {
+            .map_err(|error| PresentError::Drawing {
                 figure: name.to_owned(),
                 found: error.to_string(),
             })?;
@@ -177,33 +171,27 @@ pub(super) fn svg(
     let (across, down) = size;
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     Ok(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {across} {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
     ))
 }
 
 pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
     let points: Vec<(i32, i32)> = points.iter().copied().map(place).collect();
-    let (on, off) = match pen.dash {
+    let (on, off) = match pen.2 {
         Dash::Solid => return area.draw(&PathElement::new(points, pen.style())),
-        Dash::Dashed => (7.0, 3.5),
-        Dash::Dotted => (1.5, 2.5),
+        Dash::Dashed => (units(7.0), units(3.5)),
+        Dash::Dotted => (units(1.5), units(2.5)),
     };
-    area.draw(&DashedPathElement::new(
-        points,
-        units(on),
-        units(off),
-        pen.style(),
-    ))
+    area.draw(&DashedPathElement::new(points, on, off, pen.style()))
 }
 
-pub(super) fn polygon(area: &Area, points: &[Place], fill: RGBColor) -> Drawn {
-    let points: Vec<(i32, i32)> = points.iter().copied().map(place).collect();
-    area.draw(&Polygon::new(points, fill.filled()))
-}
-
-pub(super) fn outline(area: &Area, points: &[Place], pen: Pen) -> Drawn {
-    let mut closed = points.to_vec();
-    closed.extend(points.first());
+/// A polygon, filled and with its outline.
+pub(super) fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pen: Pen) -> Drawn {
+    if let Some(fill) = fill {
+        let points: Vec<(i32, i32)> = corners.iter().copied().map(place).collect();
+        area.draw(&Polygon::new(points, fill.filled()))?;
+    }
+    let closed: Vec<Place> = corners.iter().chain(corners.first()).copied().collect();
     line(area, &closed, pen)
 }
 
@@ -211,46 +199,31 @@ pub(super) fn rectangle(area: &Area, from: Place, to: Place, fill: RGBColor) -> 
     area.draw(&Rectangle::new([place(from), place(to)], fill.filled()))
 }
 
-/// A bar of a bar chart between two opposite corners.
-pub(super) fn bar(
-    area: &Area,
-    (left, top): Place,
-    (right, bottom): Place,
-    fill: RGBColor,
-) -> Drawn {
-    rectangle(area, (left, top), (right, bottom), fill)?;
-    let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
-    outline(area, &corners, Pen::solid(INK, 0.7))
+/// The corners of an upright rectangle between two opposite ones.
+pub(super) fn corners((left, top): Place, (right, bottom): Place) -> [Place; 4] {
+    [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
-/// A mark of a form, its size the radius of the circle; open when it has no fill.
-pub(super) fn mark(
-    area: &Area,
-    at: Place,
-    (form, size): (Form, f64),
-    fill: Option<RGBColor>,
-    pen: Pen,
-) -> Drawn {
-    let (x, y) = at;
-    if form == Form::Circle {
-        let radius = units(size);
-        if let Some(fill) = fill {
-            area.draw(&Circle::new(place(at), radius, fill.filled()))?;
-        }
-        return area.draw(&Circle::new(place(at), radius, pen.style()));
-    }
+/// A bar of a bar chart between two opposite corners.
+pub(super) fn bar(area: &Area, from: Place, to: Place, fill: RGBColor) -> Drawn {
+    rectangle(area, from, to, fill)?;
+    polygon(area, &corners(from, to), None, Pen::solid(INK, 0.7))
+}
+
+pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) -> Drawn {
     let corners = match form {
-        Form::Square => [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)].to_vec(),
-        _ => [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)].to_vec(),
+        Form::Circle => {
+            let (at, radius) = (place(at), units(size));
+            if let Some(fill) = fill {
+                area.draw(&Circle::new(at, radius, fill.filled()))?;
+            }
+            return area.draw(&Circle::new(at, radius, pen.style()));
+        }
+        Form::Square => [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+        Form::Diamond => [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)],
     };
-    let corners: Vec<Place> = corners
-        .iter()
-        .map(|(dx, dy)| (x + size * dx, y + size * dy))
-        .collect();
-    if let Some(fill) = fill {
-        polygon(area, &corners, fill)?;
-    }
-    outline(area, &corners, pen)
+    let corners = corners.map(|(dx, dy)| (at.0 + size * dx, at.1 + size * dy));
+    polygon(area, &corners, fill, pen)
 }
 
 /// Part of their height by which the library sets centered letters too high.
@@ -268,11 +241,59 @@ pub(super) fn write(area: &Area, text: &str, at: Place, letters: Letters) -> Dra
 
 /// The name of a vertical axis, along the left edge.
 pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
-    let letters = Letters {
-        upward: true,
-        ..Letters::new(LETTERS, Side::Center)
-    };
-    write(area, text, (13.0, middle), letters)
+    write(area, text, (13.0, middle), MIDDLE.upward())
+}
+
+/// A published value on a bar.
+pub(super) const PUBLISHED: Mark =
+    Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(INK, 0.9, Dash::Solid));
+
+/// A number as it stands on a figure, with the sign for minus.
+pub(super) fn signed(text: String) -> String {
+    text.replace('-', "−")
+}
+
+/// A chart with room for its axes: left, right, top and bottom margins, px.
+pub(super) fn chart<'a, 'b>(
+    area: &'a Area<'b>,
+    [left, right, top, bottom]: [f64; 4],
+) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
+    let mut chart = ChartBuilder::on(area);
+    chart
+        .margin_right(units(right))
+        .margin_top(units(top))
+        .x_label_area_size(units(bottom))
+        .y_label_area_size(units(left));
+    chart
+}
+
+/// A chart built on an area: its axes in the style of all figures, to be drawn, and where a point of it lies.
+pub(super) type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
+
+pub(super) fn axes<'a, 'b, 'c, X, Y>(
+    chart: &'c mut Chart<'a, 'b, X, Y>,
+) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let mut mesh = chart.configure_mesh();
+    mesh.bold_line_style(Pen::solid(PALE, 0.8).style())
+        .light_line_style(TRANSPARENT)
+        .axis_style(Pen::solid(INK, 1.0).style())
+        .label_style(MIDDLE.style())
+        .axis_desc_style(MIDDLE.style())
+        .set_all_tick_mark_size(units(4.0));
+    mesh
+}
+
+pub(super) fn placed<X, Y>(chart: &Chart<'_, '_, X, Y>, x: f64, y: f64) -> Place
+where
+    X: Ranged<ValueType = f64>,
+    Y: Ranged<ValueType = f64>,
+{
+    let (x, y) = chart.plotting_area().map_coordinate(&(x, y));
+    (f64::from(x) / UNITS, f64::from(y) / UNITS)
 }
 
 /// A color between two, the second's share from 0 to 1.

@@ -1,20 +1,18 @@
 //! Mode shapes and node lines of the test, the first model and the correlated one (Figure 6).
 
-use super::canvas::{
-    Area, BLUE, Dash, Drawn, Form, GRAY, LETTERS, Letters, ORANGE, PALE, Pen, Place, SMALL, Side,
-    VERMILION, WIDTH, between, line, mark, svg, write,
-};
+use super::canvas::*;
 use super::planform::{PlanPoint, Planform, RibShape};
 use super::view::{Plan, View};
-use crate::cases::CaseResult;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
 use crate::method::modes::Modes;
-use crate::method::outer_loop::Check;
+use crate::method::outer_loop::{Check, Correlation};
 use crate::method::pairing::matched;
-use crate::present::report::table::Digits;
+use crate::present::PresentError;
+use crate::present::table::Digits;
+use crate::present::tables::correlation::last_check;
 use nalgebra::Vector3;
-use plotters::style::WHITE;
+use plotters::style::{RGBColor, WHITE};
 
 /// One mode of one state.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,32 +28,25 @@ pub struct ModeState {
 /// What the figures show.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodeLines {
-    /// Case number.
-    pub case: usize,
     /// The box in plan.
     pub planform: Planform,
     /// For every test mode: test, first model, last exact solution.
     pub modes: Vec<[ModeState; 3]>,
 }
 
-/// Modes of a case in the order and with the signs of the test modes.
+/// Modes of a correlation on the box, in the order and with the signs of the test modes.
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless the modes have nine DOF.
-pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
-    let planform = Planform::of(&result.case.reconstruction);
-    let correlation = &result.correlation;
-    let last = correlation
-        .passes
-        .last()
-        .map_or(&correlation.initial, |pass| &pass.check);
+pub fn node_lines(
+    planform: Planform,
+    test: &Modes,
+    correlation: &Correlation,
+) -> Result<NodeLines, Error> {
     let paired = |check: &Check| matched(&check.modes, &check.pairing);
-    let states = [
-        result.test.clone(),
-        paired(&correlation.initial),
-        paired(last),
-    ];
-    check_shape("mode shapes", &states[0].shapes, 9, result.test.len())?;
+    let last = paired(last_check(correlation));
+    let states = [test.clone(), paired(&correlation.initial), last];
+    check_shape("mode shapes", &test.shapes, 9, test.len())?;
     let state = |modes: &Modes, mode: usize| {
         let column = modes.shapes.column(mode);
         let largest = column.amax();
@@ -66,29 +57,37 @@ pub fn node_lines(result: &CaseResult) -> Result<NodeLines, Error> {
             node_lines: planform.node_lines(&shape),
         }
     };
-    let modes = (0..result.test.len())
-        .map(|mode| [0, 1, 2].map(|which| state(&states[which], mode)))
-        .collect();
+    let modes = 0..test.len();
+    let modes = modes.map(|mode| [0, 1, 2].map(|which| state(&states[which], mode)));
     Ok(NodeLines {
-        case: result.case.number,
-        modes,
+        modes: modes.collect(),
         planform,
     })
 }
 
 /// A thick pale line, a dashed and a thin one can lie on each other and all be seen.
 fn pens() -> [(&'static str, Pen); 3] {
-    let dash = Dash::Dashed;
-    let initial = Pen {
-        color: BLUE,
-        width: 1.6,
-        dash,
-    };
     [
         ("test", Pen::solid(between(WHITE, ORANGE, 0.6), 4.5)),
-        ("initial", initial),
+        ("initial", Pen::dashed(BLUE, 1.6)),
         ("correlated", Pen::solid(VERMILION, 1.3)),
     ]
+}
+
+fn point(size: f64, fill: RGBColor) -> Mark {
+    Mark(Form::Circle, size, Some(fill), Pen::solid(GRAY, 1.2))
+}
+
+fn head(area: &Area, what: &str) -> Drawn {
+    write(area, what, (14.0, 20.0), START)?;
+    let mut x = 24.0 + 6.4 * what.len() as f64;
+    for (name, pen) in pens() {
+        line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
+        write(area, name, (x + 43.0, 20.0), START)?;
+        x += 72.0 + 6.8 * name.len() as f64;
+    }
+    let words = "frequencies in Hz: test | initial | correlated";
+    write(area, words, (14.0, 44.0), START)
 }
 
 /// Modes side by side.
@@ -100,21 +99,16 @@ impl NodeLines {
     /// The node lines in plan as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw(&self) -> Result<String, Error> {
-        let name = format!("case_{}_node_lines", self.case);
-        let title = format!("Case {}: node lines", self.case);
-        let size = (WIDTH, HEAD + CELL.1 * self.rows());
-        svg(&name, &title, size, |area| {
-            self.head(area, "node lines of the")?;
-            let words = Letters::new(LETTERS, Side::Right);
-            let pen = Pen::solid(GRAY, 1.2);
-            for (name, x, fill) in [
+    /// [`PresentError::Drawing`].
+    pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
+        svg(name, title, self.height(), |area| {
+            head(area, "node lines of the")?;
+            for (words, x, fill) in [
                 ("test up", 440.0, GRAY),
                 ("test down; larger: farther", 525.0, WHITE),
             ] {
-                mark(area, (x, 44.0), (Form::Circle, 4.0), Some(fill), pen)?;
-                write(area, name, (x + 10.0, 44.0), words)?;
+                mark(area, (x, 44.0), point(4.0, fill))?;
+                write(area, words, (x + 10.0, 44.0), START)?;
             }
             self.each(area, |mode, corner| self.plan(area, mode, corner))
         })
@@ -123,96 +117,55 @@ impl NodeLines {
     /// The mode shapes in the quasi-isometric view as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
-    pub fn draw_shapes(&self) -> Result<String, Error> {
-        let name = format!("case_{}_mode_shapes", self.case);
-        let title = format!("Case {}: mode shapes", self.case);
-        let size = (WIDTH, HEAD + CELL.1 * self.rows());
-        svg(&name, &title, size, |area| {
-            self.head(area, "mid-plane, root at the left:")?;
+    /// [`PresentError::Drawing`].
+    pub fn draw_shapes(&self, name: &str, title: &str) -> Result<String, PresentError> {
+        svg(name, title, self.height(), |area| {
+            head(area, "mid-plane, root at the left:")?;
             self.each(area, |mode, corner| self.bent(area, mode, corner))
         })
     }
 
-    fn rows(&self) -> f64 {
-        self.modes.len().div_ceil(ACROSS) as f64
-    }
-
-    fn head(&self, area: &Area, what: &str) -> Drawn {
-        let words = Letters::new(LETTERS, Side::Right);
-        write(area, what, (14.0, 20.0), words)?;
-        let mut x = 24.0 + 6.4 * what.len() as f64;
-        for (name, pen) in pens() {
-            line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
-            write(area, name, (x + 43.0, 20.0), words)?;
-            x += 72.0 + 6.8 * name.len() as f64;
-        }
-        write(
-            area,
-            "frequencies in Hz: test | initial | correlated",
-            (14.0, 44.0),
-            words,
-        )
+    fn height(&self) -> f64 {
+        HEAD + CELL.1 * self.modes.len().div_ceil(ACROSS) as f64
     }
 
     fn each(&self, area: &Area, draw: impl Fn(usize, Place) -> Drawn) -> Drawn {
         for (mode, states) in self.modes.iter().enumerate() {
-            let corner = (
-                CELL.0 * (mode % ACROSS) as f64 + 14.0,
-                HEAD + CELL.1 * (mode / ACROSS) as f64,
-            );
+            let x = CELL.0 * (mode % ACROSS) as f64 + 14.0;
+            let y = HEAD + CELL.1 * (mode / ACROSS) as f64;
             let name = format!("Mode {}", mode + 1);
-            let at = (corner.0, corner.1 + 14.0);
-            write(area, &name, at, Letters::new(LETTERS, Side::Right).bold())?;
-            let frequencies = states
-                .each_ref()
-                .map(|state| Digits::Significant(4).write(state.frequency_hz));
-            let at = (corner.0 + 58.0, corner.1 + 14.0);
-            write(
-                area,
-                &frequencies.join(" | "),
-                at,
-                Letters::new(SMALL, Side::Right),
-            )?;
-            draw(mode, (corner.0, corner.1 + 26.0))?;
+            write(area, &name, (x, y + 14.0), START.bold())?;
+            let hertz = |state: &ModeState| Digits::Significant(4).write(state.frequency_hz);
+            let frequencies = states.each_ref().map(hertz).join(" | ");
+            write(area, &frequencies, (x + 58.0, y + 14.0), START.small())?;
+            draw(mode, (x, y + 26.0))?;
         }
         Ok(())
     }
 
     fn plan(&self, area: &Area, mode: usize, (left, top): Place) -> Drawn {
         let form = &self.planform;
-        let plan = Plan::fitted(
-            form.ribs.as_flattened(),
-            [left, top, CELL.0 - 34.0, CELL.1 - 44.0],
-        );
+        let room = [left, top, CELL.0 - 34.0, CELL.1 - 44.0];
+        let plan = Plan::fitted(form.ribs.as_flattened(), room);
         let place = |point: PlanPoint| plan.place(point);
+        let thin = Pen::solid(GRAY, 1.0);
         for rib in &form.ribs {
-            line(area, &rib.map(place), Pen::solid(GRAY, 1.0))?;
+            line(area, &rib.map(place), thin)?;
         }
         for side in [0, 1] {
-            let spar = form.ribs.map(|rib| place(rib[side]));
-            line(area, &spar, Pen::solid(GRAY, 1.0))?;
+            line(area, &form.ribs.map(|rib| place(rib[side])), thin)?;
         }
-        for (state, (_, pen)) in self.modes[mode].iter().zip(pens()) {
+        let states = &self.modes[mode];
+        for (state, (_, pen)) in states.iter().zip(pens()) {
             for node_line in &state.node_lines {
                 let points: Vec<Place> = node_line.iter().copied().map(place).collect();
                 line(area, &points, pen)?;
             }
         }
-        for (point, value) in form
-            .dynamic_points()
-            .into_iter()
-            .zip(self.modes[mode][0].shape)
-        {
+        for (at, value) in form.dynamic_points().into_iter().zip(states[0].shape) {
             let fill = if value > 0.0 { GRAY } else { WHITE };
             let size = 1.5 + 3.5 * value.abs().sqrt();
-            mark(
-                area,
-                place(point),
-                (Form::Circle, size),
-                Some(fill),
-                Pen::solid(GRAY, 1.2),
-            )?;
+            mark(area, place(at), point(size, fill))?;
         }
         Ok(())
     }
@@ -249,16 +202,17 @@ impl NodeLines {
     ) -> Vec<Vec<Place>> {
         const PARTS: usize = 12;
         let at = |rib: usize, xi: f64| flat(self.planform.on_rib(rib, xi), ribs[rib].at(xi));
-        let mut lines: Vec<Vec<Place>> = (0..ribs.len())
-            .map(|rib| {
-                (0..=PARTS)
-                    .map(|part| at(rib, part as f64 / PARTS as f64))
-                    .collect()
-            })
-            .collect();
-        for xi in [0.0, self.planform.mid_chord_fraction, 1.0] {
-            lines.push((0..ribs.len()).map(|rib| at(rib, xi)).collect());
-        }
-        lines
+        let along = |rib| {
+            let parts = 0..=PARTS;
+            parts
+                .map(|part| at(rib, part as f64 / PARTS as f64))
+                .collect()
+        };
+        let across = |xi| (0..ribs.len()).map(|rib| at(rib, xi)).collect();
+        let spars = [0.0, self.planform.mid_chord_fraction, 1.0];
+        (0..ribs.len())
+            .map(along)
+            .chain(spars.map(across))
+            .collect()
     }
 }

@@ -1,23 +1,19 @@
 //! The report as one web page that needs nothing beside it: tables, figures, assumptions, fit, and what made it.
 //!
-//! `report.html` beside this file is the page; here is what fills it. Texts on the box and on the differences from the published
-//! results are those of `paper/`, so that they are written once.
+//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written once.
 
-mod text;
+mod html;
 
+use super::figures::Figure;
+use super::table::{Digits, Table};
+use super::tables::cases::{fit_table, iteration_table, summary, tables_of};
+use super::tables::{fewer_modes, matrices};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
 use crate::method::error::Error;
-use crate::present::figures::Figure;
-use crate::present::report::correlation_tables::frequency_table;
-use crate::present::report::fewer_modes_tables::fewer_modes_tables;
-use crate::present::report::matrix_tables::matrix_tables;
-use crate::present::report::run_tables::all_tables;
-use crate::present::report::table::{Cell, Column, Digits, Row, Table};
 use crate::studies::matrix_comparison::MatrixComparison;
-use askama::Template;
-use text::section;
+use html::{escaped, figure, section, section_of, table};
 
 /// What the page tells.
 #[derive(Debug, Clone, Copy)]
@@ -36,135 +32,170 @@ pub struct Contents<'a> {
     pub command: &'a str,
 }
 
-/// The page.
-#[derive(Debug, Template)]
-#[template(path = "report.html", config = "src/present/page/askama.toml")]
-struct Page<'a> {
-    version: &'static str,
-    command: &'a str,
-    summary: Table,
-    anomalies: Vec<String>,
-    all_succeeded: bool,
-    cases: Vec<CaseSection<'a>>,
-    box_figures: Vec<&'a Figure>,
-    fewer_modes: Part<'a>,
-    matrices: Part<'a>,
-    assumptions: String,
-    differences: String,
-    fit: Table,
-    iterations: Table,
-    fit_rms_percent: String,
-    fit_largest_percent: String,
-}
-
-/// What the page shows of one case.
-#[derive(Debug)]
-struct CaseSection<'a> {
-    number: usize,
-    title: String,
-    part: Part<'a>,
-}
-
-/// Tables and the figures that belong to them.
-#[derive(Debug)]
-struct Part<'a> {
-    tables: Vec<Table>,
-    figures: Vec<&'a Figure>,
-}
+const TITLE: &str = "The wing torque box, correlated";
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The page.
 ///
 /// # Errors
-/// [`Error::Table`] for damaged published tables; [`Error::Page`] when the page cannot be put together.
+/// [`Error::Table`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, Error> {
-    let &Contents {
-        results,
-        fit,
-        figures,
-        command,
-        ..
-    } = contents;
-    let mut tables = all_tables(results, fit)?;
-    let mut take = |wanted: &dyn Fn(&Table) -> bool| -> Vec<Table> {
-        let (taken, rest) = std::mem::take(&mut tables).into_iter().partition(wanted);
-        tables = rest;
-        taken
-    };
-    let fit_table = only(take(&|table| table.name == "fit"), "fit")?;
-    let iterations = only(take(&|table| table.name == "table_13"), "table_13")?;
-    let cases = results
-        .iter()
-        .map(|result| {
-            let number = result.case.number;
-            let (heading, prefix) = (format!("Case {number}:"), format!("case_{number}_"));
-            CaseSection {
-                number,
-                title: about(number).to_owned(),
-                part: Part {
-                    tables: take(&|table| table.title.starts_with(&heading)),
-                    figures: named(figures, &prefix),
-                },
-            }
-        })
-        .collect();
-    let page = Page {
-        version: env!("CARGO_PKG_VERSION"),
-        command,
-        summary: summary(results)?,
-        anomalies: anomalies(results),
-        all_succeeded: results.iter().all(CaseResult::succeeded),
-        cases,
-        box_figures: [named(figures, "box_"), named(figures, "cover_")].concat(),
-        fewer_modes: Part {
-            tables: published_tables(contents.fewer_modes)?,
-            figures: named(figures, "truncation"),
-        },
-        matrices: Part {
-            tables: whole_tables(contents.matrices)?,
-            figures: named(figures, "matrices_"),
-        },
-        assumptions: section(
-            include_str!("../../../paper/reconstruction.md"),
-            "Assumed beyond the paper",
+    let mut sections = vec![
+        section("summary-section", "Summary", &summary_section(contents)?),
+        section("box", "The box", &box_section(contents)),
+    ];
+    let mut links = vec![
+        ("summary-section".to_owned(), "Summary".to_owned()),
+        ("box".to_owned(), "The box".to_owned()),
+    ];
+    for result in contents.results {
+        let number = result.case.number;
+        let id = format!("case-{number}");
+        let body = part(
+            &tables_of(result)?,
+            contents.figures,
+            &[&format!("case_{number}_")],
+        );
+        let heading = format!("Case {number}: {}", about(number));
+        sections.push(section(&id, &heading, &body));
+        links.push((id, format!("Case {number}")));
+    }
+    for (id, link, heading, body) in [
+        (
+            "fewer-modes",
+            "Fewer modes",
+            "With fewer modes",
+            fewer_modes_section(contents)?,
         ),
-        differences: section(include_str!("../../../paper/results.md"), ""),
-        fit: fit_table,
-        iterations,
-        fit_rms_percent: Digits::Fixed(3).write(100.0 * fit.rms),
-        fit_largest_percent: Digits::Fixed(2).write(100.0 * fit.largest),
-    };
-    page.render().map_err(|source| Error::Page { source })
+        (
+            "matrices",
+            "Elements or matrices",
+            "Why elements and not matrices",
+            matrices_section(contents)?,
+        ),
+        (
+            "cost",
+            "Iterations",
+            "Iterations",
+            table(&iteration_table(contents.results)?),
+        ),
+        (
+            "differences",
+            "Differences",
+            "Where the results differ from the published ones, and why",
+            section_of(include_str!("../../../paper/results.md"), ""),
+        ),
+        (
+            "made",
+            "How it was made",
+            "How it was made",
+            made_section(contents),
+        ),
+    ] {
+        sections.push(section(id, heading, &body));
+        links.push((id.to_owned(), link.to_owned()));
+    }
+    let link = |(id, words): (String, String)| format!("<a href=\"#{id}\">{words}</a>\n");
+    Ok(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {TITLE}</title>\n\
+         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{TITLE}</h1>\n<p>Element stiffnesses of a finite element \
+         model, corrected until its natural frequencies and mode shapes agree with those of a ground vibration test. \
+         Four cases of the published example, every number beside the published one.</p>\n</header>\n\
+         <nav aria-label=\"Contents\">\n{}</nav>\n<main>\n{}</main>\n</body>\n</html>\n",
+        include_str!("report.css"),
+        links.into_iter().map(link).collect::<String>(),
+        sections.concat(),
+    ))
 }
 
-/// Figures whose names begin alike.
-fn named<'a>(figures: &'a [Figure], prefix: &str) -> Vec<&'a Figure> {
-    let like = |figure: &&Figure| figure.name.starts_with(prefix);
-    figures.iter().filter(like).collect()
+/// Tables, then the figures whose names begin with one of the prefixes.
+fn part(tables: &[Table], figures: &[Figure], prefixes: &[&str]) -> String {
+    let starts = |figure: &&Figure| {
+        prefixes
+            .iter()
+            .any(|prefix| figure.name.starts_with(prefix))
+    };
+    let figures = figures.iter().filter(starts).map(figure);
+    tables.iter().map(table).chain(figures).collect()
+}
+
+fn summary_section(contents: &Contents) -> Result<String, Error> {
+    let results = contents.results;
+    let mut body = table(&summary(results)?);
+    body +=
+        "<p class=\"note\">Computed numbers, the published ones behind them in parentheses.</p>\n";
+    body += if results.iter().all(CaseResult::succeeded) {
+        "<p>Every case did what was asked of it: correlated within the tolerances, or named its modeling error.</p>\n"
+    } else {
+        "<p><strong>At least one case did not converge within its limits; the best found is shown.</strong></p>\n"
+    };
+    for result in results {
+        for anomaly in &result.anomalies {
+            body += &format!(
+                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, far outside the limits. Look for a modeling error there.</p>\n",
+                result.case.number,
+                escaped(&anomaly.parameter),
+                anomaly.factor
+            );
+        }
+    }
+    Ok(body)
+}
+
+fn box_section(contents: &Contents) -> String {
+    let fit = contents.fit;
+    let (rms, largest) = (
+        Digits::Fixed(3).write(100.0 * fit.rms),
+        Digits::Fixed(2).write(100.0 * fit.largest),
+    );
+    let assumed = section_of(
+        include_str!("../../../paper/reconstruction.md"),
+        "Assumed beyond the paper",
+    );
+    format!(
+        "<p>The paper prints neither coordinates nor masses. The box here was reconstructed from its results and \
+         reproduces its published frequencies to {rms} % RMS, {largest} % at worst. Agreement with those frequencies \
+         is calibration; agreement with everything else is evidence.</p>\n{}<h3>Assumed beyond the paper</h3>\n\
+         {assumed}<h3>How well it fits</h3>\n{}",
+        part(&[], contents.figures, &["box_", "cover_"]),
+        table(&fit_table(fit)),
+    )
 }
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
-fn published_tables(runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
+fn fewer_modes_section(contents: &Contents) -> Result<String, Error> {
     let is_published =
         |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
-    let published: Vec<FewerModesRun> = runs.iter().filter(is_published).cloned().collect();
-    let mut tables = fewer_modes_tables(&Case::new(PUBLISHED_CASE)?, &published, &[])?;
-    tables.retain(|table| !table.name.starts_with("truncation"));
-    Ok(tables)
+    let runs: Vec<FewerModesRun> = contents
+        .fewer_modes
+        .iter()
+        .filter(is_published)
+        .cloned()
+        .collect();
+    let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
+    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest analysis modes.</p>\n";
+    Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
 }
 
 /// What the corrections know and the factors they stand for; entry by entry they are left to their figure.
-fn whole_tables(comparison: &MatrixComparison) -> Result<Vec<Table>, Error> {
-    let mut tables = matrix_tables(&Case::new(comparison.case)?, comparison);
-    tables.retain(|table| table.name.starts_with("matrix_"));
-    Ok(tables)
+fn matrices_section(contents: &Contents) -> Result<String, Error> {
+    let comparison = contents.matrices;
+    let mut tables = matrices::knowledge_tables(comparison);
+    tables.push(matrices::factor_table(
+        &Case::new(comparison.case)?,
+        comparison,
+    ));
+    let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made after the test.</p>\n";
+    Ok(lead.to_owned() + &part(&tables, contents.figures, &["matrices_"]))
 }
 
-fn only(mut tables: Vec<Table>, name: &str) -> Result<Table, Error> {
-    tables.pop().ok_or_else(|| Error::Table {
-        name: name.to_owned(),
-        expected: "one such table in the report".into(),
-        found: "none".into(),
-    })
+fn made_section(contents: &Contents) -> String {
+    format!(
+        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; frequency in hertz. The same command gives the same page.</p>\n",
+        escaped(contents.command)
+    )
 }
 
 /// What a case of the paper is about.
@@ -174,104 +205,5 @@ fn about(case: usize) -> &'static str {
         2 => "membrane covers, all panels half as thick again",
         3 => "membrane covers, gages alternating 30 percent above and below",
         _ => "one cover a hundred times too thin by mistake",
-    }
-}
-
-/// First and last RMS errors and the iterations of every case, with the published ones.
-///
-/// # Errors
-/// [`Error::Table`] for damaged published tables.
-pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
-    let mut rows = Vec::new();
-    for result in results {
-        let table = frequency_table(result)?;
-        let mut cells = Vec::new();
-        for label in ["frequency RMS", "shape RMS"] {
-            let row = table.rows.iter().find(|row| row.label == label);
-            let numbers: Vec<&Cell> = row
-                .map(|row| {
-                    let number = |cell: &&Cell| matches!(cell, Cell::Number { .. });
-                    row.cells.iter().filter(number).collect()
-                })
-                .unwrap_or_default();
-            for cell in [numbers.first(), numbers.last()] {
-                cells.push(cell.map_or(Cell::Blank, |&cell| cell.clone()));
-            }
-        }
-        let passes = &result.correlation.passes;
-        let counts: Vec<String> = passes
-            .iter()
-            .map(|pass| pass.inner.iterations.len().to_string())
-            .collect();
-        cells.push(Cell::Text(counts.join(", ")));
-        cells.push(Cell::Text(outcome(result)));
-        rows.push(Row {
-            label: result.case.number.to_string(),
-            cells,
-        });
-    }
-    let percent = |name: &str| Column {
-        name: name.to_owned(),
-        unit: "%",
-    };
-    let text = |name: &str| Column {
-        name: name.to_owned(),
-        unit: "",
-    };
-    Ok(Table {
-        name: "summary".to_owned(),
-        title: "RMS errors over nine modes, first and last model".to_owned(),
-        label_heading: "Case",
-        columns: vec![
-            percent("Frequency, first"),
-            percent("Frequency, last"),
-            percent("Shape, first"),
-            percent("Shape, last"),
-            text("Iterations by pass"),
-            text("Outcome"),
-        ],
-        rows,
-        notes: Vec::new(),
-    })
-}
-
-/// What became of a case, in a few words.
-fn outcome(result: &CaseResult) -> String {
-    if result.correlation.converged {
-        return "correlated".to_owned();
-    }
-    match result.anomalies.first() {
-        Some(anomaly) => format!("modeling error in element {}", anomaly.parameter),
-        None => "not converged".to_owned(),
-    }
-}
-
-/// One sentence for every modeling error found.
-fn anomalies(results: &[CaseResult]) -> Vec<String> {
-    let mut sentences = Vec::new();
-    for result in results {
-        for anomaly in &result.anomalies {
-            sentences.push(format!(
-                "Case {}: element {} asks for {:.1} times its stiffness in the first iteration, far outside the limits. Look for a modeling error there.",
-                result.case.number, anomaly.parameter, anomaly.factor
-            ));
-        }
-    }
-    sentences
-}
-
-/// How a cell is written, and the published number behind it.
-fn written(cell: &Cell) -> (String, Option<String>) {
-    match cell {
-        Cell::Blank => (String::new(), None),
-        Cell::Text(text) => (text.clone(), None),
-        Cell::Number {
-            computed,
-            published,
-            digits,
-        } => (
-            digits.write(*computed),
-            published.map(|paper| digits.write(paper)),
-        ),
     }
 }

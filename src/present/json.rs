@@ -1,0 +1,167 @@
+//! Results as JSON: every document begins with program, version and units, and a correlation always has the same form.
+//!
+//! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors of
+//! a pass are totals since the first model, those of an iteration totals since the last exact solution. A number that is
+//! not finite is `null`.
+
+use super::error::PresentError;
+use super::tables::cases::published_iterations;
+use super::tables::deck::{UnitShapes, not_read};
+use crate::cases::CaseResult;
+use crate::cases::fewer_modes::FewerModesRun;
+use crate::cases::fit::Fit;
+use crate::cases::torque_box::TEST_GAGE;
+use crate::files::deck::{Deck, DeckModes};
+use crate::method::inner_loop::Iteration;
+use crate::method::modes::Modes;
+use crate::method::outer_loop::{Check, Correlation, Pass};
+use crate::method::structure::DIRECTIONS;
+use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
+use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
+use crate::studies::matrix_comparison::MatrixComparison;
+use serde_json::{Value, json};
+
+/// A document with its heading as pretty-printed JSON and a final newline.
+///
+/// # Errors
+/// [`PresentError::Json`], which memory alone could cause.
+pub fn document(content: Value) -> Result<String, PresentError> {
+    let mut document = json!({
+        "program": env!("CARGO_PKG_NAME"),
+        "version": env!("CARGO_PKG_VERSION"),
+        "units": "inch, pound-force, second, hertz; errors are fractions",
+    });
+    if let (Some(all), Value::Object(content)) = (document.as_object_mut(), content) {
+        all.extend(content);
+    }
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+/// Any correlation: its parameters by name, its test, and its whole history; `solver` did the finite element analyses.
+pub fn correlation(solver: &str, names: &[&str], test: &Modes, run: &Correlation) -> Value {
+    json!({
+        "solver": solver,
+        "converged": run.converged,
+        "parameters": names,
+        "test_frequencies_hz": test.frequencies_hz(),
+        "initial": check(&run.initial),
+        "passes": run.passes.iter().map(pass).collect::<Value>(),
+    })
+}
+
+fn check(check: &Check) -> Value {
+    json!({
+        "frequencies_hz": check.frequencies_hz,
+        "frequency_rms": check.errors.frequency_rms(),
+        "shape_rms": check.errors.shape_rms(),
+    })
+}
+
+fn pass(pass: &Pass) -> Value {
+    json!({
+        "iterations": pass.inner.iterations.len(),
+        "stop": pass.inner.stop,
+        "unlimited_factors": pass.inner.first_unlimited_factors,
+        "factors": pass.factors,
+        "exact": check(&pass.check),
+        "history": pass.inner.iterations.iter().map(iteration).collect::<Value>(),
+    })
+}
+
+fn iteration(iteration: &Iteration) -> Value {
+    json!({
+        "frequency_error": iteration.errors.frequency,
+        "shape_error": iteration.errors.shape,
+        "error_sum": iteration.errors.sum(),
+        "halvings": iteration.halvings,
+        "unlimited_factors": iteration.unlimited_factors,
+        "factors": iteration.factors,
+        "limits": iteration.limits,
+    })
+}
+
+/// The history of the cases run, and the fit of the box.
+///
+/// # Errors
+/// [`PresentError::Method`] if Table 13 were damaged; those of [`document`].
+pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
+    let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
+    document(json!({ "cases": cases, "reconstruction_fit": fit }))
+}
+
+fn case(result: &CaseResult) -> Result<Value, PresentError> {
+    let names: Vec<&str> = result.parameter_names.iter().map(String::as_str).collect();
+    let panels = result.case.panels.iter();
+    let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor});
+    Ok(json!({
+        "case": result.case.number,
+        "succeeded": result.succeeded(),
+        "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
+        "published_iterations": published_iterations(result)?,
+        "element_numbers": panels.map(|panel| panel.label).collect::<Value>(),
+        "test_gage_in": TEST_GAGE,
+        "first_gages_in": result.case.first_gages(),
+        "pass_gages_in": result.pass_gages,
+        "anomalies": result.anomalies.iter().map(anomaly).collect::<Value>(),
+    }))
+}
+
+/// Runs with fewer modes.
+///
+/// # Errors
+/// Those of [`document`].
+pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
+    document(json!({ "runs": runs }))
+}
+
+/// A comparison of matrix corrections.
+///
+/// # Errors
+/// Those of [`document`].
+pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
+    document(json!({ "comparison": comparison }))
+}
+
+/// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.
+///
+/// # Errors
+/// Those of the wing's analyses and of [`document`].
+pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
+    let names: Vec<&str> = run.groups.iter().map(|found| found.group.name).collect();
+    let group = |found: &Recovered| {
+        json!({
+            "name": found.group.name,
+            "elements": found.group.elements,
+            "true_factor": found.true_factor(),
+            "factor": found.factor,
+            "largest_share": found.share,
+        })
+    };
+    document(json!({
+        "measured_grids": MEASURED_GRIDS,
+        "trailing_edge_load_deflections_in": wing.deflections(TipLoad::TrailingEdge)?,
+        "leading_edge_load_deflections_in": wing.deflections(TipLoad::LeadingEdge)?,
+        "frequencies_hz": wing.modes()?.modes.frequencies_hz(),
+        "groups": run.groups.iter().map(group).collect::<Value>(),
+        "test_modes": TEST_MODES,
+        "correlation": correlation(run.solver, &names, &run.test, &run.correlation),
+    }))
+}
+
+/// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of
+/// `dof`.
+///
+/// # Errors
+/// Those of [`document`].
+pub fn deck_modes(deck: &Deck, modes: &DeckModes, count: usize) -> Result<String, PresentError> {
+    let scaled = UnitShapes::new(modes, count);
+    let dof = modes.dof.iter();
+    let dof = dof.map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
+    document(json!({
+        "dof": dof.collect::<Value>(),
+        "frequencies_hz": scaled.frequencies_hz,
+        "generalized_masses": scaled.masses,
+        "shapes": scaled.shapes,
+        "not_read": deck.unread.iter().map(not_read).collect::<Value>(),
+    }))
+}

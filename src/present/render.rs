@@ -1,0 +1,204 @@
+//! Tables as text for a terminal, as Markdown and as CSV.
+
+use super::table::{Cell, Row, Table};
+
+/// No line of text is longer, characters.
+pub const WIDTH: usize = 100;
+/// Blanks between two columns of text.
+const GAP: usize = 2;
+/// Label of a row of published numbers in text.
+const PUBLISHED: &str = "  published";
+
+/// Tables as text, no line of it longer than [`WIDTH`].
+///
+/// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below
+/// itself with the columns that are left. (One label or cell wider than the page alone is left whole.)
+pub fn text(tables: &[Table]) -> String {
+    let mut paragraphs = Vec::new();
+    if tables.iter().any(Table::is_published) {
+        paragraphs
+            .push("Computed numbers, the published ones in rows of their own below them.".into());
+    }
+    for table in tables {
+        paragraphs.push(wrapped(&table.title));
+        paragraphs.extend(grids(table));
+        paragraphs.extend(table.notes.iter().map(|note| wrapped(note)));
+    }
+    paragraphs.join("\n\n") + "\n"
+}
+
+/// Tables as Markdown; each computed number has the published one behind it in parentheses.
+pub fn markdown(tables: &[Table]) -> String {
+    let mut paragraphs = Vec::new();
+    if tables.iter().any(Table::is_published) {
+        paragraphs.push("Computed numbers, the published ones behind them in parentheses.".into());
+    }
+    for table in tables {
+        paragraphs.push(format!("## {}", table.title));
+        let headings = table.columns.iter().map(|column| match column.unit {
+            "" => column.name.clone(),
+            unit => format!("{}, {unit}", column.name),
+        });
+        let line = |label: &str, cells: Vec<String>| format!("| {label} | {} |", cells.join(" | "));
+        let rule = vec!["---:".to_owned(); table.columns.len()];
+        let mut lines = vec![
+            line(table.label_heading, headings.collect()),
+            line("---", rule),
+        ];
+        for row in &table.rows {
+            let cells = row.cells.iter().map(|cell| match cell.published() {
+                Some(published) => format!("{} ({published})", cell.computed()),
+                None => cell.computed(),
+            });
+            lines.push(line(&row.label, cells.collect()));
+        }
+        paragraphs.push(lines.join("\n"));
+        paragraphs.extend(table.notes.iter().cloned());
+    }
+    paragraphs.join("\n\n") + "\n"
+}
+
+/// Tables as CSV, one number a line: `table,row,column,unit,computed,published`; ten significant digits computed,
+/// and the published one as printed.
+pub fn csv(tables: &[Table]) -> String {
+    let mut out = "table,row,column,unit,computed,published\n".to_owned();
+    for table in tables {
+        for row in &table.rows {
+            for (column, cell) in table.columns.iter().zip(&row.cells) {
+                let (computed, published) = match cell {
+                    Cell::Blank => continue,
+                    Cell::Text(words) => (words.clone(), None),
+                    Cell::Number {
+                        computed,
+                        published,
+                        ..
+                    } => (ten_digits(*computed), *published),
+                };
+                let published = published.map_or_else(String::new, |value| value.to_string());
+                let [name, label, heading] = [&table.name, &row.label, &column.name];
+                let fields = [name, label, heading, column.unit, &computed, &published];
+                out += &fields.map(quoted).join(",");
+                out.push('\n');
+            }
+        }
+    }
+    out
+}
+
+/// A field of CSV, in quotes if it holds what would end it.
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+/// Ten significant digits in the shortest form that keeps them.
+fn ten_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+/// A column of text: lines of its heading, and its cells with the published ones between them where a row has any.
+struct TextColumn {
+    heading: Vec<String>,
+    cells: Vec<String>,
+    width: usize,
+}
+
+impl TextColumn {
+    fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
+        let length = |text: &String| text.chars().count();
+        let widest = cells.iter().map(length).max().unwrap_or(0);
+        let word = name.split(' ').map(|word| word.chars().count()).max();
+        let width = widest.max(word.unwrap_or(0)).max(unit.chars().count());
+        let mut heading = lines(name, width);
+        heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
+        Self {
+            heading,
+            cells,
+            width,
+        }
+    }
+}
+
+/// The table, in as many parts side by side as its width asks for.
+fn grids(table: &Table) -> Vec<String> {
+    let has_published = |row: &Row| row.cells.iter().any(|cell| cell.published().is_some());
+    let mut labels = Vec::new();
+    for row in &table.rows {
+        labels.push(row.label.clone());
+        labels.extend(has_published(row).then(|| PUBLISHED.to_owned()));
+    }
+    let label = TextColumn::new(table.label_heading, "", labels);
+    let mut parts: Vec<Vec<TextColumn>> = vec![Vec::new()];
+    let mut used = label.width;
+    for (at, column) in table.columns.iter().enumerate() {
+        let mut cells = Vec::new();
+        for row in &table.rows {
+            let cell = row.cells.get(at).unwrap_or(&Cell::Blank);
+            cells.push(cell.computed());
+            cells.extend(has_published(row).then(|| cell.published().unwrap_or_default()));
+        }
+        let column = TextColumn::new(&column.name, column.unit, cells);
+        if used + GAP + column.width > WIDTH && used > label.width {
+            parts.push(Vec::new());
+            used = label.width;
+        }
+        used += GAP + column.width;
+        if let Some(part) = parts.last_mut() {
+            part.push(column);
+        }
+    }
+    parts.iter().map(|part| grid(&label, part)).collect()
+}
+
+/// One part: headings, rows, and a rule below each.
+fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
+    let line = |first: &str, cell: &dyn Fn(&TextColumn) -> String| {
+        let mut line = format!("{first:<width$}", width = label.width);
+        for column in columns {
+            line += &format!("{:>width$}", cell(column), width = GAP + column.width);
+        }
+        line.trim_end().to_owned()
+    };
+    let all = || columns.iter().chain([label]);
+    let high = all().map(|column| column.heading.len()).max().unwrap_or(0);
+    // Headings stand on the rule: the shorter ones begin lower.
+    let heading = |column: &TextColumn, at: usize| {
+        let from = high - column.heading.len();
+        let words = at.checked_sub(from).and_then(|row| column.heading.get(row));
+        words.cloned().unwrap_or_default()
+    };
+    let mut lines: Vec<String> = (0..high)
+        .map(|at| line(&heading(label, at), &|column| heading(column, at)))
+        .collect();
+    let width = label.width + columns.iter().map(|c| GAP + c.width).sum::<usize>();
+    let rule = "─".repeat(width);
+    lines.push(rule.clone());
+    let rows = label.cells.iter().enumerate();
+    lines.extend(rows.map(|(row, name)| line(name, &|column| column.cells[row].clone())));
+    lines.push(rule);
+    lines.join("\n")
+}
+
+/// A paragraph in lines of at most [`WIDTH`].
+fn wrapped(paragraph: &str) -> String {
+    lines(paragraph, WIDTH).join("\n")
+}
+
+/// Words in lines of at most a width, but for a single word that is longer.
+fn lines(words: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

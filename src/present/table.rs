@@ -1,0 +1,198 @@
+//! A table as data: numbers with their published counterparts, before any layout.
+
+/// How a number is written for a reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Digits {
+    /// This many digits after the point.
+    Fixed(usize),
+    /// This many significant digits, without an exponent.
+    Significant(usize),
+    /// This many digits after the point of the mantissa, with an exponent.
+    Scientific(usize),
+}
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// Nothing.
+    Blank,
+    /// Words.
+    Text(String),
+    /// A number, and the one printed elsewhere for it if there is any.
+    Number {
+        /// Computed here.
+        computed: f64,
+        /// Printed in the paper.
+        published: Option<f64>,
+        /// How it is written.
+        digits: Digits,
+    },
+}
+
+/// A column's heading.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name, unique in the table.
+    pub name: String,
+    /// Unit of its numbers: `Hz`, `in`, `%` or empty.
+    pub unit: &'static str,
+}
+
+/// One row: its label, then a cell per column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What it is about, for example mode 3.
+    pub label: String,
+    /// Cells, as many as the table has columns.
+    pub cells: Vec<Cell>,
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Short name for files and for CSV, such as `table_3`.
+    pub name: String,
+    /// Title for readers.
+    pub title: String,
+    /// What the row labels are.
+    pub label_heading: &'static str,
+    /// Columns after the label.
+    pub columns: Vec<Column>,
+    /// Rows.
+    pub rows: Vec<Row>,
+    /// Sentences under the table.
+    pub notes: Vec<String>,
+}
+
+impl Cell {
+    /// A number with nothing published for it.
+    pub fn number(computed: f64, digits: Digits) -> Self {
+        Self::beside(computed, digits, None)
+    }
+
+    /// A number beside the published one, if there is any.
+    pub fn beside(computed: f64, digits: Digits, published: Option<f64>) -> Self {
+        Self::Number {
+            computed,
+            published,
+            digits,
+        }
+    }
+
+    /// A count.
+    pub fn count(count: usize) -> Self {
+        Self::number(count as f64, Digits::Fixed(0))
+    }
+
+    /// A fraction in percent.
+    pub fn percent(fraction: f64, digits: Digits) -> Self {
+        Self::number(100.0 * fraction, digits)
+    }
+
+    /// Words.
+    pub fn text(words: impl Into<String>) -> Self {
+        Self::Text(words.into())
+    }
+
+    /// The published number behind it.
+    pub fn published(&self) -> Option<String> {
+        match self {
+            Self::Number {
+                published, digits, ..
+            } => published.map(|value| digits.write(value)),
+            _ => None,
+        }
+    }
+
+    /// The computed number, or the words, as a reader sees them.
+    pub fn computed(&self) -> String {
+        match self {
+            Self::Blank => String::new(),
+            Self::Text(words) => words.clone(),
+            Self::Number {
+                computed, digits, ..
+            } => digits.write(*computed),
+        }
+    }
+}
+
+impl Table {
+    /// A table without columns and rows.
+    pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            label_heading: label,
+            columns: Vec::new(),
+            rows: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// The table with one more column.
+    pub fn column(mut self, name: impl Into<String>, unit: &'static str) -> Self {
+        let name = name.into();
+        self.columns.push(Column { name, unit });
+        self
+    }
+
+    /// The table with more columns of one unit.
+    pub fn columns<N: Into<String>>(
+        self,
+        names: impl IntoIterator<Item = N>,
+        unit: &'static str,
+    ) -> Self {
+        let add = |table: Self, name: N| table.column(name, unit);
+        names.into_iter().fold(self, add)
+    }
+
+    /// The table with one more sentence under it.
+    pub fn note(mut self, sentence: impl Into<String>) -> Self {
+        self.notes.push(sentence.into());
+        self
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, label: impl ToString, cells: impl IntoIterator<Item = Cell>) {
+        self.rows.push(Row {
+            label: label.to_string(),
+            cells: cells.into_iter().collect(),
+        });
+    }
+
+    /// Whether any number has a published one behind it.
+    pub fn is_published(&self) -> bool {
+        let mut cells = self.rows.iter().flat_map(|row| &row.cells);
+        cells.any(|cell| cell.published().is_some())
+    }
+}
+
+impl Digits {
+    /// Writes a number.
+    ///
+    /// A value that rounds to zero is written without a sign, so that round-off cannot show.
+    pub fn write(self, value: f64) -> String {
+        let text = match self {
+            Self::Fixed(decimals) => format!("{value:.decimals$}"),
+            Self::Scientific(decimals) => return format!("{value:.decimals$e}"),
+            Self::Significant(digits) => {
+                // Rounded first: 99.996 has five digits before the point's second place once it is 100.00.
+                let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+                let magnitude = rounded.split_once('e').and_then(|(_, e)| e.parse().ok());
+                let decimals = digits as i64 - 1 - magnitude.unwrap_or(0);
+                format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+            }
+        };
+        let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+        if is_zero {
+            text.trim_start_matches('-').to_owned()
+        } else {
+            text
+        }
+    }
+}
+
+/// A number of things in words: `1 iteration`, `2 iterations`.
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

@@ -1,0 +1,299 @@
+//! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
+
+use super::correlation::{self, JudgedFactor, checks, frequencies, judged_factors, solver_note};
+use super::stages::{Stages, stage_title};
+use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks};
+use crate::cases::fit::Fit;
+use crate::cases::published::PublishedTable;
+use crate::cases::torque_box::{TEST_GAGE, gage_rms};
+use crate::cases::{CASES, CaseResult, Grouping};
+use crate::method::error::Error;
+use crate::method::error_sum::Errors;
+use crate::method::structure::ElementKind;
+use crate::present::table::{Cell, Digits, Table};
+
+/// The one factor the paper quotes: about 60, for the faulty cover of Case 4.
+const QUOTED_FACTOR: (usize, &str, f64) = (4, "8", 60.0);
+
+/// The published table to stand beside a run's, if the paper made that run: by single elements.
+fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, Error> {
+    match (numbers.get(result.case.number - 1), result.case.grouping) {
+        (Some(&number), Grouping::Elements) => PublishedTable::number(number).map(Some),
+        _ => Ok(None),
+    }
+}
+
+/// An empty table of a case, named by the paper's number if it has one.
+fn named(
+    result: &CaseResult,
+    paper: Option<&PublishedTable>,
+    what: &str,
+    label: &'static str,
+) -> Table {
+    let case = result.case.number;
+    let (name, number) = match paper {
+        Some(table) => (
+            format!("table_{}", table.number),
+            format!(" (Table {})", table.number),
+        ),
+        None => (format!("case_{case}_{what}"), String::new()),
+    };
+    Table::new(
+        name,
+        format!("Case {case}: {what} and errors{number}"),
+        label,
+    )
+}
+
+/// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
+///
+/// # Errors
+/// [`Error::Table`] if the published table were damaged.
+pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
+    let paper = published([3, 5, 7], result)?;
+    let test = result.test.frequencies_hz();
+    let table = named(result, paper.as_ref(), "frequencies", "Mode");
+    let checks = checks(&result.correlation);
+    let mut table = frequencies(table, &test, &checks, |stages| {
+        stages.paper = paper.as_ref()
+    });
+    table.notes.extend(solver_note(
+        result.solver,
+        ", of the test configuration too,",
+    ));
+    table.notes.extend(remarks(paper.as_ref()));
+    Ok(table)
+}
+
+/// Gages at the start and after every pass, in, with the names of these stages.
+fn gage_stages(result: &CaseResult) -> Vec<(String, Vec<f64>)> {
+    let passes = result.pass_gages.iter().enumerate();
+    let pass = passes.map(|(row, gages)| (format!("pass_{}", row + 1), gages.clone()));
+    std::iter::once(("initial".to_owned(), result.case.first_gages()))
+        .chain(pass)
+        .collect()
+}
+
+/// Gage errors of one stage: its name, and for every panel the percent computed and the one published, if any.
+pub type GageStage = (String, Vec<(f64, Option<f64>)>);
+
+/// Gage errors of a case at the start and after every pass.
+///
+/// # Errors
+/// [`Error::Table`] if the published table were damaged.
+pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, Error> {
+    let paper = published([4, 6, 8], result)?;
+    let stage = |(stage, gages): (String, Vec<f64>)| {
+        let heading = format!("{stage}_percent");
+        let panels = gages.iter().zip(&result.case.panels).map(|(gage, panel)| {
+            let row = panel.label.to_string();
+            let printed = paper.as_ref().and_then(|paper| paper.value(&row, &heading));
+            (100.0 * (gage / TEST_GAGE - 1.0), printed)
+        });
+        let panels = panels.collect();
+        (stage_title(&stage), panels)
+    };
+    Ok(gage_stages(result).into_iter().map(stage).collect())
+}
+
+/// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
+///
+/// # Errors
+/// [`Error::Table`] if the published table were damaged.
+pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
+    let paper = published([4, 6, 8], result)?;
+    let panels = &result.case.panels;
+    let gages = gage_stages(result);
+    let found = gages.iter().map(|(name, gages)| (name.clone(), &gages[..]));
+    let mut stages = Stages::of_gages(panels, found.collect());
+    stages.paper = paper.as_ref();
+    let mut table = stages
+        .fill(named(result, paper.as_ref(), "gages", "Element"))
+        .note(KINDS);
+    for (row, kind) in [
+        ("shear_rms", ElementKind::ShearPanel),
+        ("membrane_rms", ElementKind::Membrane),
+    ] {
+        if panels.iter().any(|panel| panel.kind == kind) {
+            let errors = gages
+                .iter()
+                .map(|(_, gages)| Some(gage_rms(panels, gages, kind)));
+            stages.add_errors(&mut table, &in_words(row), Some(row), PERCENT, errors);
+        }
+    }
+    table.notes.extend(remarks(paper.as_ref()));
+    Ok(table)
+}
+
+/// What the first iteration of a case asks of every parameter, beside what the paper quotes.
+pub fn unlimited_factors(result: &CaseResult) -> Vec<JudgedFactor> {
+    let bounds = result.case.settings.inner.factor_range;
+    let mut factors = judged_factors(&result.parameter_names, result.unlimited_factors(), bounds);
+    for factor in &mut factors {
+        let (case, parameter, quoted) = QUOTED_FACTOR;
+        let is_quoted = (case, parameter) == (result.case.number, &factor.parameter);
+        factor.published = is_quoted.then_some(quoted);
+    }
+    factors
+}
+
+/// Unlimited stiffness change factors of the first iteration, and the elements they give away.
+pub fn factor_table(result: &CaseResult) -> Table {
+    let case = result.case.number;
+    let kind = match result.case.grouping {
+        Grouping::Elements => "element",
+        Grouping::Substructures => "group",
+    };
+    correlation::factor_table(
+        &format!("case_{case}_factors"),
+        &format!("Case {case}: unlimited stiffness change factors, first iteration"),
+        &unlimited_factors(result),
+        result.case.settings.inner.factor_range,
+        kind,
+    )
+}
+
+/// The paper's iterations for every pass of a run, where it made that run (Table 13).
+///
+/// # Errors
+/// [`Error::Table`] if the published table were damaged.
+pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Error> {
+    let paper = PublishedTable::number(13)?;
+    let is_papers = result.case.grouping == Grouping::Elements;
+    let row = result.case.number.to_string();
+    let printed = |pass: usize| paper.value(&row, &format!("pass_{pass}_iterations"));
+    let passes = 1..=result.correlation.passes.len();
+    Ok(passes
+        .map(|pass| printed(pass).filter(|_| is_papers))
+        .collect())
+}
+
+/// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
+///
+/// # Errors
+/// [`Error::Table`] if the published table were damaged.
+pub fn iteration_table(results: &[CaseResult]) -> Result<Table, Error> {
+    let passes = |result: &CaseResult| result.correlation.passes.len();
+    let most = results.iter().map(passes).max().unwrap_or(0);
+    let title = "Inner loop iterations per pass (Table 13)";
+    let mut table = Table::new("table_13", title, "Case")
+        .columns((1..=most).map(|pass| format!("Pass {pass}")), "");
+    for result in results {
+        let passes = result.correlation.passes.iter();
+        let counts = passes.map(|pass| pass.inner.iterations.len() as f64);
+        let printed = published_iterations(result)?;
+        let cells = counts
+            .zip(printed)
+            .map(|(n, printed)| Cell::beside(n, Digits::Fixed(0), printed));
+        let missing = most - result.correlation.passes.len();
+        let blanks = std::iter::repeat_n(Cell::Blank, missing);
+        table.row(result.case.number, cells.chain(blanks));
+    }
+    table.notes = remarks(Some(&PublishedTable::number(13)?));
+    Ok(table)
+}
+
+/// How well the reconstructed box reproduces the published frequencies, column by column.
+pub fn fit_table(fit: &Fit) -> Table {
+    let (case, stage, mode) = &fit.largest_at;
+    let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
+    let title = "The reconstructed box: computed frequencies at published gages against published";
+    let mut table = Table::new("fit", title, "Column")
+        .columns(["RMS", "Largest"], "%")
+        .note(format!(
+            "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement with everything else is evidence.",
+            100.0 * fit.rms,
+            100.0 * fit.largest,
+            in_words(stage),
+        ));
+    for column in &fit.columns {
+        let squares: f64 = column.differences().map(|d| d * d).sum();
+        let largest = column
+            .differences()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let rms = (squares / column.frequencies_hz.len() as f64).sqrt();
+        let cells = [rms, largest.unwrap_or(0.0)].map(|value| Cell::percent(value, RMS_PERCENT));
+        table.row(
+            format!("Case {} {}", column.case, in_words(&column.column)),
+            cells,
+        );
+    }
+    table
+}
+
+/// Every table of a run, in the order of the report.
+///
+/// # Errors
+/// [`Error::Table`] if published tables were damaged.
+pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Error> {
+    let mut tables = Vec::new();
+    for result in results {
+        tables.extend(tables_of(result)?);
+    }
+    tables.push(iteration_table(results)?);
+    tables.push(fit_table(fit));
+    Ok(tables)
+}
+
+/// The tables of one case: frequencies, gages, and in Case 4 what its single iteration asks for.
+///
+/// # Errors
+/// [`Error::Table`] if published tables were damaged.
+pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, Error> {
+    let mut tables = vec![frequency_table(result)?, gage_table(result)?];
+    tables.extend((result.case.number == CASES[3]).then(|| factor_table(result)));
+    Ok(tables)
+}
+
+/// First and last RMS errors and the iterations of every case, with the published ones.
+///
+/// # Errors
+/// [`Error::Table`] for damaged published tables.
+pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
+    let title = "RMS errors over nine modes, first and last model";
+    let mut table = Table::new("summary", title, "Case")
+        .columns(
+            [
+                "Frequency, first",
+                "Frequency, last",
+                "Shape, first",
+                "Shape, last",
+            ],
+            "%",
+        )
+        .columns(["Iterations by pass", "Outcome"], "");
+    for result in results {
+        let paper = published([3, 5, 7], result)?;
+        let last = format!("pass_{}", result.correlation.passes.len());
+        let ends = [
+            ("initial", &result.correlation.initial.errors),
+            (&last, &correlation::last_check(&result.correlation).errors),
+        ];
+        let rms = |row: &str, value: fn(&Errors) -> f64| {
+            ends.map(|(stage, errors)| {
+                let heading = format!("{stage}_percent");
+                let printed = paper.as_ref().and_then(|paper| paper.value(row, &heading));
+                Cell::beside(100.0 * value(errors), RMS_PERCENT, printed)
+            })
+        };
+        let passes = result.correlation.passes.iter();
+        let counts: Vec<String> = passes
+            .map(|pass| pass.inner.iterations.len().to_string())
+            .collect();
+        let words = [counts.join(", "), outcome(result)].map(Cell::text);
+        let frequency = rms("frequency_rms", Errors::frequency_rms);
+        let shape = rms("shape_rms", Errors::shape_rms);
+        let cells = frequency.into_iter().chain(shape).chain(words);
+        table.row(result.case.number, cells);
+    }
+    Ok(table)
+}
+
+/// What became of a case, in a few words.
+fn outcome(result: &CaseResult) -> String {
+    match result.anomalies.first() {
+        _ if result.correlation.converged => "correlated".to_owned(),
+        Some(anomaly) => format!("modeling error in element {}", anomaly.parameter),
+        None => "not converged".to_owned(),
+    }
+}

@@ -1,0 +1,179 @@
+//! Tables of any correlation: its frequencies, what its first iteration asks for, and its passes.
+
+use super::RMS_PERCENT;
+use super::stages::Stages;
+use crate::cases::{BUILT_IN, anomalies};
+use crate::method::error_sum::Errors;
+use crate::method::inner_loop::Stop;
+use crate::method::outer_loop::{Check, Correlation};
+use crate::method::step::Range;
+use crate::present::table::{Cell, Digits, Table};
+
+/// Exact solutions with the names of their stages.
+pub(super) type Checks<'a> = Vec<(String, &'a Check)>;
+
+/// All exact solutions of a correlation: `initial`, `pass_1`, …
+pub(super) fn checks(correlation: &Correlation) -> Checks<'_> {
+    let passes = correlation.passes.iter().enumerate();
+    let pass = passes.map(|(row, pass)| (format!("pass_{}", row + 1), &pass.check));
+    std::iter::once(("initial".to_owned(), &correlation.initial))
+        .chain(pass)
+        .collect()
+}
+
+/// The exact solution at the end: of the last pass, or the initial one without any.
+pub fn last_check(correlation: &Correlation) -> &Check {
+    let last = correlation.passes.last();
+    last.map_or(&correlation.initial, |pass| &pass.check)
+}
+
+/// Frequencies of a correlation beside those of the test, and both RMS errors, for every exact solution.
+///
+/// Rows are the test modes by number from one, frequencies those of the paired analysis modes.
+pub fn frequency_table(name: &str, title: &str, test_hz: &[f64], run: &Correlation) -> Table {
+    frequencies(
+        Table::new(name, title, "Mode"),
+        test_hz,
+        &checks(run),
+        |_| (),
+    )
+}
+
+/// The same for chosen exact solutions; `adapt` may add a published table and change labels and digits.
+pub(super) fn frequencies<'a>(
+    table: Table,
+    test_hz: &'a [f64],
+    checks: &'a Checks,
+    adapt: impl FnOnce(&mut Stages<'a>),
+) -> Table {
+    let found = checks.iter();
+    let found = found.map(|(name, check)| (name.clone(), &check.frequencies_hz[..]));
+    let mut stages = Stages::of_modes(test_hz.len(), test_hz, found.collect());
+    adapt(&mut stages);
+    let mut table = stages.fill(table);
+    type Rms = fn(&Errors) -> f64;
+    for (label, row, rms) in [
+        (
+            "frequency RMS",
+            "frequency_rms",
+            Errors::frequency_rms as Rms,
+        ),
+        ("shape RMS", "shape_rms", Errors::shape_rms),
+    ] {
+        let errors = checks.iter().map(|(_, check)| Some(rms(&check.errors)));
+        stages.add_errors(&mut table, label, Some(row), RMS_PERCENT, errors);
+    }
+    table
+}
+
+/// What is to be thought of an unlimited factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It lies within the bounds of one iteration.
+    Within,
+    /// It lies outside them.
+    Limited,
+    /// It lies so far outside that a modeling error must be looked for ([`anomalies`]).
+    Anomaly,
+}
+
+/// What the first iteration asks of a parameter before any limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JudgedFactor {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// The unlimited factor.
+    pub computed: f64,
+    /// The one printed for it elsewhere.
+    pub published: Option<f64>,
+    /// What is to be thought of it.
+    pub verdict: Verdict,
+}
+
+/// Unlimited factors with what is to be thought of each; nothing is published for them.
+pub fn judged_factors(names: &[String], factors: &[f64], bounds: Range) -> Vec<JudgedFactor> {
+    let far = anomalies(names, factors, bounds);
+    let judged = |(name, &computed): (&String, &f64)| JudgedFactor {
+        parameter: name.clone(),
+        computed,
+        published: None,
+        verdict: if far.iter().any(|anomaly| anomaly.parameter == *name) {
+            Verdict::Anomaly
+        } else if bounds.contains(computed) {
+            Verdict::Within
+        } else {
+            Verdict::Limited
+        },
+    };
+    names.iter().zip(factors).map(judged).collect()
+}
+
+/// Unlimited stiffness change factors of a first iteration, and the parameters they give away; `kind` is what the
+/// parameters are, such as `element`.
+pub fn factor_table(
+    name: &str,
+    title: &str,
+    factors: &[JudgedFactor],
+    bounds: Range,
+    kind: &str,
+) -> Table {
+    let mut table = Table::new(name, title, "Parameter")
+        .column("Factor", "")
+        .column("Verdict", "")
+        .note(format!(
+            "Bounds of one iteration: {:.2} to {:.2}.",
+            bounds.lower, bounds.upper
+        ));
+    for factor in factors {
+        let verdict = match factor.verdict {
+            Verdict::Within => "within bounds",
+            Verdict::Limited => "limited",
+            Verdict::Anomaly => "anomaly",
+        };
+        let number = Cell::beside(factor.computed, Digits::Fixed(1), factor.published);
+        table.row(&factor.parameter, [number, Cell::text(verdict)]);
+    }
+    let mut far: Vec<&JudgedFactor> = factors
+        .iter()
+        .filter(|f| f.verdict == Verdict::Anomaly)
+        .collect();
+    far.sort_by(|a, b| b.computed.abs().total_cmp(&a.computed.abs()));
+    for factor in far {
+        table = table.note(format!(
+            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error there.",
+            factor.parameter, factor.computed
+        ));
+    }
+    table
+}
+
+/// Passes of a correlation: iterations, why they ended, and the error sum by the inner loop and exactly.
+pub fn pass_table(name: &str, title: &str, correlation: &Correlation) -> Table {
+    let mut table = Table::new(name, title, "Pass")
+        .columns(["Iterations", "Stopped by"], "")
+        .columns(["Error sum inner", "Error sum exact"], "%");
+    for (row, pass) in correlation.passes.iter().enumerate() {
+        let stop = match pass.inner.stop {
+            Stop::Tolerance => "tolerance",
+            Stop::LocalMinimum => "local minimum",
+            Stop::Iterations => "iterations",
+        };
+        let cells = [
+            Cell::count(pass.inner.iterations.len()),
+            Cell::text(stop),
+            Cell::percent(pass.inner.last.errors.sum(), RMS_PERCENT),
+            Cell::percent(pass.check.errors.sum(), RMS_PERCENT),
+        ];
+        table.row(row + 1, cells);
+    }
+    table
+}
+
+/// What did the finite element analyses of a part of the run, when it was not the crate itself.
+pub(super) fn solver_note(solver: &str, of_the_model: &str) -> Option<String> {
+    (solver != BUILT_IN).then(|| {
+        format!(
+            "Finite element analyses{of_the_model} by {solver}; everything else by this program."
+        )
+    })
+}

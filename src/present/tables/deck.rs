@@ -1,0 +1,85 @@
+//! The modes of a deck as tables.
+
+use crate::files::deck::{Deck, DeckModes, Reason, Unread};
+use crate::method::structure::DIRECTIONS;
+use crate::present::table::{Cell, Digits, Table, counted};
+
+/// Modes side by side in one table of shapes: as many as a line of text has room for.
+const MODES_PER_TABLE: usize = 9;
+const FREQUENCY: Digits = Digits::Significant(7);
+const MASS: Digits = Digits::Significant(6);
+const SHAPE: Digits = Digits::Fixed(5);
+
+/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one.
+///
+/// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
+pub fn deck_tables(deck: &Deck, modes: &DeckModes, count: usize) -> Vec<Table> {
+    let scaled = UnitShapes::new(modes, count);
+    let dof = counted(modes.dof.len(), "degree", "degrees");
+    let title = format!("Natural frequencies at {dof} of freedom with mass");
+    let mut table = Table::new("frequencies", title, "Mode")
+        .column("Frequency", "Hz")
+        .column("Generalized mass", "lbf·s²/in");
+    table.notes = deck.unread.iter().map(not_read).collect();
+    for (mode, frequency) in scaled.frequencies_hz.iter().enumerate() {
+        let mass = Cell::number(scaled.masses[mode], MASS);
+        table.row(mode + 1, [Cell::number(*frequency, FREQUENCY), mass]);
+    }
+    let mut tables = vec![table];
+    for (part, shapes) in scaled.shapes.chunks(MODES_PER_TABLE).enumerate() {
+        let first = MODES_PER_TABLE * part + 1;
+        let last = first + shapes.len() - 1;
+        let title = format!("Shapes of modes {first} to {last}, largest component one");
+        let headings = (first..=last).map(|mode| format!("Mode {mode}"));
+        let name = format!("shapes_{first}_to_{last}");
+        let mut table = Table::new(name, title, "Grid").columns(headings, "");
+        for (row, dof) in modes.dof.iter().enumerate() {
+            let label = format!("{} {}", dof.grid, DIRECTIONS[dof.direction]);
+            table.row(
+                label,
+                shapes.iter().map(|shape| Cell::number(shape[row], SHAPE)),
+            );
+        }
+        tables.push(table);
+    }
+    tables
+}
+
+/// One sentence about a card that was not read.
+pub fn not_read(unread: &Unread) -> String {
+    let Unread { card, line, reason } = unread;
+    let why = match reason {
+        Reason::Unknown => "is not known here",
+        Reason::NotSelected => "belongs to a set that case control does not select",
+    };
+    format!("Not read: card {card} in line {line} {why}.")
+}
+
+/// Modes scaled for a reader.
+pub(in crate::present) struct UnitShapes {
+    pub frequencies_hz: Vec<f64>,
+    /// Generalized masses.
+    pub masses: Vec<f64>,
+    /// By mode, then by DOF.
+    pub shapes: Vec<Vec<f64>>,
+}
+
+impl UnitShapes {
+    pub fn new(modes: &DeckModes, count: usize) -> Self {
+        let mut frequencies_hz = modes.modes.frequencies_hz();
+        frequencies_hz.truncate(count);
+        // Shapes come with unit generalized mass and a positive largest component.
+        let unit = |shape: nalgebra::DVectorView<f64>| {
+            let largest = shape.amax();
+            let components = shape.iter().map(|component| component / largest);
+            (largest.powi(-2), components.collect())
+        };
+        let columns = modes.modes.shapes.column_iter().take(count);
+        let (masses, shapes) = columns.map(unit).unzip();
+        Self {
+            frequencies_hz,
+            masses,
+            shapes,
+        }
+    }
+}

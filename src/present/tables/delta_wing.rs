@@ -1,0 +1,159 @@
+//! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
+
+use super::correlation::{frequencies, last_check, pass_table, solver_note};
+use super::{PERCENT, RMS_PERCENT};
+use crate::cases::published::PublishedTable;
+use crate::method::error::Error;
+use crate::present::table::{Cell, Digits, Table};
+use crate::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation};
+use crate::studies::delta_wing::{
+    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
+};
+
+/// NASTRAN printed seven digits.
+const PRINTED: Digits = Digits::Significant(7);
+/// Measured and analog deflections are in hundredths or thousandths of an inch.
+const READ: Digits = Digits::Fixed(3);
+/// Of differences in the seventh digit.
+const SMALL_PERCENT: Digits = Digits::Fixed(5);
+
+/// All tables: deflections under both loads, frequencies, and the correlation's groups, frequencies and passes.
+///
+/// # Errors
+/// Those of the wing's analyses; [`Error::Table`] if what others found were damaged.
+pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, Error> {
+    let passes = "Delta wing with wrong gages: passes";
+    Ok(vec![
+        deflection_table(wing, TipLoad::TrailingEdge)?,
+        deflection_table(wing, TipLoad::LeadingEdge)?,
+        frequency_table(wing)?,
+        group_table(run),
+        test_mode_table(run),
+        pass_table("delta_wing_passes", passes, &run.correlation),
+    ])
+}
+
+/// Somebody else's numbers: who, their heading in the table of known ones, digits of them and of the difference.
+type Other = (&'static str, String, Digits, Digits);
+
+/// Computed numbers, each with what others have for it and the percent difference from that.
+fn beside_others(
+    table: Table,
+    known: &PublishedTable,
+    unit: &'static str,
+    rows: impl Iterator<Item = (String, f64)>,
+    others: &[Other],
+) -> Result<Table, Error> {
+    let mut table = table.column("Computed", unit);
+    for (who, ..) in others {
+        table = table
+            .column(*who, unit)
+            .column(format!("{who} difference"), "%");
+    }
+    for (label, computed) in rows {
+        let mut cells = vec![Cell::number(computed, PRINTED)];
+        for (_, heading, digits, difference) in others {
+            let theirs = known.required(&label, heading)?;
+            cells.push(Cell::number(theirs, *digits));
+            cells.push(Cell::percent(computed / theirs - 1.0, *difference));
+        }
+        table.row(label, cells);
+    }
+    Ok(table)
+}
+
+fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, Error> {
+    let (short, long) = match load {
+        TipLoad::TrailingEdge => ("te", "trailing edge"),
+        TipLoad::LeadingEdge => ("le", "leading edge"),
+    };
+    let mut others = vec![
+        (
+            "NASTRAN 1995",
+            format!("{short}_1995_in"),
+            PRINTED,
+            SMALL_PERCENT,
+        ),
+        ("Measured", format!("{short}_experiment_in"), READ, PERCENT),
+    ];
+    if load == TipLoad::TrailingEdge {
+        others.push(("Analog", "te_analog_in".to_owned(), READ, PERCENT));
+    }
+    let title = format!(
+        "Delta wing: deflections under {} lbf down at the tip's {long}, grid {}",
+        wing.tip_load,
+        load.grid()
+    );
+    let table = Table::new(format!("delta_wing_deflections_{short}"), title, "Grid");
+    let grids = MEASURED_GRIDS.iter().map(|grid| grid.to_string());
+    let rows = grids.zip(wing.deflections(load)?);
+    beside_others(table, &known_deflections()?, "in", rows, &others)
+}
+
+fn frequency_table(wing: &DeltaWing) -> Result<Table, Error> {
+    let known = known_frequencies()?;
+    let others: [Other; 2] = [
+        (
+            "NASTRAN 1995",
+            "frequency_1995_hz".to_owned(),
+            PRINTED,
+            SMALL_PERCENT,
+        ),
+        (
+            "Analog",
+            "analog_hz".to_owned(),
+            Digits::Significant(3),
+            PERCENT,
+        ),
+    ];
+    let table = Table::new(
+        "delta_wing_frequencies",
+        "Delta wing: natural frequencies",
+        "Mode",
+    );
+    let rows = known
+        .labels
+        .iter()
+        .cloned()
+        .zip(wing.modes()?.modes.frequencies_hz());
+    beside_others(table, &known, "Hz", rows, &others)
+}
+
+fn group_table(run: &WingCorrelation) -> Table {
+    let title = "Delta wing with wrong gages: factors that the correlation finds";
+    let mut table = Table::new("delta_wing_groups", title, "Group")
+        .column("First gage error", "%")
+        .columns(["True factor", "Found"], "")
+        .columns(["Last gage error", "Largest share"], "%")
+        .note("Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the stiffness of any test mode.");
+    for group in &run.groups {
+        let factors = [group.true_factor(), group.factor];
+        let factors = factors.map(|factor| Cell::number(factor, Digits::Fixed(4)));
+        let ends = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));
+        let first = Cell::percent(group.first_error(), PERCENT);
+        table.row(
+            group.group.name,
+            [first].into_iter().chain(factors).chain(ends),
+        );
+    }
+    table
+}
+
+fn test_mode_table(run: &WingCorrelation) -> Table {
+    let title = "Delta wing with wrong gages: frequencies and errors";
+    let checks = vec![
+        ("start".to_owned(), &run.correlation.initial),
+        ("end".to_owned(), last_check(&run.correlation)),
+    ];
+    let test = run.test.frequencies_hz();
+    let table = Table::new("delta_wing_test_modes", title, "Mode");
+    let mut table = frequencies(table, &test, &checks, |stages| {
+        stages.target = "Test";
+        stages.labels = TEST_MODES.iter().map(|mode| mode.to_string()).collect();
+        (stages.digits, stages.error_digits) = (Digits::Significant(5), RMS_PERCENT);
+    });
+    table
+        .notes
+        .extend(solver_note(run.solver, " of the model with wrong gages"));
+    table
+}

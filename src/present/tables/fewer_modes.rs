@@ -1,0 +1,226 @@
+//! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
+
+use super::stages::Stages;
+use super::{KINDS, PERCENT, RMS_PERCENT, remarks};
+use crate::cases::Case;
+use crate::cases::fewer_modes::{Agreement, FewerModesRun, ITERATIONS};
+use crate::cases::published::PublishedTable;
+use crate::method::error::Error;
+use crate::present::table::{Cell, Digits, Table};
+
+/// The paper's frequencies with fewer modes are those of five test modes.
+const TABLE_9_TEST_MODES: usize = 5;
+/// The paper's tables of gages: number, and test modes.
+const GAGE_TABLES: [(usize, usize); 3] = [(10, 7), (11, 5), (12, 3)];
+const COUNT: Digits = Digits::Fixed(0);
+
+/// RMS errors: title, row of the published tables, and the number.
+type RmsRow = (&'static str, &'static str, fn(&Agreement) -> f64);
+const RMS_ROWS: [RmsRow; 2] = [
+    ("frequency RMS", "frequency_rms", |found| {
+        found.frequency_rms
+    }),
+    ("shape RMS", "shape_rms", |found| found.shape_rms),
+];
+
+/// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
+///
+/// # Errors
+/// [`Error::Table`] if published tables were damaged.
+pub fn fewer_modes_tables(
+    case: &Case,
+    published: &[FewerModesRun],
+    all: &[FewerModesRun],
+) -> Result<Vec<Table>, Error> {
+    let mut tables = published_tables(case, published)?;
+    tables.extend(truncation_tables(all));
+    Ok(tables)
+}
+
+/// Tables 9 to 12 and the iterations, from the paper's runs.
+///
+/// # Errors
+/// [`Error::Table`] if published tables were damaged.
+pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
+    let with = |test_modes: usize| -> Vec<&FewerModesRun> {
+        runs.iter()
+            .filter(|run| run.test_modes == test_modes)
+            .collect()
+    };
+    let five = with(TABLE_9_TEST_MODES);
+    let paper = PublishedTable::number(9)?;
+    let inner = "frequencies and errors by the inner loop (Table 9)";
+    let exact = "frequencies and errors by eigensolution at the gages found";
+    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note("The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the paper prints is read as these.");
+    table_9.notes.extend(remarks(Some(&paper)));
+    let mut tables = vec![
+        table_9,
+        frequency_table("table_9_exact", exact, &five, None, |run| &run.exact),
+    ];
+    for (paper, test_modes) in GAGE_TABLES {
+        tables.push(gage_table(case, paper, test_modes, &with(test_modes))?);
+    }
+    tables.push(iteration_table(runs)?);
+    Ok(tables)
+}
+
+/// How the published columns of a run begin.
+fn stage(run: &FewerModesRun) -> String {
+    format!("fem_{}", run.analysis_modes)
+}
+
+/// Frequencies and their errors at the start and at the end of every run.
+fn frequency_table(
+    name: &str,
+    what: &str,
+    runs: &[&FewerModesRun],
+    paper: Option<&PublishedTable>,
+    end: fn(&FewerModesRun) -> &Agreement,
+) -> Table {
+    // The run with the most analysis modes knows the most initial frequencies.
+    let most = runs.iter().max_by_key(|run| run.analysis_modes);
+    let initial = most.map(|run| ("initial".to_owned(), &run.initial));
+    let ends = runs.iter().map(|run| (stage(run), end(run)));
+    let found: Vec<(String, &Agreement)> = initial.into_iter().chain(ends).collect();
+    let modes = most.map_or(0, |run| run.initial.frequencies_hz.len());
+    let test = most.map_or(&[][..], |run| &run.test_frequencies_hz);
+    let values = found
+        .iter()
+        .map(|(name, at)| (name.clone(), &at.frequencies_hz[..]));
+    let mut stages = Stages::of_modes(modes, test, values.collect());
+    stages.paper = paper;
+    let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: {what}");
+    let mut table = stages.fill(Table::new(name, title, "Mode"));
+    for (label, row, rms) in RMS_ROWS {
+        let errors = found.iter().map(|(_, at)| Some(rms(at)));
+        stages.add_errors(&mut table, label, Some(row), RMS_PERCENT, errors);
+    }
+    table
+}
+
+/// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes.
+fn gage_table(
+    case: &Case,
+    number: usize,
+    test_modes: usize,
+    runs: &[&FewerModesRun],
+) -> Result<Table, Error> {
+    let paper = PublishedTable::number(number)?;
+    let first = case.first_gages();
+    let found = runs.iter().map(|run| (stage(run), &run.gages_in[..]));
+    let values = std::iter::once(("initial".to_owned(), &first[..])).chain(found);
+    let mut stages = Stages::of_gages(&case.panels, values.collect());
+    stages.paper = Some(&paper);
+    let title =
+        format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
+    let mut table = stages.fill(Table::new(format!("table_{number}"), title, "Element"));
+    // The start has none of these errors.
+    let mut add = |label: &str, row, digits, error: &dyn Fn(&FewerModesRun) -> f64| {
+        let errors = runs.iter().map(|run| Some(error(run)));
+        let errors = std::iter::once(None).chain(errors);
+        stages.add_errors(&mut table, label, row, digits, errors);
+    };
+    add("shear RMS", Some("shear_rms"), PERCENT, &|run| {
+        run.shear_gage_rms
+    });
+    add("membrane RMS", Some("membrane_rms"), PERCENT, &|run| {
+        run.membrane_gage_rms
+    });
+    for (label, row, rms) in RMS_ROWS {
+        add(&format!("inner {label}"), Some(row), RMS_PERCENT, &|run| {
+            rms(&run.inner)
+        });
+        add(&format!("exact {label}"), None, RMS_PERCENT, &|run| {
+            rms(&run.exact)
+        });
+    }
+    table.notes.push(KINDS.to_owned());
+    table.notes.extend(remarks(Some(&paper)));
+    Ok(table)
+}
+
+/// Iterations of the paper's runs, as in Tables 10 to 12.
+fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, Error> {
+    let papers = GAGE_TABLES
+        .into_iter()
+        .map(|(number, test_modes)| Ok((test_modes, PublishedTable::number(number)?)))
+        .collect::<Result<Vec<_>, Error>>()?;
+    let cell = |run: &FewerModesRun| {
+        let paper = papers.iter().find(|(modes, _)| *modes == run.test_modes);
+        let heading = format!("{}_percent", stage(run));
+        let printed = paper.and_then(|(_, table)| table.value("iterations", &heading));
+        Cell::beside(run.iterations as f64, COUNT, printed)
+    };
+    let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
+    Ok(pairs_table("fewer_modes_iterations", title, "", runs, &cell).note(format!(
+        "At most {ITERATIONS}: where the paper has as many, its error sum had not met the tolerance."
+    )))
+}
+
+/// What truncation costs over all pairs of numbers of modes, one table a quantity.
+pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
+    let table = |name: &str, what: &str, unit, cell: &dyn Fn(&FewerModesRun) -> Cell| {
+        let title = format!("Cost of truncation, Case 2, pass 1: {what}");
+        pairs_table(&format!("truncation_{name}"), &title, unit, runs, cell)
+    };
+    let mut tables = vec![table("iterations", "iterations", "", &|run| {
+        Cell::count(run.iterations)
+    })];
+    for (name, what, value) in COSTS {
+        // Gages with one decimal as in Tables 10 to 12, the others with two.
+        let digits = if what.starts_with("gage") {
+            PERCENT
+        } else {
+            RMS_PERCENT
+        };
+        tables.push(table(name, what, "%", &|run| {
+            Cell::percent(value(run), digits)
+        }));
+    }
+    tables
+}
+
+/// What a run with fewer modes is worth: name, what it is, and the number, a fraction.
+pub(in crate::present) type Cost = (&'static str, &'static str, fn(&FewerModesRun) -> f64);
+pub(in crate::present) const COSTS: [Cost; 4] = [
+    ("shear", "gage RMS of the shear panels", |run| {
+        run.shear_gage_rms
+    }),
+    ("membrane", "gage RMS of the membranes", |run| {
+        run.membrane_gage_rms
+    }),
+    (
+        "frequency",
+        "exact frequency RMS over all test modes",
+        |run| run.exact_all_modes.frequency_rms,
+    ),
+    ("shape", "exact shape RMS over all test modes", |run| {
+        run.exact_all_modes.shape_rms
+    }),
+];
+
+/// Test modes down, analysis modes across.
+fn pairs_table(
+    name: &str,
+    title: &str,
+    unit: &'static str,
+    runs: &[FewerModesRun],
+    cell: &dyn Fn(&FewerModesRun) -> Cell,
+) -> Table {
+    let counts = |of: fn(&FewerModesRun) -> usize| {
+        let counts: std::collections::BTreeSet<usize> = runs.iter().map(of).collect();
+        counts
+    };
+    let analyses = counts(|run| run.analysis_modes);
+    let headings = analyses.iter().map(|count| format!("FEM {count}"));
+    let mut table = Table::new(name, title, "Test modes").columns(headings, unit);
+    for test in counts(|run| run.test_modes) {
+        let cells = analyses.iter().map(|&analysis| {
+            let like =
+                |run: &&FewerModesRun| (run.test_modes, run.analysis_modes) == (test, analysis);
+            runs.iter().find(like).map_or(Cell::Blank, cell)
+        });
+        table.row(test, cells);
+    }
+    table
+}

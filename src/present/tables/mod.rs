@@ -1,0 +1,61 @@
+//! What is computed, as tables: of any correlation ([`correlation`]), of the paper's cases, and of the studies.
+
+pub mod cases;
+pub mod correlation;
+pub mod deck;
+pub mod delta_wing;
+pub mod fewer_modes;
+pub mod matrices;
+pub mod stages;
+pub mod table_1;
+
+use super::table::Digits;
+use crate::cases::published::PublishedTable;
+use crate::method::structure::ElementKind;
+
+pub(super) const HERTZ: Digits = Digits::Significant(4);
+pub(super) const INCHES: Digits = Digits::Fixed(5);
+pub(super) const PERCENT: Digits = Digits::Fixed(1);
+pub(super) const RMS_PERCENT: Digits = Digits::Fixed(2);
+pub(super) const KINDS: &str = "S shear panel, M membrane.";
+
+/// What the paper's print of a table gets wrong, its rows and columns named as a reader sees them.
+pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
+    let remarks = paper.map_or(&[][..], |table| &table.remarks);
+    let spoken = |remark: &String| {
+        let words: Vec<String> = remark.split(' ').map(in_words).collect();
+        format!("The print: {}", words.join(" "))
+    };
+    remarks.iter().map(spoken).collect()
+}
+
+/// A row or column of the published tables' files as a reader's words: `pass_1_percent` is the pass 1 error.
+pub(super) fn in_words(name: &str) -> String {
+    if !name.contains('_') {
+        return name.to_owned();
+    }
+    let word = |part: &str| {
+        let (word, end) = part.split_at(part.trim_end_matches([',', ':', '.']).len());
+        let said = match word {
+            "percent" => "error",
+            "in" => "gage",
+            "hz" => "frequency",
+            "rms" => "RMS",
+            "fem" => "FEM",
+            other => other,
+        };
+        format!("{said}{end}")
+    };
+    let words: Vec<String> = name.split('_').map(word).collect();
+    words.join(" ")
+}
+
+/// The letter that stands for a kind of element.
+pub(super) fn kind_letter(kind: ElementKind) -> &'static str {
+    match kind {
+        ElementKind::Rod => "R",
+        ElementKind::ShearPanel => "S",
+        ElementKind::Membrane => "M",
+        ElementKind::Triangle => "T",
+    }
+}

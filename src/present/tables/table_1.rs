@@ -1,0 +1,44 @@
+//! Table 1 for a reader: root errors of the perturbation formulae by order.
+
+use crate::cases::table_1::{problems, table_1};
+use crate::method::appendix_c::UpdateRule;
+use crate::method::error::Error;
+use crate::present::table::{Cell, Digits, Table};
+
+/// Orders shown.
+const ORDERS: usize = 6;
+
+/// The larger error of the two roots of every problem, in percent, by rule and order.
+///
+/// The paper's own numbers, and its problems, are lost in the scan: nothing stands beside these.
+///
+/// # Errors
+/// Those of [`table_1`].
+pub fn root_error_table() -> Result<Table, Error> {
+    let found = table_1(&problems(), ORDERS)?;
+    let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
+    let mut table = Table::new("table_1", title, "Problem")
+        .columns(["Coupling", "Change"], "")
+        .columns(found.rules.iter().map(|&rule| rule_name(rule)), "%")
+        .note("Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.");
+    for (number, row) in found.rows.iter().enumerate() {
+        let problem = [row.problem.coupling, row.problem.change];
+        let problem = problem.map(|value| Cell::number(value, Digits::Fixed(2)));
+        let errors = row
+            .root_errors
+            .iter()
+            .map(|[one, other]| Cell::percent(one.abs().max(other.abs()), Digits::Scientific(1)));
+        table.row(number + 1, problem.into_iter().chain(errors));
+    }
+    Ok(table)
+}
+
+fn rule_name(rule: UpdateRule) -> String {
+    match rule {
+        UpdateRule::FirstOrder => "First order".to_owned(),
+        UpdateRule::Original => "Original".to_owned(),
+        UpdateRule::Recursive1 { order } => format!("Recursive 1, order {order}"),
+        UpdateRule::Recursive2 { order } => format!("Recursive 2, order {order}"),
+        other => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,69 @@
+//! `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
+
+use super::output::OutputArguments;
+use super::solver::{Solver, SolverArguments};
+use clap::Args;
+use corfem::cases::Case;
+use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
+use corfem::method::model::FiniteElementModel;
+use corfem::present::{PresentError, json, tables};
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::correlate_wing_with;
+use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+
+#[derive(Debug, Args)]
+pub struct FewerModesArguments {
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct MatricesArguments {
+    /// Which case
+    #[arg(value_name = "CASE", default_value_t = USUAL_CASE)]
+    case: usize,
+    /// How many test modes, the lowest, the corrections are given
+    #[arg(long, value_name = "N", default_value_t = USUAL_TEST_MODES)]
+    test_modes: usize,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct DeltaWingArguments {
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    solver: SolverArguments,
+}
+
+/// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
+pub fn fewer_modes(arguments: &FewerModesArguments) -> Result<(), PresentError> {
+    let case = Case::new(PUBLISHED_CASE)?;
+    let (published, all) = (published_runs(&case)?, all_runs(&case)?);
+    let tables = tables::fewer_modes::fewer_modes_tables(&case, &published, &all)?;
+    arguments.output.write(&tables, || json::fewer_modes(&all))
+}
+
+/// Corrects a case by elements and by matrices and writes what either knows afterwards.
+pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
+    let case = Case::new(arguments.case)?;
+    let comparison = compare_matrices(&case, arguments.test_modes)?;
+    let tables = tables::matrices::matrix_tables(&case, &comparison);
+    arguments
+        .output
+        .write(&tables, || json::matrices(&comparison))
+}
+
+/// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
+pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
+    let wing = DeltaWing::embedded()?;
+    let solver = Solver::of(&arguments.solver)?;
+    let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
+    let run = correlate_wing_with(&wing, solver.name(), analyze, |_, _| {})?;
+    let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
+    arguments
+        .output
+        .write(&tables, || json::delta_wing(&wing, &run))?;
+    Ok(run.correlation.converged)
+}
