@@ -185,7 +185,7 @@ fn same_input_gives_the_same_bytes() {
     let json = || {
         let results: Vec<_> = CASES.into_iter().map(result).collect();
         let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-        corfem::present::report::json::json(&results, &fit).expect("written")
+        corfem::present::json::cases(&results, &fit).expect("written")
     };
     assert_eq!(json(), json());
 }

@@ -7,10 +7,10 @@ use crate::common::tolerances::{
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, Grouping, run_case};
-use corfem::present::report::render::{csv, render, render_tables};
-use corfem::present::report::root_errors::root_error_table;
-use corfem::present::report::run_tables::all_tables;
-use corfem::present::report::table::Table;
+use corfem::present::render::{csv, markdown, text};
+use corfem::present::table::Table;
+use corfem::present::tables::cases::all_tables;
+use corfem::present::tables::table_1::root_error_table;
 
 fn tables() -> Vec<Table> {
     let results: Vec<_> = CASES
@@ -47,11 +47,7 @@ fn every_table_as_numbers() {
         ]
     );
     for table in &tables {
-        assert_golden(
-            &table.name,
-            &csv(std::slice::from_ref(table)).expect("written"),
-            numbers,
-        );
+        assert_golden(&table.name, &csv(std::slice::from_ref(table)), numbers);
     }
 }
 
@@ -63,8 +59,8 @@ fn report_as_text_and_markdown() {
         last_digit: true,
     };
     let tables = tables();
-    assert_golden("report_text", &render(&tables, false), rounded);
-    assert_golden("report_markdown", &render(&tables, true), rounded);
+    assert_golden("report_text", &text(&tables), rounded);
+    assert_golden("report_markdown", &markdown(&tables), rounded);
 }
 
 #[test]
@@ -89,7 +85,7 @@ fn cases_by_substructures() {
         tables.iter().all(|table| !table.title.contains("Table 3")),
         "the paper has no grouped run"
     );
-    assert_golden("substructures", &csv(&tables).expect("written"), numbers);
+    assert_golden("substructures", &csv(&tables), numbers);
 }
 
 #[test]
@@ -103,11 +99,11 @@ fn root_errors_of_table_1() {
     let table = root_error_table().expect("separate roots");
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
     // Errors over many decades: a reader sees a digit and a power of ten.
-    let text = render_tables(std::slice::from_ref(&table), false);
-    let cells = text.split_whitespace().filter(|word| {
+    let written = text(std::slice::from_ref(&table));
+    let cells = written.split_whitespace().filter(|word| {
         let parts = word.split_once("e-");
         parts.is_some_and(|(digits, _)| digits.trim_start_matches('-').len() == 3)
     });
-    assert!(cells.count() > 24 * 7, "{text}");
-    assert_golden("table_1", &csv(&[table]).expect("written"), numbers);
+    assert!(cells.count() > 24 * 7, "{written}");
+    assert_golden("table_1", &csv(&[table]), numbers);
 }

@@ -10,8 +10,8 @@ use corfem::files::nastran95::NAME;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::outer_loop::check;
-use corfem::present::report::delta_wing_json::delta_wing_json;
-use corfem::present::report::delta_wing_tables::delta_wing_tables;
+use corfem::present::json;
+use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{
     GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, test_modes,
@@ -166,9 +166,9 @@ fn reports_name_another_solver() {
     expected[4].1.push(note.to_owned());
     assert_eq!(noted(&other), expected);
     for run in [&*RUN, &other] {
-        let json = delta_wing_json(&wing(), run).expect("written");
+        let json = json::delta_wing(&wing(), run).expect("written");
         let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-        assert_eq!(json["solver"], run.solver);
+        assert_eq!(json["correlation"]["solver"], run.solver);
     }
 }
 

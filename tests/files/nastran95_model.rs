@@ -11,9 +11,8 @@ use corfem::files::deck::BulkData;
 use corfem::method::error::Error;
 use corfem::method::modal::Share;
 use corfem::method::model::FiniteElementModel;
-use corfem::present::report::json::json;
-use corfem::present::report::render::render;
-use corfem::present::report::run_tables::all_tables;
+use corfem::present::tables::cases::all_tables;
+use corfem::present::{json, render};
 use nalgebra::DMatrix;
 
 #[test]
@@ -189,9 +188,9 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         let run = std::slice::from_ref(run);
         let tables = all_tables(run, &fit).expect("it reads");
         [
-            render(&tables, false),
-            render(&tables, true),
-            json(run, &fit).expect("written"),
+            render::text(&tables),
+            render::markdown(&tables),
+            json::cases(run, &fit).expect("written"),
         ]
     };
     for (own, other) in report(&own)[..2].iter().zip(&report(&other)) {

@@ -13,8 +13,8 @@ use corfem::method::modal::DynamicModel;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::check;
-use corfem::present::report::delta_wing_tables::delta_wing_tables;
-use corfem::present::report::render::render_tables;
+use corfem::present::render;
+use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, test_modes};
 use nalgebra::DMatrix;
@@ -237,6 +237,6 @@ fn nastran_corrects_the_delta_wing_as_stored() {
         .expect("it starts");
     assert_eq!(output.status.code(), Some(0));
     let tables = delta_wing_tables(&DeltaWing::embedded().expect("the wing"), &run);
-    let text = render_tables(&tables.expect("tables"), false);
+    let text = render::text(&tables.expect("tables"));
     assert_eq!(String::from_utf8_lossy(&output.stdout), text);
 }

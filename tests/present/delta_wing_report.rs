@@ -6,9 +6,9 @@ use approx::assert_relative_eq;
 use assert_cmd::Command;
 use corfem::method::inner_loop::Stop;
 use corfem::method::outer_loop::Check;
-use corfem::present::report::delta_wing_tables::delta_wing_tables;
-use corfem::present::report::render::{csv, render_tables};
-use corfem::present::report::table::{Cell, Table};
+use corfem::present::render::{csv, markdown, text};
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation, correlate_wing};
 use corfem::studies::delta_wing::{DeltaWing, TipLoad};
 use serde_json::Value;
@@ -53,8 +53,8 @@ fn wing_as_tables() {
         absolute: 0.0,
         last_digit: true,
     };
-    assert_golden("delta_wing", &csv(&tables).expect("written"), numbers);
-    assert_golden("delta_wing_text", &render_tables(&tables, false), rounded);
+    assert_golden("delta_wing", &csv(&tables), numbers);
+    assert_golden("delta_wing_text", &text(&tables), rounded);
 }
 
 fn corfem(arguments: &[&str]) -> Vec<u8> {
@@ -72,12 +72,12 @@ fn corfem(arguments: &[&str]) -> Vec<u8> {
 #[test]
 fn command_writes_every_format() {
     let expect = |text: String| text.into_bytes();
-    assert_eq!(corfem(&[]), expect(render_tables(&tables(), false)));
+    assert_eq!(corfem(&[]), expect(text(&tables())));
     assert_eq!(
         corfem(&["--format", "markdown"]),
-        expect(render_tables(&tables(), true))
+        expect(markdown(&tables()))
     );
-    let numbers = csv(&tables()).expect("written");
+    let numbers = csv(&tables());
     assert_eq!(corfem(&["--format", "csv"]), expect(numbers.clone()));
     assert!(numbers.lines().all(|line| line.split(',').count() == 6));
     let folder = tempfile::tempdir().expect("a folder");
@@ -86,8 +86,13 @@ fn command_writes_every_format() {
     assert!(corfem(&["--format", "json", "--output", name]).is_empty());
     let json: Value =
         serde_json::from_slice(&std::fs::read(&file).expect("written")).expect("JSON");
+    let correlation = &json["correlation"];
     assert_eq!(
-        (&json["program"], &json["version"], &json["converged"]),
+        (
+            &json["program"],
+            &json["version"],
+            &correlation["converged"]
+        ),
         (
             &"corfem".into(),
             &env!("CARGO_PKG_VERSION").into(),
@@ -101,10 +106,19 @@ fn command_writes_every_format() {
         ("frequencies_hz", 86),
         ("groups", 21),
         ("test_modes", 10),
+    ] {
+        assert_eq!(json[key].as_array().map(Vec::len), Some(count), "{key}");
+    }
+    for (key, count) in [
+        ("parameters", 21),
         ("test_frequencies_hz", 10),
         ("passes", 3),
     ] {
-        assert_eq!(json[key].as_array().map(Vec::len), Some(count), "{key}");
+        assert_eq!(
+            correlation[key].as_array().map(Vec::len),
+            Some(count),
+            "{key}"
+        );
     }
     for (key, load) in [
         ("trailing_edge_load_deflections_in", TipLoad::TrailingEdge),
@@ -115,7 +129,10 @@ fn command_writes_every_format() {
     let run = &*RUN;
     let whole = wing().modes().expect("modes").modes;
     assert_numbers(&json["frequencies_hz"], &whole.frequencies_hz());
-    assert_numbers(&json["test_frequencies_hz"], &run.test.frequencies_hz());
+    assert_numbers(
+        &correlation["test_frequencies_hz"],
+        &run.test.frequencies_hz(),
+    );
     assert_eq!(json["test_modes"], Value::from(TEST_MODES.to_vec()));
     let documents = json["groups"].as_array().expect("a list");
     for (document, recovered) in documents.iter().zip(&run.groups) {
@@ -130,14 +147,16 @@ fn command_writes_every_format() {
             assert_numbers(&Value::from(vec![document[key].clone()]), &[value]);
         }
     }
-    assert_check(&json["initial"], &run.correlation.initial);
-    let documents = json["passes"].as_array().expect("a list");
+    assert_check(&correlation["initial"], &run.correlation.initial);
+    let documents = correlation["passes"].as_array().expect("a list");
     for (document, pass) in documents.iter().zip(&run.correlation.passes) {
         let iterations = &pass.inner.iterations;
         let sums: Vec<f64> = iterations.iter().map(|step| step.errors.sum()).collect();
         assert_eq!(document["iterations"], iterations.len());
         assert_eq!(document["stop"], "tolerance");
-        assert_numbers(&document["inner_error_sums"], &sums);
+        let history = document["history"].as_array().expect("a list");
+        let written = history.iter().map(|step| step["error_sum"].clone());
+        assert_numbers(&written.collect(), &sums);
         assert_numbers(&document["factors"], &pass.factors);
         assert_check(&document["exact"], &pass.check);
     }

@@ -5,16 +5,16 @@ use approx::assert_relative_eq;
 use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::cases::{CASES, Case, CaseResult, run_case};
 use corfem::method::structure::ElementKind;
-use corfem::present::figures::derivative_map::derivative_map;
+use corfem::present::figures::cases::{derivatives, gage_bars, mode_agreement};
 use corfem::present::figures::error_history::error_history;
-use corfem::present::figures::gage_errors::gage_errors;
-use corfem::present::figures::mode_agreement::mode_agreement;
 use corfem::present::figures::node_lines::node_lines;
-use corfem::present::figures::unlimited_factors::unlimited_factors;
-use corfem::present::figures::{Figure, all_figures, comparison_figures};
-use corfem::present::report::correlation_tables::{frequency_table, gage_table};
-use corfem::present::report::run_tables::{factor_table, iteration_table};
-use corfem::present::report::table::{Cell, Table};
+use corfem::present::figures::planform::Planform;
+use corfem::present::figures::{Figure, case_figures, comparison_figures};
+use corfem::present::table::{Cell, Column, Table};
+use corfem::present::tables::cases::{
+    factor_table, frequency_table, gage_table, iteration_table, unlimited_factors,
+};
+use corfem::present::tables::correlation::{Verdict, last_check};
 use corfem::studies::matrix_comparison::{
     MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
 };
@@ -47,7 +47,7 @@ pub fn comparison() -> &'static MatrixComparison {
 
 /// Every figure, drawn anew.
 pub fn draw_all() -> Vec<Figure> {
-    let mut figures = all_figures(results()).expect("drawn");
+    let mut figures = case_figures(results()).expect("drawn");
     let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
     figures.extend(compared.expect("drawn"));
     figures
@@ -60,7 +60,7 @@ pub fn figures() -> &'static [Figure] {
 }
 
 fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>) {
-    let named = |c: &corfem::present::report::table::Column| c.name == column && c.unit == unit;
+    let named = |c: &Column| c.name == column && c.unit == unit;
     let at = table.columns.iter().position(named).expect("the column");
     let row = table.rows.iter().find(|r| r.label == row).expect("the row");
     match row.cells[at] {
@@ -77,11 +77,10 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
 fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
     let counts = iteration_table(results()).expect("it reads");
     for result in &results()[..3] {
-        let data = error_history(result);
+        let data = error_history(&result.correlation, &result.case.settings);
         let table = frequency_table(result).expect("it reads");
         let case = result.case.number.to_string();
-        assert_eq!(data.case, result.case.number);
-        assert_eq!(data.passes.len(), result.correlation.passes.len());
+        assert_eq!(data.len(), result.correlation.passes.len());
         let root = (9.0_f64).sqrt();
         let same = |errors: &corfem::method::error_sum::Errors, column: &str| {
             let percent = |row| cell(&table, row, column, "%").0;
@@ -97,23 +96,24 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
             );
         };
         let mut iterations = 0;
-        for pass in &data.passes {
-            let before = match pass.pass {
+        for (row, pass) in data.iter().enumerate() {
+            let number = row + 1;
+            let before = match number {
                 1 => "Initial error".to_owned(),
                 later => format!("Pass {} error", later - 1),
             };
             same(&pass.inner[0].errors, &before);
-            same(&pass.check.errors, &format!("Pass {} error", pass.pass));
+            same(&pass.check.errors, &format!("Pass {number} error"));
             assert_eq!(pass.inner[0].iteration, iterations);
-            let count = cell(&counts, &case, &format!("Pass {}", pass.pass), "").0;
+            let count = cell(&counts, &case, &format!("Pass {number}"), "").0;
             iterations += count as usize;
             assert_eq!(pass.inner.len(), count as usize + 1);
             assert_eq!(
                 (pass.inner[count as usize].iteration, pass.check.iteration),
                 (iterations, iterations)
             );
-            assert_eq!(pass.tolerance, if pass.pass == 1 { 0.025 } else { 0.015 });
-            let steps = &result.correlation.passes[pass.pass - 1].inner.iterations;
+            assert_eq!(pass.tolerance, if number == 1 { 0.025 } else { 0.015 });
+            let steps = &result.correlation.passes[row].inner.iterations;
             for (moment, step) in pass.inner[1..].iter().zip(steps) {
                 assert_eq!(moment.errors, step.errors);
             }
@@ -124,10 +124,11 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
 #[test]
 fn node_lines_belong_to_the_modes_of_the_tables() {
     for result in &results()[..3] {
-        let data = node_lines(result).expect("nine points");
+        let planform = Planform::of(&result.case.reconstruction);
+        let data = node_lines(planform, &result.test, &result.correlation).expect("nine points");
         let table = frequency_table(result).expect("it reads");
         let last = format!("Pass {}", result.correlation.passes.len());
-        assert_eq!((data.case, data.modes.len()), (result.case.number, 9));
+        assert_eq!(data.modes.len(), 9);
         for (mode, states) in data.modes.iter().enumerate() {
             let row = (mode + 1).to_string();
             for (state, column) in states.iter().zip(["GVT", "Initial", &last]) {
@@ -157,59 +158,60 @@ fn node_lines_belong_to_the_modes_of_the_tables() {
 #[test]
 fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
     for result in &results()[..3] {
-        let data = mode_agreement(result).expect("shapes fit");
         let masses = &result.case.reconstruction.masses;
-        let checks = [
-            &result.correlation.initial,
-            &result.correlation.passes.last().expect("a pass").check,
-        ];
-        for (agreement, check) in [&data.before, &data.after].into_iter().zip(checks) {
-            assert_eq!(agreement.cross_orthogonality.shape(), (9, 9));
-            assert_eq!(agreement.modal_assurance.shape(), (9, 9));
+        let checks = [&result.correlation.initial, last_check(&result.correlation)];
+        let mass = result.case.reconstruction.mass();
+        let maps = mode_agreement(checks, &result.test, &mass).expect("shapes fit");
+        let values = maps
+            .each_ref()
+            .map(|map| map.values.map(|value| value.expect("a cell")));
+        for (at, check) in checks.into_iter().enumerate() {
+            let (cross, assurance) = (&values[at], &values[at + 2]);
+            assert_eq!((cross.shape(), assurance.shape()), ((9, 9), (9, 9)));
             for j in 0..9 {
                 // Nine modes of nine DOF hold every shape: Bessel's inequality is an equality.
-                let column = agreement.cross_orthogonality.column(j);
+                let column = cross.column(j);
                 assert_relative_eq!(column.norm(), 1.0, max_relative = MATRIX_ROUND_OFF);
                 assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
                 for i in 0..9 {
                     let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
-                    assert!(
-                        (agreement.cross_orthogonality[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF
-                    );
+                    assert!((cross[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
                     let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
-                    assert!((agreement.modal_assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
+                    assert!((assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
                 }
             }
         }
         let off = |m: &nalgebra::DMatrix<f64>| (m.abs() - nalgebra::DMatrix::identity(9, 9)).amax();
-        assert!(off(&data.after.cross_orthogonality) < off(&data.before.cross_orthogonality));
+        assert!(off(&values[1]) < off(&values[0]));
     }
 }
 
 #[test]
 fn gage_errors_are_those_of_the_tables() {
     for result in &results()[..3] {
-        let data = gage_errors(result).expect("it reads");
+        let figure = gage_bars(result).expect("it reads");
+        let data = &figure.charts[0];
         let table = gage_table(result).expect("it reads");
         let passes = result.correlation.passes.len();
-        assert_eq!((data.stages.len(), data.panels.len()), (passes + 1, 15));
-        for (pass, stage) in data.stages.iter().enumerate() {
+        assert_eq!((data.series.len(), data.groups.len()), (passes + 1, 15));
+        for (pass, series) in data.series.iter().enumerate() {
             let name = if pass == 0 {
                 "Initial".to_owned()
             } else {
                 format!("Pass {pass}")
             };
-            assert_eq!(stage.name, name);
-            for (row, (label, kind)) in data.panels.iter().enumerate() {
-                let (computed, published) = cell(&table, label, &format!("{name} error"), "%");
-                assert_eq!(
-                    (stage.computed[row], stage.published[row]),
-                    (computed, published)
-                );
+            assert_eq!(series.name, name.to_lowercase());
+            for (row, panel) in result.case.panels.iter().enumerate() {
+                let label = panel.label.to_string();
+                let (computed, published) = cell(&table, &label, &format!("{name} error"), "%");
+                // The start is the same in print by its definition, and not marked.
+                let marked = published.filter(|_| pass > 0);
+                assert_eq!(series.values[row], (computed, marked));
                 assert!(published.is_some());
-                let membrane = result.case.panels[row].kind == ElementKind::Membrane;
-                assert_eq!(kind, if membrane { "M" } else { "S" });
+                let membrane = panel.kind == ElementKind::Membrane;
+                let kind = if membrane { "M" } else { "S" };
+                assert_eq!(data.groups[row], format!("{label} {kind}"));
             }
         }
     }
@@ -218,11 +220,12 @@ fn gage_errors_are_those_of_the_tables() {
 #[test]
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
-        let data = derivative_map(result).expect("a model");
-        assert_eq!(
-            (data.frequency.shape(), data.error_sum.shape()),
-            ((15, 9), (15, 1))
-        );
+        let maps = derivatives(result).expect("a model");
+        let values = maps
+            .each_ref()
+            .map(|map| map.values.map(|value| value.expect("a cell")));
+        let [frequency, error_sum] = &values;
+        assert_eq!((frequency.shape(), error_sum.shape()), ((15, 9), (15, 1)));
         let model = result.case.model().expect("a model");
         let start = &result.correlation.initial;
         let shares = model.analyze(&[1.0; 15]).expect("analyzed").shares;
@@ -248,11 +251,11 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                 let i = start.pairing.analysis_mode[j];
                 let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();
                 let difference = sum / (12.0 * STEP);
-                let derivative = data.frequency[(e, j)];
+                let derivative = frequency[(e, j)];
                 assert!(
                     (derivative - difference).abs() < CENTRAL_DIFFERENCE_FREQUENCY,
                     "case {}, panel {}, mode {}: {derivative} for {difference}",
-                    data.case,
+                    result.case.number,
                     e + 1,
                     j + 1
                 );
@@ -265,8 +268,8 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                     share * share
                 })
                 .sum();
-            let factor = 1.0 - 0.8 * start.errors.sum() * data.error_sum[(e, 0)] / seen.sqrt();
-            let printed = cell(&factor_table(result), &data.parameters[e], "Factor", "").0;
+            let factor = 1.0 - 0.8 * start.errors.sum() * error_sum[(e, 0)] / seen.sqrt();
+            let printed = cell(&factor_table(result), &maps[0].rows.1[e], "Factor", "").0;
             assert_relative_eq!(factor, printed, max_relative = 1e3 * MATRIX_ROUND_OFF);
         }
     }
@@ -275,15 +278,16 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
 #[test]
 fn unlimited_factors_are_those_of_the_table_with_the_published_one() {
     let result = &results()[3];
-    let data = unlimited_factors(result);
+    let factors = unlimited_factors(result);
     let table = factor_table(result);
-    assert_eq!((data.case, data.factors.len()), (4, 15));
-    assert_eq!((data.limits.lower, data.limits.upper), (0.55, 1.50));
-    for factor in &data.factors {
+    assert_eq!(factors.len(), 15);
+    for factor in &factors {
         let (computed, published) = cell(&table, &factor.parameter, "Factor", "");
         assert_eq!((factor.computed, factor.published), (computed, published));
         let is_faulty = factor.parameter == "8";
         assert_eq!(factor.published, is_faulty.then_some(60.0));
-        assert_eq!(factor.verdict == "anomaly", is_faulty);
+        assert_eq!(factor.verdict == Verdict::Anomaly, is_faulty);
+        let is_within = (0.55..=1.50).contains(&computed);
+        assert_eq!(factor.verdict == Verdict::Within, is_within);
     }
 }

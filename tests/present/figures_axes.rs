@@ -3,9 +3,11 @@
 use crate::common::drawings::written;
 use crate::present::figures::results;
 use corfem::cases::Case;
-use corfem::present::figures::cover_gages::cover_gages;
-use corfem::present::figures::error_history::{ErrorHistory, error_history};
-use corfem::present::figures::unlimited_factors::unlimited_factors;
+use corfem::present::figures::cover_gages::{cover_gages, draw};
+use corfem::present::figures::error_history::{self, PassHistory, error_history};
+use corfem::present::figures::factors;
+use corfem::present::tables::cases::unlimited_factors;
+use corfem::present::tables::correlation::JudgedFactor;
 
 /// The words of a drawing, in its order.
 fn words(svg: &str) -> Vec<String> {
@@ -17,7 +19,7 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
     let cases: Vec<Case> = (1..=4)
         .map(|case| Case::new(case).expect("a case"))
         .collect();
-    let words = words(&cover_gages(&cases).draw().expect("drawn"));
+    let words = words(&draw(&cover_gages(&cases)).expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
     assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
     assert!(words.iter().any(|word| word == "0.010"));
@@ -26,17 +28,18 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
 
 #[test]
 fn error_axis_ends_at_the_ticks_around_the_errors() {
-    let history = error_history(&results()[0]);
-    let ticks = |history: &ErrorHistory| -> Vec<f64> {
-        let words = words(&history.draw().expect("drawn"));
+    let result = &results()[0];
+    let history = error_history(&result.correlation, &result.case.settings);
+    let ticks = |history: &[PassHistory]| -> Vec<f64> {
+        let words = words(&error_history::draw("errors", "errors", history).expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
         let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
         numbers
             .filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number))
             .collect()
     };
-    let moments = |history: &ErrorHistory| -> Vec<f64> {
-        let passes = history.passes.iter();
+    let moments = |history: &[PassHistory]| -> Vec<f64> {
+        let passes = history.iter();
         let moments = passes.flat_map(|pass| pass.inner.iter().chain([&pass.check]));
         moments.map(|moment| moment.errors.sum()).collect()
     };
@@ -44,7 +47,7 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
     // A tenth of room is left above the largest: with 45 % at 50, and 46 % at 100.
     for (wanted, last) in [(0.46, 100.0), (0.45, 50.0), (0.05, 10.0)] {
         let mut scaled = history.clone();
-        for pass in &mut scaled.passes {
+        for pass in &mut scaled {
             for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
                 moment.errors.frequency *= wanted / largest;
                 moment.errors.shape *= wanted / largest;
@@ -58,9 +61,12 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
-    let mut figure = unlimited_factors(&results()[3]);
-    let lowest = |figure: &corfem::present::figures::unlimited_factors::UnlimitedFactors| {
-        let words = words(&figure.draw().expect("drawn"));
+    let result = &results()[3];
+    let limits = result.case.settings.inner.factor_range;
+    let mut factors = unlimited_factors(result);
+    let lowest = |factors: &[JudgedFactor]| {
+        let drawn = factors::draw("factors", "factors", factors, limits, "published");
+        let words = words(&drawn.expect("drawn"));
         let labels = words
             .iter()
             .filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
@@ -69,13 +75,13 @@ fn factor_axis_leaves_room_for_the_numbers() {
             .filter(|label| label % 10.0 == 0.0)
             .fold(0.0, f64::min)
     };
-    for factor in &mut figure.factors {
+    for factor in &mut factors {
         (factor.computed, factor.published) = (1.0, None);
     }
-    figure.factors[0].computed = -9.9;
-    assert_eq!(lowest(&figure), -20.0);
-    figure.factors[0].computed = -5.0;
-    assert_eq!(lowest(&figure), -10.0);
+    factors[0].computed = -9.9;
+    assert_eq!(lowest(&factors), -20.0);
+    factors[0].computed = -5.0;
+    assert_eq!(lowest(&factors), -10.0);
 }
 
 /// What the legend shows is the color of the panels it speaks of.
@@ -84,7 +90,7 @@ fn legend_of_the_gages_has_the_panels_colors() {
     let cases: Vec<Case> = (1..=4)
         .map(|case| Case::new(case).expect("a case"))
         .collect();
-    let svg = cover_gages(&cases).draw().expect("drawn");
+    let svg = draw(&cover_gages(&cases)).expect("drawn");
     // The fill of the last polygon before a word.
     let fill = |word: &str| {
         let before = &svg[..svg.find(word).expect("written")];

@@ -53,16 +53,13 @@ fn box_elements_are_the_models_in_three_layers() {
     let case = &results()[1].case;
     let data = box_elements(case).expect("a box");
     let model = case.model().expect("a model");
-    assert_eq!(data.elements.len(), 39);
-    for (drawn, element) in data.elements.iter().zip(model.structure().elements()) {
+    assert_eq!(data.len(), 39);
+    for (drawn, element) in data.iter().zip(model.structure().elements()) {
         assert_eq!((drawn.label, drawn.kind), (element.label, element.kind));
         assert_eq!(drawn.corners, model.structure().corners(element));
     }
     let on = |layer| {
-        let here = data
-            .elements
-            .iter()
-            .filter(move |drawn| drawn.layer == layer);
+        let here = data.iter().filter(move |drawn| drawn.layer == layer);
         here.map(|drawn| drawn.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
@@ -78,13 +75,9 @@ fn cover_gages_are_those_of_table_2() {
     let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
     let data = cover_gages(&cases);
     let table = PublishedTable::number(2).expect("it reads");
-    let names: Vec<&str> = data
-        .configurations
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names: Vec<&str> = data.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
-    for (number, configuration) in data.configurations.iter().enumerate() {
+    for (number, configuration) in data.iter().enumerate() {
         let labels: Vec<usize> = configuration
             .covers
             .iter()
@@ -113,5 +106,5 @@ fn cover_gages_are_those_of_table_2() {
             assert_eq!(cover.corners[0], [x, y]);
         }
     }
-    assert!(cover_gages(&[]).configurations.is_empty());
+    assert!(cover_gages(&[]).is_empty());
 }

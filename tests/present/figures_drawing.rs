@@ -3,8 +3,6 @@
 use crate::common::drawings::{size, written};
 use crate::common::golden::Numbers;
 use crate::present::figures::{draw_all, figures};
-use corfem::method::error::Error;
-use corfem::present::figures::picture;
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {
@@ -112,24 +110,6 @@ fn stored_figures_are_what_the_command_writes() {
         compared += 1;
     }
     assert_eq!(compared, 13, "one of every kind");
-}
-
-#[test]
-fn pictures_have_letters_without_a_font_of_the_system() {
-    let page = |text: &str| {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\"><text x=\"5\" y=\"15\" font-family=\"Noto Sans, Arial\" font-size=\"12\">{text}</text></svg>"
-        )
-    };
-    let png = |text| picture::png("words", &page(text)).expect("a picture");
-    let words = png("Ωλ 1");
-    assert_eq!(&words[..8], b"\x89PNG\r\n\x1a\n");
-    // Two dots to a pixel.
-    assert_eq!(words[16..24], [0, 0, 0, 120, 0, 0, 0, 40]);
-    assert_ne!(words, png(""), "the letters show");
-    assert_ne!(words, png("Ωλ 2"));
-    let wrong = picture::png("broken", "<svg");
-    assert!(matches!(wrong, Err(Error::Drawing { figure, .. }) if figure == "broken"));
 }
 
 #[test]

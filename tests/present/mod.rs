@@ -9,3 +9,4 @@ pub mod figures_drawing;
 pub mod figures_planform;
 pub mod matrix_tables;
 pub mod page;
+pub mod render;

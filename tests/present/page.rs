@@ -6,12 +6,11 @@ use corfem::cases::fit::{Fit, fit};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{Case, CaseResult};
 use corfem::present::figures::Figure;
-use corfem::present::page::{Contents, page, summary};
-use corfem::present::report::correlation_tables::frequency_table;
-use corfem::present::report::fewer_modes_tables::fewer_modes_tables;
-use corfem::present::report::matrix_tables::matrix_tables;
-use corfem::present::report::run_tables::all_tables;
-use corfem::present::report::table::{Cell, Table};
+use corfem::present::page::{Contents, page};
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::cases::{all_tables, frequency_table, summary};
+use corfem::present::tables::fewer_modes::fewer_modes_tables;
+use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::USUAL_CASE;
 
 const COMMAND: &str = "corfem report --out <somewhere>";
@@ -29,7 +28,7 @@ fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) 
 
 /// A text as it stands in HTML.
 fn escaped(text: &str) -> String {
-    text.replace('>', "&#62;").replace('\'', "&#39;")
+    text.replace('>', "&gt;")
 }
 
 fn html() -> String {
@@ -209,7 +208,7 @@ fn page_needs_nothing_beside_it() {
 #[test]
 fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
     let html = html();
-    assert!(html.contains("<code>corfem report --out &#60;somewhere&#62;</code>"));
+    assert!(html.contains("<code>corfem report --out &lt;somewhere&gt;</code>"));
     assert!(html.contains(&format!(
         "corfem {}, by the command",
         env!("CARGO_PKG_VERSION")

@@ -44,30 +44,38 @@ fn json_has_the_promised_keys() {
     for (row, case) in cases.iter().enumerate() {
         let length = |value: &Value| value.as_array().map(Vec::len);
         assert_eq!(case["case"], row + 1);
-        assert_eq!(length(&case["test_frequencies_hz"]), Some(9));
-        assert_eq!(length(&case["initial"]["frequencies_hz"]), Some(9));
-        assert_eq!(length(&case["initial"]["gages_in"]), Some(15));
-        assert!(case["initial"]["frequency_rms"].is_f64() && case["initial"]["shape_rms"].is_f64());
-        assert_eq!(length(&case["unlimited_factors"]), Some(15));
-        for (number, pass) in case["passes"]
-            .as_array()
-            .expect("a list")
+        let run = &case["correlation"];
+        let rms = |check: &Value| check["frequency_rms"].is_f64() && check["shape_rms"].is_f64();
+        assert_eq!(length(&run["parameters"]), Some(15));
+        assert_eq!(length(&run["test_frequencies_hz"]), Some(9));
+        assert_eq!(length(&run["initial"]["frequencies_hz"]), Some(9));
+        assert!(rms(&run["initial"]));
+        assert_eq!(length(&case["first_gages_in"]), Some(15));
+        let passes = run["passes"].as_array().expect("a list");
+        assert_eq!(length(&case["pass_gages_in"]), Some(passes.len()));
+        assert_eq!(length(&case["published_iterations"]), Some(passes.len()));
+        for (pass, gages) in passes
             .iter()
-            .enumerate()
+            .zip(case["pass_gages_in"].as_array().expect("lists"))
         {
-            assert_eq!(pass["pass"], number + 1);
             let iterations = pass["iterations"].as_u64().expect("a count") as usize;
-            assert_eq!(length(&pass["inner_error_sums"]), Some(iterations));
             assert_eq!(length(&pass["history"]), Some(iterations));
-            assert_eq!(length(&pass["gages_in"]), Some(15));
-            assert_eq!(length(&pass["frequencies_hz"]), Some(9));
-            assert!(pass["frequency_rms"].is_f64() && pass["shape_rms"].is_f64());
+            assert_eq!(length(gages), Some(15));
+            assert_eq!(length(&pass["unlimited_factors"]), Some(15));
+            assert_eq!(length(&pass["factors"]), Some(15));
+            assert_eq!(length(&pass["exact"]["frequencies_hz"]), Some(9));
+            assert!(rms(&pass["exact"]));
         }
     }
-    assert_eq!(cases[2]["passes"].as_array().map(Vec::len), Some(3));
-    assert_eq!(cases[3]["anomalies"][0]["element"], "8");
+    assert_eq!(
+        cases[2]["correlation"]["passes"].as_array().map(Vec::len),
+        Some(3)
+    );
+    assert_eq!(cases[3]["anomalies"][0]["parameter"], "8");
     // Gages at the bound of 0.013 in were held there by the total limit in Case 3's history.
-    let history = cases[2]["passes"][0]["history"].as_array().expect("a list");
+    let history = cases[2]["correlation"]["passes"][0]["history"]
+        .as_array()
+        .expect("a list");
     let held = history
         .iter()
         .flat_map(|i| i["limits"].as_array().expect("a list"))
@@ -195,7 +203,7 @@ fn another_box_is_a_change_of_data_alone() {
     ]);
     let own = parsed(&["cases", "2", "-f", "json"]);
     let frequencies = |document: &Value| -> Vec<f64> {
-        let list = document["cases"][0]["test_frequencies_hz"]
+        let list = document["cases"][0]["correlation"]["test_frequencies_hz"]
             .as_array()
             .expect("a list");
         list.iter()
@@ -227,8 +235,41 @@ fn substructures_are_groups_in_the_report() {
     let output = corfem(&["cases", "2", "--groups", "--quiet"]);
     assert_eq!(output.status.code(), Some(0));
     let run = parsed(&["cases", "2", "--groups", "--format", "json", "--quiet"]);
-    let passes = run["cases"][0]["passes"].as_array().expect("passes");
+    let passes = run["cases"][0]["correlation"]["passes"]
+        .as_array()
+        .expect("passes");
     let plain = parsed(&["cases", "2", "--format", "json", "--quiet"]);
-    assert_ne!(&plain["cases"][0]["passes"], &run["cases"][0]["passes"]);
+    assert_ne!(
+        &plain["cases"][0]["correlation"],
+        &run["cases"][0]["correlation"]
+    );
     assert!(!passes.is_empty());
+}
+
+#[test]
+fn no_command_prints_a_line_that_is_too_long_by_default() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = folder.path().join("box.dat");
+    let deck = deck.to_str().expect("UTF-8");
+    assert!(corfem(&["deck", "3", "-o", deck]).status.success());
+    for arguments in [
+        &["cases"][..],
+        &["cases", "--groups"],
+        &["fewer-modes"],
+        &["matrices"],
+        &["delta-wing"],
+        &["deck", "4"],
+        &["modes", deck],
+        &["--help"],
+        &["cases", "--help"],
+    ] {
+        let output = corfem(arguments);
+        let printed = text(&output.stdout);
+        assert!(printed.lines().count() > 10, "{arguments:?}");
+        for line in printed.lines().chain(text(&output.stderr).lines()) {
+            assert!(line.chars().count() <= 100, "{arguments:?}: {line}");
+            assert!(!line.contains("_percent"), "{arguments:?}: {line}");
+            assert!(!line.contains(" 1 iterations"), "{arguments:?}: {line}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ use super::cases::numbers;
 use super::matrices::{HeatMap, draw_by_twos};
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
+use crate::present::tables::fewer_modes::costs;
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
 use nalgebra::DMatrix;
 
@@ -67,17 +68,12 @@ pub fn comparison_figures(
     ])
 }
 
-/// What a run with fewer modes leaves: which error, and its value, a fraction.
-type Cost = (&'static str, fn(&FewerModesRun) -> f64);
-const COSTS: [Cost; 4] = [
-    ("Gages of the shear panels", |run| run.shear_gage_rms),
-    ("Gages of the membranes", |run| run.membrane_gage_rms),
-    ("Frequencies of all nine test modes", |run| {
-        run.exact_all_modes.frequency_rms
-    }),
-    ("Shapes of all nine test modes", |run| {
-        run.exact_all_modes.shape_rms
-    }),
+/// Titles of the [`costs`].
+const COSTS: [&str; 4] = [
+    "Gages of the shear panels",
+    "Gages of the membranes",
+    "Frequencies of all nine test modes",
+    "Shapes of all nine test modes",
 ];
 
 /// Errors of runs with fewer modes, fractions, those of gages first: by test modes (rows) and analysis modes (columns)
@@ -85,10 +81,10 @@ const COSTS: [Cost; 4] = [
 pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
     let most = |count: fn(&FewerModesRun) -> usize| runs.iter().map(count).max().unwrap_or(0);
     let (tests, analyses) = (most(|run| run.test_modes), most(|run| run.analysis_modes));
-    let map = |(title, value): Cost| {
+    let map = |(at, title): (usize, &str)| {
         let mut values = DMatrix::from_element(tests, analyses, None);
         for run in runs {
-            values[(run.test_modes - 1, run.analysis_modes - 1)] = Some(value(run));
+            values[(run.test_modes - 1, run.analysis_modes - 1)] = Some(costs(run)[at]);
         }
         HeatMap {
             title: title.to_owned(),
@@ -99,7 +95,7 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
             written: (100.0, 1),
         }
     };
-    COSTS.into_iter().map(map).collect()
+    COSTS.into_iter().enumerate().map(map).collect()
 }
 
 /// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the stiffness

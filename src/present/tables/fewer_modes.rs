@@ -166,37 +166,31 @@ pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     let mut tables = vec![table("iterations", "iterations", "", &|run| {
         Cell::count(run.iterations)
     })];
-    for (name, what, value) in COSTS {
-        // Gages with one decimal as in Tables 10 to 12, the others with two.
-        let digits = if what.starts_with("gage") {
-            PERCENT
-        } else {
-            RMS_PERCENT
-        };
-        tables.push(table(name, what, "%", &|run| {
-            Cell::percent(value(run), digits)
-        }));
+    for (at, (name, what, digits)) in COSTS.into_iter().enumerate() {
+        let cell = |run: &FewerModesRun| Cell::percent(costs(run)[at], digits);
+        tables.push(table(name, what, "%", &cell));
     }
     tables
 }
 
-/// What a run with fewer modes is worth: name, what it is, and the number, a fraction.
-pub(in crate::present) type Cost = (&'static str, &'static str, fn(&FewerModesRun) -> f64);
-pub(in crate::present) const COSTS: [Cost; 4] = [
-    ("shear", "gage RMS of the shear panels", |run| {
-        run.shear_gage_rms
-    }),
-    ("membrane", "gage RMS of the membranes", |run| {
-        run.membrane_gage_rms
-    }),
+/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies and
+/// shapes beside all test modes.
+pub(in crate::present) fn costs(run: &FewerModesRun) -> [f64; 4] {
+    let [shear, membrane] = [run.shear_gage_rms, run.membrane_gage_rms];
+    let exact = &run.exact_all_modes;
+    [shear, membrane, exact.frequency_rms, exact.shape_rms]
+}
+
+/// Names, titles and digits of the [`costs`].
+const COSTS: [(&str, &str, Digits); 4] = [
+    ("shear", "gage RMS of the shear panels", PERCENT),
+    ("membrane", "gage RMS of the membranes", PERCENT),
     (
         "frequency",
         "exact frequency RMS over all test modes",
-        |run| run.exact_all_modes.frequency_rms,
+        RMS_PERCENT,
     ),
-    ("shape", "exact shape RMS over all test modes", |run| {
-        run.exact_all_modes.shape_rms
-    }),
+    ("shape", "exact shape RMS over all test modes", RMS_PERCENT),
 ];
 
 /// Test modes down, analysis modes across.

@@ -1,0 +1,137 @@
+//! Tables as text, Markdown and CSV: what a terminal has room for, and what another program reads.
+
+use corfem::present::render::{WIDTH, csv, markdown, text};
+use corfem::present::table::{Cell, Digits, Table, counted};
+use proptest::prelude::*;
+
+/// A table of a user's correlation: any number of columns and rows, words in headings, some numbers published.
+fn table() -> impl Strategy<Value = Table> {
+    let cell = prop_oneof![
+        Just(Cell::Blank),
+        "[a-z]{1,8}".prop_map(Cell::text),
+        (-1e4..1e4_f64, prop::option::of(-1e4..1e4_f64))
+            .prop_map(|(value, published)| Cell::beside(value, Digits::Fixed(2), published)),
+    ];
+    let columns = prop::collection::vec("[A-Z][a-z]{1,9}( [a-z]{1,9}){0,2}", 1..30);
+    (columns, "[a-z]{1,20}", "([a-z]{1,12} ){1,40}[a-z]{1,12}").prop_flat_map(
+        move |(columns, label, note)| {
+            let row = prop::collection::vec(cell.clone(), columns.len());
+            prop::collection::vec(row, 1..6).prop_map(move |rows| {
+                let mut table = Table::new("name", note.clone(), "Row")
+                    .columns(columns.iter().cloned(), "%")
+                    .note(note.clone());
+                for cells in rows {
+                    table.row(&label, cells);
+                }
+                table
+            })
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn no_line_of_text_is_longer_than_a_page(table in table()) {
+        let text = text(std::slice::from_ref(&table));
+        for line in text.lines() {
+            prop_assert!(line.chars().count() <= WIDTH, "{line}");
+            prop_assert_eq!(line, line.trim_end());
+        }
+        // However it is split, everything is in it, in its order.
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let note: Vec<&str> = table.notes[0].split_whitespace().collect();
+        prop_assert!(words.ends_with(&note));
+        for row in &table.rows {
+            for cell in &row.cells {
+                for written in [Some(cell.computed()), cell.published()].into_iter().flatten() {
+                    prop_assert!(written.is_empty() || words.contains(&written.as_str()));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_number_is_one_line_of_csv(table in table()) {
+        let filled = table.rows.iter().flat_map(|row| &row.cells);
+        let count = filled.filter(|cell| **cell != Cell::Blank).count();
+        prop_assert_eq!(csv(&[table]).lines().count(), count + 1);
+    }
+}
+
+fn small() -> Table {
+    let mut table = Table::new("t", "A title", "Mode")
+        .column("Initial", "Hz")
+        .column("Initial error", "%")
+        .note("A note.");
+    let beside = Cell::beside(-4.0, Digits::Fixed(1), Some(-4.5));
+    table.row("1", [Cell::number(10.5, Digits::Significant(4)), beside]);
+    table.row("2, \"both\"", [Cell::Blank, Cell::text("words")]);
+    table
+}
+
+#[test]
+fn a_published_number_stands_below_its_own() {
+    let expected = "\
+Computed numbers, the published ones in rows of their own below them.
+
+A title
+
+                      Initial
+             Initial    error
+Mode              Hz        %
+─────────────────────────────
+1              10.50     -4.0
+  published              -4.5
+2, \"both\"               words
+─────────────────────────────
+
+A note.
+";
+    assert_eq!(text(&[small()]), expected);
+}
+
+#[test]
+fn markdown_has_it_in_parentheses() {
+    let expected = "\
+Computed numbers, the published ones behind them in parentheses.
+
+## A title
+
+| Mode | Initial, Hz | Initial error, % |
+| --- | ---: | ---: |
+| 1 | 10.50 | -4.0 (-4.5) |
+| 2, \"both\" |  | words |
+
+A note.
+";
+    assert_eq!(markdown(&[small()]), expected);
+}
+
+#[test]
+fn csv_quotes_what_would_end_a_field() {
+    let expected = "\
+table,row,column,unit,computed,published
+t,1,Initial,Hz,10.5,
+t,1,Initial error,%,-4,-4.5
+t,\"2, \"\"both\"\"\",Initial error,%,words,
+";
+    assert_eq!(csv(&[small()]), expected);
+}
+
+#[test]
+fn numbers_are_written_with_their_digits_and_never_as_minus_zero() {
+    for (digits, value, written) in [
+        (Digits::Fixed(2), -0.004, "0.00"),
+        (Digits::Fixed(0), 14.0, "14"),
+        (Digits::Significant(4), 99.996, "100.0"),
+        (Digits::Significant(4), 2658.4, "2658"),
+        (Digits::Significant(3), 0.0, "0.00"),
+        (Digits::Scientific(1), -0.00123, "-1.2e-3"),
+    ] {
+        assert_eq!(digits.write(value), written);
+    }
+    assert_eq!(counted(1, "pass", "passes"), "1 pass");
+    assert_eq!(counted(0, "pass", "passes"), "0 passes");
+}
