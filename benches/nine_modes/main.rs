@@ -6,11 +6,8 @@ mod rivals;
 mod summary;
 
 use corfem::cases::run_case;
-use corfem::method::appendix_c::perturb;
-use corfem::method::derivatives::{Workspace, error_changes_into};
+use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::run;
-use corfem::method::modal::ModalProblem;
-use corfem::method::outer_loop::check;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
 use problem::{NINE, PassSetting, Setting, passes};
@@ -43,19 +40,11 @@ fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: 
 fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::DERIVATIVES);
     let (problem, state) = (&setting.problem, &setting.state);
-    let mut workspace = Workspace::new(problem);
-    let mut changes = vec![0.0; problem.parameter_count()];
-    group.bench_function(summary::FIRST_ORDER, |bencher| {
-        bencher.iter(|| {
-            error_changes_into(
-                black_box(problem),
-                black_box(state),
-                &mut workspace,
-                &mut changes,
-            )
-            .expect("separate modes");
-            black_box(&changes);
-        });
+    group.bench_function(summary::GRADIENT, |bencher| {
+        bencher.iter(|| gradient(black_box(problem), black_box(state)));
+    });
+    group.bench_function(summary::DEFINITION, |bencher| {
+        bencher.iter(|| by_definition(black_box(problem), black_box(state)).expect("separate"));
     });
     eigensolutions(
         &mut group,
@@ -68,11 +57,10 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
 /// New roots and shapes after a step of ten percent up and down.
 fn update(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::UPDATE);
-    let k = &setting.problem.start.omega_squared;
-    for (name, rule) in summary::rules() {
+    let k = &setting.problem.exact.modes.omega_squared;
+    for (name, formula) in summary::formulae() {
         group.bench_function(name, |bencher| {
-            bencher
-                .iter(|| perturb(black_box(k), black_box(&setting.beta), rule).expect("separate"));
+            bencher.iter(|| formula(black_box(k), black_box(&setting.beta)).expect("separate"));
         });
     }
     eigensolutions(
@@ -92,19 +80,21 @@ fn cases(criterion: &mut Criterion, passes: &[PassSetting]) {
         let label = |what: &str| format!("{} {what}", pass.label());
         group.bench_function(label("inner loop"), |bencher| {
             bencher.iter(|| {
-                let problem = ModalProblem::new(&pass.start, &pass.test, NINE).expect("reduced");
-                run(&problem, &pass.factors, &pass.ranges, &pass.settings).expect("it runs")
+                run(
+                    black_box(&pass.start),
+                    &pass.factors,
+                    &pass.ranges,
+                    &pass.settings,
+                )
+                .expect("it runs")
             });
         });
         group.bench_function(label("analysis"), |bencher| {
             bencher.iter(|| {
                 pass.model
-                    .analyze(black_box(&pass.factors))
+                    .analyze(black_box(&pass.factors), &pass.test, None)
                     .expect("analyzed")
             });
-        });
-        group.bench_function(label("check"), |bencher| {
-            bencher.iter(|| check(&pass.start, &pass.test, NINE).expect("solved"));
         });
     }
     for number in corfem::cases::CASES {

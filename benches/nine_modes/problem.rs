@@ -3,10 +3,11 @@
 use corfem::cases::{CASES, Case, run_case};
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modal::{DynamicModel, ModalProblem, ModalState};
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::Modes;
-use corfem::method::step::Range;
+use corfem::method::model::ModalModel;
+use corfem::method::model::Range;
+use corfem::method::modes::ModeSet;
+use corfem::method::state::ModalState;
 use nalgebra::{DMatrix, DVector};
 
 /// Modes, and dynamic degrees of freedom, of the paper's box.
@@ -15,7 +16,7 @@ pub const NINE: usize = 9;
 /// Case 2 at its start: membrane covers, shear webs.
 pub struct Setting {
     /// The modal problem.
-    pub problem: ModalProblem,
+    pub problem: ModalModel,
     /// Its start.
     pub state: ModalState,
     /// $M^{-1/2}(K_D + 0.001 K_e)M^{-1/2}$ of every element: what differences of eigensolutions would solve.
@@ -30,11 +31,10 @@ impl Setting {
     pub fn new() -> Self {
         let case = Case::new(2).expect("a case");
         let model = case.model().expect("a model");
-        let dynamic = model
-            .analyze(&vec![1.0; model.parameters().len()])
-            .expect("analyzed");
+        let factors = vec![1.0; model.parameters().len()];
+        let dynamic = model.matrices(&factors).expect("analyzed");
         let test = case.test_modes().expect("test modes");
-        let problem = ModalProblem::new(&dynamic, &test, NINE).expect("reduced");
+        let problem = dynamic.analyze(&test, Some(NINE)).expect("reduced");
         // The box's mass is diagonal, so the reduction to a standard problem is a scaling; it is not timed.
         let scale = DMatrix::from_diagonal(&DVector::from_iterator(
             NINE,
@@ -52,15 +52,16 @@ impl Setting {
             change += if e % 2 == 0 { 0.1 } else { -0.1 } * *share;
         }
         Self {
-            state: problem.start_state().expect("a state"),
+            state: ModalState::start(&problem),
             element_matrices: shares
                 .iter()
                 .map(|share| standard(&(DERIVATIVE_STEP * *share)))
                 .collect(),
             beta: problem
-                .start
+                .exact
+                .modes
                 .shapes
-                .tr_mul(&(&change * &problem.start.shapes)),
+                .tr_mul(&(&change * &problem.exact.modes.shapes)),
             step_matrix: standard(&change),
             problem,
         }
@@ -80,11 +81,11 @@ pub struct PassSetting {
     /// Bounds on its factors.
     pub ranges: Vec<Option<Range>>,
     /// Its test modes.
-    pub test: Modes,
+    pub test: ModeSet,
     /// Factors at its start.
     pub factors: Vec<f64>,
     /// The analysis there.
-    pub start: DynamicModel,
+    pub start: ModalModel,
     /// The inner loop's settings.
     pub settings: InnerSettings,
 }
@@ -112,7 +113,9 @@ pub fn passes() -> Vec<PassSetting> {
                 iterations: pass.inner.iterations.len(),
                 ranges: model.factor_ranges().expect("bounds"),
                 test: result.test.clone(),
-                start: model.analyze(&factors).expect("analyzed"),
+                start: model
+                    .analyze(&factors, &result.test, None)
+                    .expect("analyzed"),
                 factors: factors.clone(),
                 settings: settings.clone(),
                 model: model.clone(),

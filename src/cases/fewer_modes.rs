@@ -5,12 +5,14 @@
 //! started with. The exact check afterwards shows what that costs.
 
 use crate::cases::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::{PANEL_COUNT, gage_rms};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::{Check, Settings, check, correlate};
+use crate::method::model::Check;
+use crate::method::modes::ModeSet;
+use crate::method::outer_loop::{Settings, correlate};
 use crate::method::pairing::Pairing;
 use crate::method::structure::ElementKind;
 use serde::Serialize;
@@ -45,7 +47,7 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn new(modes: &Modes, pairing: &Pairing, errors: &Errors) -> Self {
+    fn new(modes: &ModeSet, pairing: &Pairing, errors: &Errors) -> Self {
         let all = modes.frequencies_hz();
         let others = (0..all.len()).filter(|mode| !pairing.analysis_mode.contains(mode));
         let order = pairing.analysis_mode.iter().copied().chain(others);
@@ -105,31 +107,29 @@ pub fn fewer_modes_run(
     case: &Case,
     test_modes: usize,
     analysis_modes: usize,
-) -> Result<FewerModesRun, Error> {
+) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
     let mut settings = Settings {
         least_passes: 1,
         most_passes: 1,
-        analysis_modes: Some(analysis_modes),
         ..case.settings.clone()
     };
     settings.inner.iterations = ITERATIONS;
     let ranges = model.factor_ranges()?;
     let correlation = correlate(
-        |factors| model.analyze(factors),
-        &test,
+        |factors| model.analyze(factors, &test, Some(analysis_modes)),
         &ranges,
         &settings,
         |_, _| {},
     )?;
     let [pass] = correlation.passes.as_slice() else {
-        return Err(Error::Empty { what: "passes" });
+        return Err(Error::Empty { what: "passes" }.into());
     };
     let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
-    let all_modes = check(&model.analyze(&pass.factors)?, &all, all.len())?;
+    let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
     Ok(FewerModesRun {
         case: case.number,
         test_modes,
@@ -157,7 +157,7 @@ pub fn fewer_modes_run(
 ///
 /// # Errors
 /// Those of [`fewer_modes_run`].
-pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
+pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     PUBLISHED_RUNS
         .iter()
         .map(|&(test, analysis)| fewer_modes_run(case, test, analysis))
@@ -168,7 +168,7 @@ pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
 ///
 /// # Errors
 /// Those of [`fewer_modes_run`].
-pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, Error> {
+pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     let most = case.reconstruction.masses.len();
     (1..=most)
         .flat_map(|test| (test..=most).map(move |analysis| (test, analysis)))

@@ -1,10 +1,9 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
 use crate::cases::Case;
+use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Reconstruction};
-use crate::method::error::Error;
-use crate::method::outer_loop::check;
 use serde::Serialize;
 
 /// The published columns: case, table of frequencies, table of gages, column prefix.
@@ -68,8 +67,8 @@ pub struct Fit {
 /// Solves the box exactly at each published set of gages and compares the frequencies.
 ///
 /// # Errors
-/// Those of the model and its analysis; [`Error::Table`] for damaged tables.
-pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, Error> {
+/// Those of the model and its analysis; [`CaseError::Table`] for damaged tables.
+pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
     let mut columns = Vec::new();
     for (case_number, frequency_table, gage_table, prefix) in COLUMNS {
         let frequencies = PublishedTable::number(frequency_table)?;
@@ -79,8 +78,10 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, Error> {
             .map(|element| gages.required(&element.to_string(), &format!("{prefix}_in")))
             .collect::<Result<Vec<_>, _>>()?;
         let test = case.test_modes()?;
-        let model = case.model_with(&gages)?.analyze(&[1.0; PANEL_COUNT])?;
-        let solution = check(&model, &test, test.len())?;
+        let model = case.model_with(&gages)?;
+        let solution = model
+            .analyze(&vec![1.0; model.parameters().len()], &test, None)?
+            .exact;
         columns.push(FitColumn {
             case: case_number,
             column: prefix.to_owned(),

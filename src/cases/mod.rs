@@ -1,5 +1,6 @@
 //! The paper's four cases on its wing torque box.
 
+pub mod error;
 pub mod fewer_modes;
 pub mod fit;
 pub mod published;
@@ -9,18 +10,18 @@ pub mod torque_box;
 
 pub use run::{Anomaly, BUILT_IN, CaseResult, anomalies, run_case, run_case_with};
 
+use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{
     PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
 };
-use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::modal::DynamicModel;
+use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
+use crate::method::model::Parameter;
+use crate::method::model::Range;
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::parameters::Parameter;
-use crate::method::step::Range;
 use crate::method::structure::ElementKind;
 
 /// Numbers of the paper's cases.
@@ -69,18 +70,18 @@ impl Case {
     /// A case of the paper on the embedded box.
     ///
     /// # Errors
-    /// [`Error::UnknownCase`] for another number; those of [`Self::on`].
-    pub fn new(number: usize) -> Result<Self, Error> {
+    /// [`CaseError::UnknownCase`] for another number; those of [`Self::on`].
+    pub fn new(number: usize) -> Result<Self, CaseError> {
         Self::on(number, Reconstruction::embedded()?)
     }
 
     /// A case of the paper on a given box.
     ///
     /// # Errors
-    /// [`Error::UnknownCase`] for another number; [`Error::Table`] if Table 2 were damaged.
-    pub fn on(number: usize, reconstruction: Reconstruction) -> Result<Self, Error> {
+    /// [`CaseError::UnknownCase`] for another number; [`CaseError::Table`] if Table 2 were damaged.
+    pub fn on(number: usize, reconstruction: Reconstruction) -> Result<Self, CaseError> {
         if !CASES.contains(&number) {
-            return Err(Error::UnknownCase { found: number });
+            return Err(CaseError::UnknownCase { found: number });
         }
         let table = PublishedTable::number(2)?;
         let gage_heading = format!("gage_{number}");
@@ -89,12 +90,12 @@ impl Case {
                 let row = label.to_string();
                 let grids = (1..=4)
                     .map(|corner| Ok(table.required(&row, &format!("grid_{corner}"))? as usize))
-                    .collect::<Result<_, Error>>()?;
+                    .collect::<Result<_, CaseError>>()?;
                 let kind = match table.text(&row, &format!("type_{number}")) {
                     Some("S") => ElementKind::ShearPanel,
                     Some("M") => ElementKind::Membrane,
                     other => {
-                        return Err(Error::Table {
+                        return Err(CaseError::Table {
                             name: table.name.clone(),
                             expected: format!("S or M for element {label}"),
                             found: other.unwrap_or("nothing").to_owned(),
@@ -108,7 +109,7 @@ impl Case {
                     gage: table.required(&row, &gage_heading)?,
                 })
             })
-            .collect::<Result<Vec<_>, Error>>()?;
+            .collect::<Result<Vec<_>, CaseError>>()?;
         // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
         let gage_range = (number == 3).then_some(Range {
             lower: 0.007,
@@ -129,16 +130,8 @@ impl Case {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
-    pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, Error> {
-        if gages.len() != self.panels.len() {
-            return Err(Error::WrongShape {
-                what: "panel gages",
-                expected_rows: self.panels.len(),
-                expected_columns: 1,
-                rows: gages.len(),
-                columns: 1,
-            });
-        }
+    pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
+        check_length("panel gages", gages.len(), self.panels.len())?;
         let panels: Vec<Panel> = self
             .panels
             .iter()
@@ -148,12 +141,12 @@ impl Case {
                 ..panel.clone()
             })
             .collect();
-        FiniteElementModel::new(
+        Ok(FiniteElementModel::new(
             structure(&self.reconstruction, &panels, self.rod_area)?,
             load_distribution(&self.reconstruction)?,
             self.reconstruction.mass(),
             self.parameters(),
-        )
+        )?)
     }
 
     /// What is scaled: single panels or substructures.
@@ -182,7 +175,7 @@ impl Case {
     ///
     /// # Errors
     /// Those of [`Self::model_with`].
-    pub fn model(&self) -> Result<FiniteElementModel, Error> {
+    pub fn model(&self) -> Result<FiniteElementModel, CaseError> {
         self.model_with(&self.first_gages())
     }
 
@@ -195,21 +188,23 @@ impl Case {
     ///
     /// # Errors
     /// Those of [`Self::model_with`] and of the analysis.
-    pub fn test_modes(&self) -> Result<Modes, Error> {
-        self.test_modes_with(FiniteElementModel::analyze)
+    pub fn test_modes(&self) -> Result<Modes, CaseError> {
+        self.test_modes_with(|model, _| Ok(model.clone()))
     }
 
-    /// The same by another finite element analysis.
+    /// The same with the element stiffness of another program, see [`run_case_with`].
     ///
     /// # Errors
-    /// Those of [`Self::model_with`] and of `analyze`.
-    pub fn test_modes_with(
+    /// Those of [`Self::model_with`], of `elements` and of the analysis.
+    pub fn test_modes_with<E: From<CaseError>>(
         &self,
-        mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
-    ) -> Result<Modes, Error> {
+        mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
+    ) -> Result<Modes, E> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-        let dynamic = analyze(&model, &vec![1.0; model.parameters().len()])?;
-        crate::method::modes::solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())
+        let factors = vec![1.0; model.parameters().len()];
+        Ok(elements(&model, &factors)?
+            .modes(&factors)
+            .map_err(CaseError::from)?)
     }
 }
 

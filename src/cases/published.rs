@@ -3,7 +3,7 @@
 //! They stand beside the computed numbers in reports and are what tests compare with. Nothing is computed from
 //! them except the definitions of the cases (Table 2).
 
-use crate::method::error::Error;
+use crate::cases::error::CaseError;
 use std::collections::HashMap;
 
 const TABLES: [(usize, &str); 12] = [
@@ -44,12 +44,12 @@ impl PublishedTable {
     /// The published table of a number from 2 to 13.
     ///
     /// # Errors
-    /// [`Error::Table`] for another number (Table 1's numbers are lost in the scan) or damaged data.
-    pub fn number(number: usize) -> Result<Self, Error> {
+    /// [`CaseError::Table`] for another number (Table 1's numbers are lost in the scan) or damaged data.
+    pub fn number(number: usize) -> Result<Self, CaseError> {
         let name = format!("paper/tables/table_{number}.csv");
         match TABLES.iter().find(|(known, _)| *known == number) {
             Some((_, text)) => Self::parse(number, &name, text),
-            None => Err(Error::Table {
+            None => Err(CaseError::Table {
                 name,
                 expected: "a table from 2 to 13".into(),
                 found: number.to_string(),
@@ -60,8 +60,8 @@ impl PublishedTable {
     /// Reads a table from CSV text with a heading line; lines that start with `#` are comments.
     ///
     /// # Errors
-    /// [`Error::Table`] for rows of unequal length.
-    pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, Error> {
+    /// [`CaseError::Table`] for rows of unequal length.
+    pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, CaseError> {
         // No cell of these tables holds a comma or a quote.
         let rows = text
             .lines()
@@ -73,7 +73,7 @@ impl PublishedTable {
             let label = row.next().unwrap_or_default();
             let row: Vec<String> = row.collect();
             if row.len() != headings.len() {
-                return Err(Error::Table {
+                return Err(CaseError::Table {
                     name: name.to_owned(),
                     expected: format!("{} cells in row {label}", headings.len()),
                     found: row.len().to_string(),
@@ -116,9 +116,9 @@ impl PublishedTable {
     /// A cell's number where there must be one.
     ///
     /// # Errors
-    /// [`Error::Table`] naming the cell.
-    pub fn required(&self, label: &str, heading: &str) -> Result<f64, Error> {
-        self.value(label, heading).ok_or_else(|| Error::Table {
+    /// [`CaseError::Table`] naming the cell.
+    pub fn required(&self, label: &str, heading: &str) -> Result<f64, CaseError> {
+        self.value(label, heading).ok_or_else(|| CaseError::Table {
             name: self.name.clone(),
             expected: format!("a number in row {label}, column {heading}"),
             found: self.text(label, heading).unwrap_or("nothing").to_owned(),

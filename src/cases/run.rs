@@ -1,13 +1,13 @@
 //! A case from its first gages to its last exact check.
 
 use super::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
-use crate::method::modal::DynamicModel;
 use crate::method::model::FiniteElementModel;
-use crate::method::modes::Modes;
+use crate::method::model::{ModalModel, Range};
+use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
-use crate::method::step::Range;
 
 /// How many widths of the factor bounds beyond them an unlimited factor must lie to be reported as an anomaly.
 ///
@@ -35,7 +35,7 @@ pub struct CaseResult {
     /// What did the finite element analyses: [`BUILT_IN`] or another program.
     pub solver: &'static str,
     /// Its test modes.
-    pub test: Modes,
+    pub test: ModeSet,
     /// Its whole history.
     pub correlation: Correlation,
     /// Names of what was scaled: element numbers or substructures.
@@ -70,27 +70,29 @@ impl CaseResult {
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.
-pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, Error> {
-    run_case_with(case, BUILT_IN, FiniteElementModel::analyze, progress)
+pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, CaseError> {
+    run_case_with(case, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
 /// Correlates a case with another finite element analysis than the crate's own: `solver` is its name for the report,
-/// `analyze` is given the model and the factors on its parameters. The test modes come from it too, as in the paper, so that what is peculiar to an
+/// `elements` is given the model and the factors on its parameters, and returns the model with that program's element
+/// stiffness. The test modes come from it too, as in the paper, so that what is peculiar to an
 /// element is the same on both sides.
 ///
 /// # Errors
-/// Those of `analyze` and of [`run_case`].
-pub fn run_case_with(
+/// Those of `elements` and of [`run_case`].
+pub fn run_case_with<E: From<CaseError> + From<Error>>(
     case: &Case,
     solver: &'static str,
-    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<CaseResult, Error> {
+) -> Result<CaseResult, E> {
     let model = case.model()?;
-    let test = case.test_modes_with(&mut analyze)?;
+    let test = ModeSet::from(case.test_modes_with(&mut elements)?);
     let correlation = correlate(
-        |factors| analyze(&model, factors),
-        &test,
+        |factors| -> Result<ModalModel, E> {
+            Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+        },
         &model.factor_ranges()?,
         &case.settings,
         progress,

@@ -5,10 +5,30 @@
 //! two unit masses on equal springs to the ground, joined by a coupling spring, one ground spring being changed: the
 //! modes before the change and the roots after it are known in closed form.
 
-use crate::method::appendix_c::{UpdateRule, perturb};
+use crate::method::appendix_c::{first_order, original, recursive_1, recursive_2};
 use crate::method::error::Error;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use serde::Serialize;
+
+/// A column of the table: one of the formulae of Appendix C, at an order of approximation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Formula {
+    /// First order (C.20, C.21).
+    FirstOrder,
+    /// The original formulae of 1947: roots of second order from first-order shapes.
+    Original,
+    /// Recursive 1 (C.22).
+    Recursive1 {
+        /// The order, from 1.
+        order: usize,
+    },
+    /// Recursive 2 (C.24).
+    Recursive2 {
+        /// The order, from 1.
+        order: usize,
+    },
+}
 
 /// Two unit masses, each on a unit spring to the ground, joined by a coupling spring; the first ground spring is
 /// changed. Dimensionless.
@@ -48,11 +68,11 @@ impl TwoMasses {
         [upper / product, 1.0 / upper]
     }
 
-    /// Relative error $\gamma/\gamma_{exact} - 1$ of both roots by one rule.
+    /// Relative error $\gamma/\gamma_{exact} - 1$ of both roots by one formula.
     ///
     /// # Errors
-    /// [`Error::Setting`] for springs that are not positive; those of [`perturb`].
-    pub fn root_errors(&self, rule: UpdateRule) -> Result<[f64; 2], Error> {
+    /// [`Error::Setting`] for springs that are not positive; those of the formula's function.
+    pub fn root_errors(&self, formula: Formula) -> Result<[f64; 2], Error> {
         for (name, value, lowest, expected) in [
             ("coupling", self.coupling, 0.0, "a positive finite number"),
             ("change", self.change, -1.0, "a finite number above -1"),
@@ -66,19 +86,25 @@ impl TwoMasses {
             }
         }
         let exact = self.exact_roots();
-        let perturbed = perturb(&self.generalized_stiffness(), &self.beta(), rule)?;
+        let (k, beta) = (self.generalized_stiffness(), self.beta());
+        let perturbed = match formula {
+            Formula::FirstOrder => first_order(&k, &beta),
+            Formula::Original => original(&k, &beta),
+            Formula::Recursive1 { order } => recursive_1(&k, &beta, order),
+            Formula::Recursive2 { order } => recursive_2(&k, &beta, order),
+        }?;
         Ok([0, 1].map(|i| perturbed.roots[i] / exact[i] - 1.0))
     }
 }
 
 /// One problem of the table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct RootErrors {
     /// The problem.
     pub problem: TwoMasses,
     /// Its exact roots, the larger first.
     pub exact_roots: [f64; 2],
-    /// Relative error of both roots by each rule, as fractions, in the order of [`Table1::rules`].
+    /// Relative error of both roots by each formula, as fractions, in the order of [`Table1::formulae`].
     pub root_errors: Vec<[f64; 2]>,
 }
 
@@ -87,9 +113,9 @@ pub struct Row {
 pub struct Table1 {
     /// The columns: first order, the original formulae (roots of second order), then Recursive 1 and Recursive 2 from
     /// second order on.
-    pub rules: Vec<UpdateRule>,
+    pub formulae: Vec<Formula>,
     /// The problems.
-    pub rows: Vec<Row>,
+    pub rows: Vec<RootErrors>,
 }
 
 /// The table for any problems, to order `orders`.
@@ -97,21 +123,21 @@ pub struct Table1 {
 /// # Errors
 /// Those of [`TwoMasses::root_errors`].
 pub fn table_1(problems: &[TwoMasses], orders: usize) -> Result<Table1, Error> {
-    let mut rules = vec![UpdateRule::FirstOrder, UpdateRule::Original];
-    rules.extend((2..=orders).map(|order| UpdateRule::Recursive1 { order }));
-    rules.extend((2..=orders).map(|order| UpdateRule::Recursive2 { order }));
+    let mut formulae = vec![Formula::FirstOrder, Formula::Original];
+    formulae.extend((2..=orders).map(|order| Formula::Recursive1 { order }));
+    formulae.extend((2..=orders).map(|order| Formula::Recursive2 { order }));
     let rows = problems
         .iter()
         .map(|&problem| {
-            let root_errors = rules.iter().map(|&rule| problem.root_errors(rule));
-            Ok(Row {
+            let root_errors = formulae.iter().map(|&formula| problem.root_errors(formula));
+            Ok(RootErrors {
                 problem,
                 exact_roots: problem.exact_roots(),
                 root_errors: root_errors.collect::<Result<_, Error>>()?,
             })
         })
         .collect::<Result<_, Error>>()?;
-    Ok(Table1 { rules, rows })
+    Ok(Table1 { formulae, rows })
 }
 
 /// The problems of the printed table: couplings from a quarter to twice a ground spring, changes from −50 to +100 %.

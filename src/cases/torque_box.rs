@@ -4,7 +4,9 @@
 //! (upper, then lower). Rib 1-4 is the tip, 5-8 outboard, 9-12 inboard, 13-16 the root, which is fixed.
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
+use crate::cases::error::CaseError;
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Deserialize;
@@ -44,7 +46,7 @@ impl Reconstruction {
     ///
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
-    pub fn embedded() -> Result<Self, Error> {
+    pub fn embedded() -> Result<Self, CaseError> {
         Self::parse(
             "paper/reconstruction.toml",
             include_str!("../../paper/reconstruction.toml"),
@@ -54,11 +56,11 @@ impl Reconstruction {
     /// Reads a box from TOML text; `name` stands in error messages.
     ///
     /// # Errors
-    /// [`Error::Toml`] for text of another form; [`Error::WrongShape`] unless there are 16 grids and 9 masses;
-    /// [`Error::MissingGrid`] unless the grids are 1 to 16;
+    /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] unless there are 16 grids and 9 masses;
+    /// [`CaseError::MissingGrid`] unless the grids are 1 to 16;
     /// [`Error::Setting`] for a mid-chord fraction not between 0 and 1.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let read: Self = toml::from_str(text).map_err(|source| Error::Toml {
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let read: Self = toml::from_str(text).map_err(|source| CaseError::Toml {
             name: name.to_owned(),
             expected: "a torque box: material, masses and grids",
             source: Box::new(source),
@@ -67,18 +69,10 @@ impl Reconstruction {
             ("box grids", read.grids.len(), GRID_COUNT),
             ("box masses", read.masses.len(), 3 * FREE_RIBS),
         ] {
-            if found != expected {
-                return Err(Error::WrongShape {
-                    what,
-                    expected_rows: expected,
-                    expected_columns: 1,
-                    rows: found,
-                    columns: 1,
-                });
-            }
+            check_length(what, found, expected)?;
         }
         if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
-            return Err(Error::MissingGrid {
+            return Err(CaseError::MissingGrid {
                 grid,
                 count: GRID_COUNT,
             });
@@ -88,7 +82,8 @@ impl Reconstruction {
                 name: "mid_chord_fraction",
                 expected: "a number between 0 and 1",
                 found: read.mid_chord_fraction,
-            });
+            }
+            .into());
         }
         Ok(read)
     }
@@ -164,7 +159,7 @@ pub fn structure(
         .map(|(&label, &position)| Grid {
             label,
             position: Vector3::from(position),
-            held: [label >= FIRST_FIXED_GRID; 3],
+            constrained: [label >= FIRST_FIXED_GRID; 3],
         })
         .collect();
     let panels = panels.iter().map(|panel| Element {
@@ -202,8 +197,8 @@ pub fn structure(
 /// instead would make the dynamic flexibility singular.
 ///
 /// # Errors
-/// [`Error::ZeroLength`] when the spars of a rib meet or a spar has no depth there; [`Error::MissingGrid`].
-pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>, Error> {
+/// [`Error::ZeroLength`] when the spars of a rib meet or a spar has no depth there; [`CaseError::MissingGrid`].
+pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>, CaseError> {
     let xi = reconstruction.mid_chord_fraction;
     let hermite = [
         1.0 - 3.0 * xi.powi(2) + 2.0 * xi.powi(3),
@@ -216,7 +211,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
             .grids
             .get(&grid)
             .map(|&position| Vector3::from(position))
-            .ok_or(Error::MissingGrid {
+            .ok_or(CaseError::MissingGrid {
                 grid,
                 count: GRID_COUNT,
             })
@@ -257,11 +252,11 @@ fn nonzero(length: f64) -> Result<f64, Error> {
 /// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
 ///
 /// # Errors
-/// [`Error::MissingGrid`] for a box without a grid it must have.
-pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, Error> {
+/// [`CaseError::MissingGrid`] for a box without a grid it must have.
+pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, CaseError> {
     let at = |grid: usize| match reconstruction.grids.get(&grid) {
         Some(&position) => Ok(Vector3::from(position)),
-        None => Err(Error::MissingGrid {
+        None => Err(CaseError::MissingGrid {
             grid,
             count: GRID_COUNT,
         }),

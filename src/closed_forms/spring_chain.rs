@@ -2,7 +2,7 @@
 //! modes are too.
 
 use crate::method::error::Error;
-use crate::method::modes::{Modes, apply_sign_rule};
+use crate::method::modes::Modes;
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -41,16 +41,13 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Resul
     positive("stiffness", owner, stiffness)?;
     positive("mass", owner, mass)?;
     let span = (mass_count + 1) as f64;
-    let mut shapes = DMatrix::from_fn(mass_count, mass_count, |j, i| {
+    let shapes = DMatrix::from_fn(mass_count, mass_count, |j, i| {
         let angle = ((i + 1) * (j + 1)) as f64 * PI / span;
         (2.0 / (span * mass)).sqrt() * angle.sin()
     });
-    apply_sign_rule(&mut shapes);
-    Ok(Modes {
-        omega_squared: DVector::from_fn(mass_count, |i, _| {
-            let half_angle = (i + 1) as f64 * PI / (2.0 * span);
-            4.0 * stiffness / mass * half_angle.sin().powi(2)
-        }),
-        shapes,
-    })
+    let omega_squared = DVector::from_fn(mass_count, |i, _| {
+        let half_angle = (i + 1) as f64 * PI / (2.0 * span);
+        4.0 * stiffness / mass * half_angle.sin().powi(2)
+    });
+    Ok(Modes::ascending(omega_squared, shapes))
 }

@@ -1,6 +1,7 @@
 //! Closed forms of two degrees of freedom: the exact answers that every approximation is measured against.
 
-use crate::method::appendix_c::{Perturbed, check_input, check_root};
+use crate::method::appendix_c::Perturbed;
+use crate::method::appendix_c::recursive::{check_input, check_root};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky};
 use nalgebra::{DMatrix, DVector};
@@ -82,8 +83,6 @@ pub fn perturbed(
     Ok(Perturbed {
         roots,
         shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]),
-        order: 0,
-        last_change: 0.0,
     })
 }
 

@@ -1,4 +1,5 @@
 //! Files of other programs, and the programs themselves.
 
 pub mod deck;
+pub mod error;
 pub mod nastran95;

@@ -58,18 +58,19 @@ pub fn condense(
     })
 }
 
-/// Unit-size share of an element in the dynamic stiffness, $B K_e B^t$ (A.9), lbf/in per unit size (d × d).
+/// Generalized stiffness of an element for unit size, $V_e^t K_e V_e$ with $V_e$ the rows of `shapes` (free SDOF × m) at the
+/// element's own DOF, lbf/in per unit size for deflections in inches (m × m).
 ///
-/// Only the rows of $B^t$ at the element's own DOF enter. With one $B$ for all elements the shares, times the
-/// sizes, sum to $K_D$ exactly.
-pub fn unit_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
-    let rows = transformation.select_rows(&element.dof);
+/// For `shapes` $= B^t$ it is the element's share of $K_D$, $B K_e B^t$ (A.9): with one $B$ for all elements the shares,
+/// times the sizes, sum to $K_D$ exactly. For $V_S = B^t V$ it is that share seen through dynamic shapes $V$.
+pub fn generalized_stiffness(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+    let rows = shapes.select_rows(&element.dof);
     crate::method::linear_algebra::symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
 }
 
-/// Unit-size share of an element in the dynamic mass, $B M_e B^t$ (A.9) with the lumped $M_e$, lbf·s²/in (d × d).
-pub fn unit_mass_share(transformation: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
-    let rows = transformation.select_rows(&element.dof);
+/// Generalized mass of an element for unit size in the same way, $V_e^t M_e V_e$ with the lumped $M_e$ (m × m).
+pub fn generalized_mass(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+    let rows = shapes.select_rows(&element.dof);
     let mut weighted = rows.clone();
     for (mut row, &mass) in weighted.row_iter_mut().zip(element.unit_mass.iter()) {
         row *= mass;

@@ -118,7 +118,7 @@ impl FactorizedStiffness {
     /// # Errors
     /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a size that
     /// is not;
-    /// [`Error::SingularStiffness`] naming the grid and direction that nothing holds, when the smallest
+    /// [`Error::SingularStiffness`] naming the grid and direction that nothing constrains, when the smallest
     /// eigenvalue of the unit-diagonal stiffness is within round-off of zero; [`Error::NotPositiveDefinite`] for
     /// element matrices that are not semidefinite.
     pub fn new(

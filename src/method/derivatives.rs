@@ -1,203 +1,174 @@
-//! Derivatives of the error sum (12): a 0.1 % change of each parameter by first-order perturbation.
+//! Derivatives of the error sum (12): what a small change of each parameter does to it.
 //!
-//! A derivative is some two thousand multiplications, the same ones for every parameter. They are carried out for a
-//! block of parameters side by side, so that the processor's vector unit is always full; the result of a parameter does
-//! not depend on which others are beside it, nor on the width of the vector unit.
+//! There are two ways to them. [`by_definition`] is the paper's: each parameter is changed by 0.1 %, the modes follow by first
+//! order, and the error sum is taken anew. [`gradient`] is the limit of that for smaller and smaller changes, for all
+//! parameters at once: one sweep over the test modes gives the derivative of the error sum with respect to every entry of
+//! $\beta$, and one inner product with $V^t K_e V$ the derivative of each parameter.
 
-mod block;
-mod lanes;
-
+use crate::method::appendix_c::general::{self, ModalChange};
+use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order, recursive::check_root};
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
-use crate::method::modal::{ModalProblem, ModalState};
-use block::{Block, larger};
-use lanes::{Lanes, ZERO, combinations_into, lanes};
-use nalgebra::DMatrix;
+use crate::method::error_sum::{errors, unit_shape_difference};
+use crate::method::model::{ModalModel, Share};
+use crate::method::modes::ModeSet;
+use crate::method::state::ModalState;
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;
 
-/// Separation of two roots, relative to the larger $\omega^2$, below which a derivative holds their modes to their own
-/// shapes.
+/// Separation of two modes, relative to the larger $\omega^2$, below which a difference holds them to their own shapes.
 ///
-/// A step of [`DERIVATIVE_STEP`] couples two modes so close by up to a tenth and more, which is no longer first order; where
-/// the roots meet the shapes have no derivative at all, and those of the roots are what is left.
+/// A step of [`DERIVATIVE_STEP`] couples two modes so close by a tenth and more, which is no longer first order. Where two
+/// roots meet their shapes have no derivative at all, while the roots still have one.
 pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
 
-/// What a small change of each parameter does.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Derivatives {
-    /// Change of the error sum, $\Delta e_e = e_f + e_v - e_S$, for $\Delta K = 0.001\, c_e K_e$ or $\Delta M = 0.001\, c_e M_e$.
-    pub error_change: Vec<f64>,
-    /// The same change's relative generalized stiffness or mass on the test modes, one column per parameter
-    /// (test modes × parameters).
-    pub share_change: DMatrix<f64>,
+/// Which derivatives the inner loop steps by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DerivativeRule {
+    /// The paper's difference, [`by_definition`].
+    #[default]
+    Definition,
+    /// Its limit, [`gradient`].
+    Gradient,
 }
 
-/// $\Delta e$ and $\Delta k$ of (12) for every parameter at the present state.
+/// $\Delta e_e = e_f + e_v - e_S$ (12) of every parameter at the present state.
 ///
-/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by first order
-/// (C.20, C.21), modes closer than [`HELD_SEPARATION`] held to their own shapes, and the error sum is taken anew with the
-/// present pairing. The loop allocates nothing.
+/// # Errors
+/// Those of [`by_definition`].
+pub fn error_changes(
+    model: &ModalModel,
+    state: &ModalState,
+    rule: DerivativeRule,
+) -> Result<Vec<f64>, Error> {
+    match rule {
+        DerivativeRule::Definition => by_definition(model, state),
+        DerivativeRule::Gradient => Ok(gradient(model, state)
+            .into_iter()
+            .map(|slope| DERIVATIVE_STEP * slope)
+            .collect()),
+    }
+}
+
+/// $\Delta e_e = e_f + e_v - e_S$ of every parameter, for $\Delta K = 0.001\, c_e K_e$ or $\Delta M = 0.001\, c_e M_e$ at the
+/// present factors $c_e$ (12).
+///
+/// For each, $\beta = 0.001\, c_e\, V^t K_e V$ (or $\alpha$ with $M_e$) with the present modes $V$; roots and shapes follow by
+/// first order (C.20, C.21) and the error sum is taken anew with the present pairing. Modes closer than
+/// [`HELD_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// [`Error::LostRoot`] when a change takes a root's sign.
-pub fn error_derivatives(problem: &ModalProblem, state: &ModalState) -> Result<Derivatives, Error> {
-    let mut workspace = Workspace::new(problem);
-    let mut error_change = vec![0.0; problem.parameter_count()];
-    error_changes_into(problem, state, &mut workspace, &mut error_change)?;
-    let mut share_change = DERIVATIVE_STEP * &problem.test_shares;
-    for (mut column, &factor) in share_change.column_iter_mut().zip(&state.factors) {
-        column *= factor;
-    }
-    Ok(Derivatives {
-        error_change,
-        share_change,
-    })
-}
-
-/// What the derivatives of a problem need at every state, and storage for one block of parameters.
-#[derive(Debug, Clone)]
-pub struct Workspace {
-    /// The parameters.
-    blocks: Vec<Block>,
-    /// Test shapes of unit largest component (d × g).
-    test_shapes: DMatrix<f64>,
-    /// Present shapes, transposed: a DOF's components in all modes stand together (n × d).
-    components: DMatrix<f64>,
-    /// One term of the shares (n).
-    vector: Vec<Lanes>,
-    /// Generalized change (n × n).
-    change: Vec<Lanes>,
-    /// Changed $\omega^2$, or $1/\omega^2$ for a mass (n).
-    x: Vec<Lanes>,
-    /// Generalized shapes (n × n).
-    generalized_shapes: Vec<Lanes>,
-    /// One changed shape (d).
-    shape: Vec<Lanes>,
-}
-
-impl Workspace {
-    /// Prepares the derivatives of a problem.
-    pub fn new(problem: &ModalProblem) -> Self {
-        let (dof_count, count) = problem.start.shapes.shape();
-        let mut test_shapes = problem.test.shapes.clone();
-        for mut shape in test_shapes.column_iter_mut() {
-            let largest = shape.amax();
-            shape /= largest;
+pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
+    let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
+    let of_parameter = |(share, factor): (&Share, &f64)| {
+        let mut change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
+        hold_close_modes(k, &mut change);
+        let perturbed = match share {
+            Share::Stiffness(_) => first_order(k, &change)?,
+            Share::Mass(_) => {
+                let beta = DMatrix::zeros(k.len(), k.len());
+                general::first_order(&ModalChange::of_vibrations(k, beta, change))?
+            }
+        };
+        for (mode, &root) in perturbed.roots.iter().enumerate() {
+            check_root(mode, root)?;
         }
-        Self {
-            blocks: Block::all(problem),
-            test_shapes,
-            components: DMatrix::zeros(count, dof_count),
-            vector: vec![ZERO; count],
-            change: vec![ZERO; count * count],
-            x: vec![ZERO; count],
-            generalized_shapes: vec![ZERO; count * count],
-            shape: vec![ZERO; dof_count],
+        let modes = ModeSet {
+            omega_squared: perturbed.roots.map(f64::recip),
+            shapes: &state.modes.shapes * perturbed.shapes,
+        };
+        Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
+    };
+    model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(of_parameter)
+        .collect()
+}
+
+/// Takes the coupling of close modes out of a generalized change.
+fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
+    for j in 0..k.len() {
+        for i in (0..k.len()).filter(|&i| i != j) {
+            if (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]) {
+                change[(i, j)] = 0.0;
+            }
         }
     }
 }
 
-/// $\Delta e$ of every parameter, written into `error_change`, without an allocation.
+/// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
+/// $\Delta e_e/0.001$ for smaller and smaller changes.
 ///
-/// # Errors
-/// As [`error_derivatives`], and [`Error::WrongShape`] unless `error_change` has one entry per parameter.
-pub fn error_changes_into(
-    problem: &ModalProblem,
-    state: &ModalState,
-    workspace: &mut Workspace,
-    error_change: &mut [f64],
-) -> Result<(), Error> {
-    check_length(
-        "error changes",
-        error_change.len(),
-        problem.parameter_count(),
-    )?;
-    pulp::Arch::new().dispatch(OverBlocks {
-        problem,
-        state,
-        workspace,
-        error_change,
-    })
-}
-
-/// The loop over the blocks, compiled once for each kind of vector unit; `pulp` runs the one that this processor has.
-struct OverBlocks<'a> {
-    problem: &'a ModalProblem,
-    state: &'a ModalState,
-    workspace: &'a mut Workspace,
-    error_change: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for OverBlocks<'_> {
-    type Output = Result<(), Error>;
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        blocks_into(self.problem, self.state, self.workspace, self.error_change)
-    }
-}
-
-#[inline(always)]
-fn blocks_into(
-    problem: &ModalProblem,
-    state: &ModalState,
-    work: &mut Workspace,
-    error_change: &mut [f64],
-) -> Result<(), Error> {
-    state.modes.shapes.transpose_to(&mut work.components);
-    let k = &state.modes.omega_squared;
-    for block in &work.blocks {
-        let mut relative_change = ZERO;
-        for (lane, &e) in block.parameters.iter().enumerate() {
-            relative_change[lane] = DERIVATIVE_STEP * state.factors[e];
+/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r\, \beta_{ri}/(\omega_i^2 - \omega_r^2)$, so
+/// that with $e_S$ as a function of $\omega_i^2$ and of the shapes
+///
+/// $$ \frac{\partial e_S}{\partial \beta_{ii}} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
+///    \frac{\partial e_S}{\partial \beta_{ri}} = \frac{1}{\omega_i^2 - \omega_r^2}\, v_r^t \frac{\partial e_v}{\partial v_i}, \qquad
+///    \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{ri} \frac{\partial e_S}{\partial \beta_{ri}} (V^t K_e V)_{ri}. $$
+///
+/// A change of mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. Where an error is zero its root has a kink and no derivative;
+/// that error then counts as constant. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
+    let sensitivity = sensitivity_to_change(model, state);
+    let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
+    // The shares are those of the exact modes, so the sensitivity goes to them and not each share to the present modes.
+    let to_stiffness = p * &sensitivity * p.transpose();
+    let has_mass = model
+        .shares
+        .iter()
+        .any(|share| matches!(share, Share::Mass(_)));
+    let to_mass = has_mass.then(|| {
+        let mut weighted = sensitivity;
+        for (mut column, k) in weighted.column_iter_mut().zip(k.iter()) {
+            column *= -k;
         }
-        block.change_into(
-            &state.generalized_shapes,
-            &relative_change,
-            &mut work.vector,
-            &mut work.change,
-        );
-        block.first_order_into(k, &work.change, &mut work.x, &mut work.generalized_shapes)?;
-        let (mut frequency, mut shape) = (ZERO, ZERO);
-        for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
-            let (x, test) = (&work.x[i], problem.test.omega_squared[j]);
-            let own = lanes(|l| if block.is_mass { 1.0 / x[l] } else { x[l] });
-            let count = work.x.len();
-            combinations_into(
-                work.components.as_slice(),
-                &work.generalized_shapes[i * count..][..count],
-                &mut work.shape,
-            );
-            let difference = shape_difference(
-                &work.shape,
-                state.pairing.sign[j],
-                &work.test_shapes.as_slice()[j * work.shape.len()..][..work.shape.len()],
-            );
-            frequency = lanes(|l| frequency[l] + ((own[l] / test).sqrt() - 1.0).powi(2));
-            shape = lanes(|l| shape[l] + difference[l]);
+        p * weighted * p.transpose()
+    });
+    let slope = |share: &Share| match (share, &to_mass) {
+        (Share::Mass(matrix), Some(to_mass)) => to_mass.dot(matrix),
+        (share, _) => to_stiffness.dot(share.matrix()),
+    };
+    model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(|(share, factor)| factor * slope(share))
+        .collect()
+}
+
+/// $\partial e_S/\partial \beta$ at the present modes (n × n), the adjoint sweep over the test modes.
+fn sensitivity_to_change(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
+    let (k, shapes) = (&state.modes.omega_squared, &state.modes.shapes);
+    let (dof_count, count) = shapes.shape();
+    let mut sensitivity = DMatrix::zeros(count, count);
+    let mut to_shape = DVector::zeros(dof_count);
+    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
+        if state.errors.frequency > 0.0 {
+            let ratio = (k[i] / model.test.omega_squared[j]).sqrt();
+            sensitivity[(i, i)] = (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
         }
-        let dof_count = work.shape.len() as f64;
-        let sum = lanes(|l| frequency[l].sqrt() + (shape[l] / dof_count).sqrt());
-        for (lane, &e) in block.parameters.iter().enumerate() {
-            error_change[e] = sum[lane] - state.errors.sum();
+        if state.errors.shape > 0.0 {
+            // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
+            // the scale takes away at component m.
+            let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
+            unit_shape_difference(shape, sign, model.test.shapes.column(j), &mut to_shape);
+            let largest = shape.icamax();
+            let scale = sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
+            let by_scale = to_shape.dot(&shape) / shape[largest];
+            to_shape[largest] -= by_scale;
+            for (r, other) in shapes.column_iter().enumerate().filter(|(r, _)| *r != i) {
+                let apart = k[i] - k[r];
+                if apart.abs() > SMALLEST_SEPARATION * k[i].max(k[r]) {
+                    sensitivity[(r, i)] = scale * to_shape.dot(&other) / apart;
+                }
+            }
         }
     }
-    Ok(())
-}
-
-/// $\sum_r (\pm v_r/|v|_\infty - w_r)^2$ in every lane, for a test shape $w$ of unit largest component.
-#[inline(always)]
-fn shape_difference(shape: &[Lanes], sign: f64, test_shape: &[f64]) -> Lanes {
-    let mut largest = ZERO;
-    for component in shape {
-        largest = lanes(|l| larger(component[l].abs(), largest[l]));
-    }
-    let to_unit = lanes(|l| sign / largest[l]);
-    let mut sum = ZERO;
-    for (component, test) in shape.iter().zip(test_shape) {
-        sum = lanes(|l| sum[l] + (component[l] * to_unit[l] - test).powi(2));
-    }
-    sum
+    sensitivity
 }

@@ -1,6 +1,5 @@
 //! The one error type: every message says what was expected and what was found, and names the offender.
 
-use std::path::PathBuf;
 use thiserror::Error;
 
 /// Everything that can go wrong between a structure's description and its correlated model.
@@ -76,14 +75,6 @@ pub enum Error {
     DuplicateElement {
         /// The repeated label.
         element: usize,
-    },
-    /// A torque box lacks one of its grid points.
-    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
-    MissingGrid {
-        /// The missing label.
-        grid: usize,
-        /// How many grids a box has.
-        count: usize,
     },
     /// An element refers to a grid point that does not exist.
     #[error(
@@ -175,12 +166,12 @@ pub enum Error {
         /// What is wrong with it.
         source: Box<Error>,
     },
-    /// Nothing holds some motion of the structure.
+    /// Nothing constrains some motion of the structure.
     #[error(
-        "stiffness: expected every motion held, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
+        "stiffness: expected every motion constrained, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
     )]
     SingularStiffness {
-        /// The grid that moves most in the motion nothing holds.
+        /// The grid that moves most in the motion that nothing constrains.
         grid: usize,
         /// Its direction: `x`, `y` or `z`.
         direction: char,
@@ -330,121 +321,6 @@ pub enum Error {
         expected: &'static str,
         /// What it was.
         found: f64,
-    },
-    /// A case that the paper does not have.
-    #[error("case: expected 1, 2, 3 or 4, found {found}")]
-    UnknownCase {
-        /// The number asked for.
-        found: usize,
-    },
-    /// Data that does not read as TOML of the expected form.
-    #[error("{name}: expected {expected}, found an error: {source}")]
-    Toml {
-        /// The file or data set.
-        name: String,
-        /// What it should hold.
-        expected: &'static str,
-        /// The reader's own message.
-        source: Box<toml::de::Error>,
-    },
-    /// A table that does not read as CSV of the expected form.
-    #[error("{name}: expected {expected}, found {found}")]
-    Table {
-        /// The table.
-        name: String,
-        /// What it should hold.
-        expected: String,
-        /// What stood there.
-        found: String,
-    },
-    /// A line of a deck that is not what it must be.
-    #[error("{file}, line {line}: expected {expected}, found {found}")]
-    DeckLine {
-        /// The deck.
-        file: String,
-        /// The line, from one.
-        line: usize,
-        /// What it must be.
-        expected: &'static str,
-        /// What it is.
-        found: String,
-    },
-    /// A field of a bulk data card that is not what it must be.
-    #[error("{file}, line {line}: card {card}, field {field}: expected {expected}, found {found}")]
-    DeckField {
-        /// The deck.
-        file: String,
-        /// The line the field stands in, from one.
-        line: usize,
-        /// Name of the card.
-        card: String,
-        /// Number of the field: 2 to 9 on the card's first line, 12 to 19 on its first continuation, and so on.
-        field: usize,
-        /// What it must be.
-        expected: String,
-        /// What stands there.
-        found: String,
-    },
-    /// An element at a degree of freedom that an MPC equation makes dependent.
-    #[error(
-        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
-    )]
-    TiedElement {
-        /// The element.
-        element: usize,
-        /// The grid.
-        grid: usize,
-        /// The dependent direction: `x`, `y` or `z`.
-        direction: char,
-    },
-    /// An external solver that is not where it was looked for.
-    #[error(
-        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; name it with --nastran or the environment variable NASTRAN95"
-    )]
-    SolverMissing {
-        /// The folder looked in.
-        path: PathBuf,
-    },
-    /// An external solver that did not end in time and was stopped.
-    #[error("NASTRAN-95: expected it to end within {seconds} s, found it still running")]
-    SolverTimeLimit {
-        /// The limit.
-        seconds: f64,
-    },
-    /// A request to stop while an external solver was running.
-    #[error("NASTRAN-95: expected to wait for its end, found a request to stop")]
-    SolverInterrupted,
-    /// An external solver that ended with an error status or a signal.
-    #[error("NASTRAN-95: expected it to end well, found {status}: {message}")]
-    SolverCrashed {
-        /// How it ended.
-        status: String,
-        /// The last lines it printed.
-        message: String,
-    },
-    /// An external solver that refused its input.
-    #[error("NASTRAN-95: expected a run without fatal messages, found: {message}")]
-    SolverFatal {
-        /// Its first fatal message.
-        message: String,
-    },
-    /// Results of an external solver that are not what the deck asks for.
-    #[error("NASTRAN-95: expected {expected}, found {found}")]
-    SolverAnswer {
-        /// What the answer must be.
-        expected: String,
-        /// What it is.
-        found: String,
-    },
-    /// A file that cannot be read or written.
-    #[error("{path}: expected to {action} it, found an error: {source}")]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// `read`, `write`, `run` or `remove`.
-        action: &'static str,
-        /// The operating system's message.
-        source: std::io::Error,
     },
     /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
     #[error(

@@ -1,8 +1,8 @@
-//! The objective (5, 6): how far the analysis modes are from the test modes.
+//! The error sum (5, 6): how far the analysis modes are from the test modes.
 
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
-use nalgebra::DVectorView;
+use nalgebra::{DVector, DVectorView};
 
 /// Square-root-of-sum-of-squares (SRSS) errors over the test modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,19 +40,17 @@ impl Errors {
 /// with every shape scaled to unit largest component and the analysis shape signed like its test mode. The
 /// frequency error is relative: the paper prints a difference but its tables hold the relative one
 /// (`paper/errata.md`).
-pub fn errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Errors {
-    let dof_count = test.shapes.nrows() as f64;
+pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
+    let dof_count = test.shapes.nrows();
     let (mut frequency, mut shape) = (0.0, 0.0);
+    let mut difference = DVector::zeros(dof_count);
     for j in 0..test.len() {
         let i = pairing.analysis_mode[j];
         let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
         frequency += (ratio - 1.0).powi(2);
-        let difference = squared_shape_difference(
-            analysis.shapes.column(i).as_view(),
-            pairing.sign[j],
-            test.shapes.column(j).as_view(),
-        );
-        shape += difference / dof_count;
+        let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
+        unit_shape_difference(analyzed, pairing.sign[j], tested, &mut difference);
+        shape += difference.norm_squared() / dof_count as f64;
     }
     Errors {
         frequency: frequency.sqrt(),
@@ -61,17 +59,15 @@ pub fn errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Errors {
     }
 }
 
-/// $\sum_j (\pm v_j/|v|_\infty - w_j/|w|_\infty)^2$.
-pub(crate) fn squared_shape_difference(
+/// $\pm v/|v|_\infty - w/|w|_\infty$, the difference (d) of two shapes scaled to unit largest component.
+pub(crate) fn unit_shape_difference(
     analysis: DVectorView<f64>,
     sign: f64,
     test: DVectorView<f64>,
-) -> f64 {
-    let to_unit = sign / analysis.amax();
-    let to_unit_test = 1.0 / test.amax();
-    analysis
-        .iter()
-        .zip(test.iter())
-        .map(|(v, w)| (v * to_unit - w * to_unit_test).powi(2))
-        .sum()
+    difference: &mut DVector<f64>,
+) {
+    let (to_unit, to_unit_test) = (sign / analysis.amax(), 1.0 / test.amax());
+    for ((difference, v), w) in difference.iter_mut().zip(analysis.iter()).zip(test.iter()) {
+        *difference = v * to_unit - w * to_unit_test;
+    }
 }

@@ -1,12 +1,12 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
 
-use crate::method::appendix_c::UpdateRule;
-use crate::method::derivatives::{Derivatives, error_derivatives};
+use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::linear_algebra::check_length;
-use crate::method::modal::{ModalProblem, ModalState};
-use crate::method::step::{Limit, Range, StepRule, limited_factor, unlimited_factors};
+use crate::method::model::{ModalModel, Range};
+use crate::method::state::{ModalState, UpdateRule};
+use crate::method::step::{Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
 use serde::Serialize;
 
 /// How the inner loop steps and when it stops.
@@ -25,7 +25,9 @@ pub struct InnerSettings {
     pub halvings: usize,
     /// Most iterations (accepted steps).
     pub iterations: usize,
-    /// How derivatives become factors.
+    /// How the error sum's derivatives are taken.
+    pub derivatives: DerivativeRule,
+    /// How they become factors.
     pub step: StepRule,
     /// How modes follow the factors.
     pub update: UpdateRule,
@@ -44,6 +46,7 @@ impl Default for InnerSettings {
             tolerance: 0.025,
             halvings: 5,
             iterations: 100,
+            derivatives: DerivativeRule::default(),
             step: StepRule::default(),
             update: UpdateRule::default(),
         }
@@ -65,15 +68,17 @@ pub enum Stop {
 /// One accepted step.
 #[derive(Debug, Clone)]
 pub struct Iteration {
-    /// Derivatives at the place the step was taken from.
-    pub derivatives: Derivatives,
+    /// $\Delta e$ of every parameter (12) at the place the step was taken from.
+    pub error_changes: Vec<f64>,
+    /// $\Delta k$ of every parameter there.
+    pub stiffness_changes: Vec<f64>,
     /// Factors of (13) before any bound.
     pub unlimited_factors: Vec<f64>,
     /// How often the step was halved.
     pub halvings: usize,
     /// Total factor of each parameter since the last exact solution, after the step.
     pub factors: Vec<f64>,
-    /// What held each parameter's factor.
+    /// What limited each parameter's factor.
     pub limits: Vec<Limit>,
     /// Errors after the step.
     pub errors: Errors,
@@ -104,26 +109,22 @@ pub struct InnerRun {
 ///
 /// # Errors
 /// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
-/// do not match the parameters; those of [`error_derivatives`]. A trial step too far for the perturbation (modes that
+/// do not match the parameters; those of [`error_changes`]. A trial step too far for the perturbation (modes that
 /// coalesce, a lost root, roots that do not settle) is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
 /// [`Error::UnsettledRoots`] is returned when that is so of the first step and of every one of its halvings.
 pub fn run(
-    problem: &ModalProblem,
+    model: &ModalModel,
     base: &[f64],
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
     check_settings(settings)?;
-    check_length("parameter factors", base.len(), problem.parameter_count())?;
-    check_length(
-        "parameter limits",
-        total_ranges.len(),
-        problem.parameter_count(),
-    )?;
+    check_length("parameter factors", base.len(), model.shares.len())?;
+    check_length("parameter limits", total_ranges.len(), model.shares.len())?;
     for range in total_ranges.iter().flatten() {
         Range::positive("parameter limits", range.lower, range.upper)?;
     }
-    let mut state = problem.start_state()?;
+    let mut state = ModalState::start(model);
     let start = state.errors;
     let mut iterations: Vec<Iteration> = Vec::new();
     let mut first_unlimited_factors = Vec::new();
@@ -131,27 +132,28 @@ pub fn run(
         if iterations.len() == settings.iterations {
             break Stop::Iterations;
         }
-        let derivatives = error_derivatives(problem, &state)?;
+        let changes = error_changes(model, &state, settings.derivatives)?;
+        let stiffnesses = stiffness_changes(model, &state, &changes, settings.step);
         let relaxation = if iterations.is_empty() {
             settings.first_relaxation
         } else {
             settings.relaxation
         };
-        let unlimited =
-            unlimited_factors(&derivatives, state.errors.sum(), relaxation, settings.step);
+        let unlimited = unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
-        let tried = lowering_step(problem, &state, &unlimited, base, total_ranges, settings);
+        let tried = lowering_step(model, &state, &unlimited, base, total_ranges, settings);
         let (halvings, limits, next) = match tried? {
             Trial::Lower(halvings, limits, next) => (halvings, limits, next),
-            // No step at all: the modes that stand in the way are worth more than a loop that did nothing.
+            // The loop could do nothing at all; the error names the modes that prevent it.
             Trial::Refused(error) if iterations.is_empty() => return Err(error),
             Trial::Refused(_) | Trial::TooFar => break Stop::LocalMinimum,
         };
         state = next;
         iterations.push(Iteration {
-            derivatives,
+            error_changes: changes,
+            stiffness_changes: stiffnesses,
             unlimited_factors: unlimited,
             halvings,
             factors: state.factors.clone(),
@@ -183,7 +185,7 @@ enum Trial {
 
 /// The longest of the step and its halvings that lowers the error sum.
 fn lowering_step(
-    problem: &ModalProblem,
+    model: &ModalModel,
     state: &ModalState,
     unlimited: &[f64],
     base: &[f64],
@@ -205,7 +207,7 @@ fn lowering_step(
                 )
             })
             .unzip();
-        match problem.state_at(factors, settings.update) {
+        match ModalState::at(model, factors, settings.update) {
             Ok(next) if next.errors.sum() < state.errors.sum() => {
                 return Ok(Trial::Lower(halvings, limits, next));
             }

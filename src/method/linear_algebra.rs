@@ -9,10 +9,6 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 /// Congruence transformations leave asymmetry of about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
 
-/// What counts as zero when a matrix is taken apart into rank-one terms, relative to its size times its largest entry:
-/// a few roundings, so that the rank comes out as that of the element and not of its round-off.
-const RANK_ROUND_OFF: f64 = 1e-15;
-
 /// Refuses matrices, real or complex, with NaN or infinite entries.
 ///
 /// # Errors
@@ -168,65 +164,6 @@ pub fn symmetric_eigen(
     let values = DVector::from_fn(size, |i, _| eigen.S()[i]);
     let vectors = DMatrix::from_fn(size, size, |row, column| eigen.U()[(row, column)]);
     Ok((values, vectors))
-}
-
-/// A symmetric matrix as a sum of rank-one terms, as few as its rank: $A = \sum_t s_t f_t f_t^t$ with $s_t = \pm 1$.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RankOneTerms {
-    /// The vectors $f_t$, one per column (n × rank).
-    pub vectors: DMatrix<f64>,
-    /// The signs $s_t$.
-    pub signs: Vec<f64>,
-}
-
-/// Rank-one terms of a symmetric matrix; what is left of it is within round-off of its largest entry.
-///
-/// A semidefinite matrix, as every element's share is, is taken apart by Cholesky's factorization with the largest
-/// diagonal entry as pivot, $f = a_p/\sqrt{a_{pp}}$, which ends when its rank is reached. Any other is taken apart by its
-/// eigenvectors, $f_t = \sqrt{|\mu_t|}\, y_t$.
-///
-/// # Errors
-/// Those of [`symmetric_eigen`].
-pub fn rank_one_terms(what: &'static str, matrix: &DMatrix<f64>) -> Result<RankOneTerms, Error> {
-    check_symmetric(what, matrix)?;
-    let smallest = RANK_ROUND_OFF * matrix.nrows() as f64 * matrix.amax();
-    let mut rest = matrix.clone();
-    let mut vectors: Vec<DVector<f64>> = Vec::new();
-    while rest.amax() > smallest {
-        let pivot = rest.diagonal().imax();
-        let largest = rest[(pivot, pivot)];
-        // No entry of a semidefinite matrix exceeds its largest diagonal entry.
-        if vectors.len() == matrix.nrows() || rest.amax() > largest + smallest {
-            return spectral_terms(what, matrix, smallest);
-        }
-        let vector = rest.column(pivot) / largest.sqrt();
-        rest.ger(-1.0, &vector, &vector, 1.0);
-        vectors.push(vector);
-    }
-    Ok(RankOneTerms {
-        signs: vec![1.0; vectors.len()],
-        vectors: DMatrix::from_fn(matrix.nrows(), vectors.len(), |row, term| {
-            vectors[term][row]
-        }),
-    })
-}
-
-fn spectral_terms(
-    what: &'static str,
-    matrix: &DMatrix<f64>,
-    smallest: f64,
-) -> Result<RankOneTerms, Error> {
-    let (values, mut vectors) = symmetric_eigen(what, matrix)?;
-    let kept: Vec<usize> = (0..values.len())
-        .filter(|&t| values[t].abs() > smallest)
-        .collect();
-    for (mut vector, value) in vectors.column_iter_mut().zip(values.iter()) {
-        vector *= value.abs().sqrt();
-    }
-    Ok(RankOneTerms {
-        signs: kept.iter().map(|&t| values[t].signum()).collect(),
-        vectors: vectors.select_columns(&kept),
-    })
 }
 
 /// The same matrix, real or complex, for faer.

@@ -5,26 +5,56 @@ use crate::method::linear_algebra::{
     check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
     symmetric_eigen, symmetric_part,
 };
+use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
+use std::ops::Deref;
 
 /// Components within this fraction of the largest count as equally large for the sign rule, so that round-off
 /// in a symmetric shape does not choose its sign.
 pub(crate) const SIGN_TIE: f64 = 1e-6;
 
-/// Modes of vibration, in ascending order of frequency.
-///
-/// Shapes are mass-orthonormal, $V^t M V = I$ (3), and signed so that the first of their largest components
-/// (within one part in a million) is positive.
+/// A set of modes in any order and of any scale: measured ones, or those that a perturbation leads to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Modes {
-    /// Squared circular frequencies $\omega_i^2 = k_{ii} = 1/\lambda_i$, rad²/s².
+pub struct ModeSet {
+    /// Squared circular frequencies $\omega_i^2$, rad²/s².
     pub omega_squared: DVector<f64>,
-    /// Mode shapes, one per column (d × n), in/(lbf·s²/in)^½.
+    /// Mode shapes, one per column (d × n).
     pub shapes: DMatrix<f64>,
 }
 
-impl Modes {
+impl ModeSet {
+    /// Measured modes: frequencies in hertz, and shapes of any scale and sign, one per column (d × g).
+    ///
+    /// # Errors
+    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency that is not
+    /// positive or a shape that is zero.
+    pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
+        if frequencies_hz.is_empty() {
+            return Err(Error::Empty { what: "test modes" });
+        }
+        check_shape(
+            "test mode shapes",
+            shapes,
+            shapes.nrows(),
+            frequencies_hz.len(),
+        )?;
+        check_finite("test mode shapes", shapes)?;
+        for (mode, &frequency) in frequencies_hz.iter().enumerate() {
+            positive("frequency", || test_mode(mode), frequency)?;
+            positive(
+                "largest component",
+                || test_mode(mode),
+                shapes.column(mode).amax(),
+            )?;
+        }
+        let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
+        Ok(Self {
+            omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared),
+            shapes: shapes.clone(),
+        })
+    }
+
     /// Number of modes.
     pub fn len(&self) -> usize {
         self.omega_squared.len()
@@ -43,81 +73,79 @@ impl Modes {
             .collect()
     }
 
+    /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
+    pub(crate) fn select(&self, places: &[usize]) -> Self {
+        Self {
+            omega_squared: self.omega_squared.select_rows(places),
+            shapes: self.shapes.select_columns(places),
+        }
+    }
+
+    /// The same modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;
+    /// Appendix B does that.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
+    /// [`Error::NotPositive`] for a generalized mass that is not positive.
+    pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
+        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
+        check_finite("test mode shapes", &self.shapes)?;
+        let mut scaled = self.clone();
+        for (mode, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
+            let generalized_mass = shape.dot(&(mass * &shape));
+            positive("generalized mass", || test_mode(mode), generalized_mass)?;
+            shape /= generalized_mass.sqrt();
+        }
+        Ok(scaled)
+    }
+}
+
+fn test_mode(mode: usize) -> String {
+    format!("test mode {mode} (from zero)")
+}
+
+/// Modes of vibration as an eigensolution finds them: ascending in frequency, with mass-orthonormal shapes (3),
+///
+/// $$ V^t M V = I, \qquad V^t K V = \mathrm{diag}(\omega^2), $$
+///
+/// in in/(lbf·s²/in)^½, signed so that the first of their largest components (within one part in a million) is positive.
+/// Nothing outside this module can make or change one, so every `Modes` keeps that promise; it is read as a [`ModeSet`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes(ModeSet);
+
+impl Deref for Modes {
+    type Target = ModeSet;
+
+    fn deref(&self) -> &ModeSet {
+        &self.0
+    }
+}
+
+impl From<Modes> for ModeSet {
+    /// The same modes without the promise, such as modes of one model that serve as another's test.
+    fn from(modes: Modes) -> Self {
+        modes.0
+    }
+}
+
+impl Modes {
+    /// Orthonormal modes in ascending order, their signs by the rule.
+    pub(crate) fn ascending(omega_squared: DVector<f64>, mut shapes: DMatrix<f64>) -> Self {
+        apply_sign_rule(&mut shapes);
+        Self(ModeSet {
+            omega_squared,
+            shapes,
+        })
+    }
+
     /// The lowest `count` modes.
     ///
     /// # Errors
     /// [`Error::Empty`] for none; [`Error::TooMany`] for more than there are.
     pub fn lowest(&self, count: usize) -> Result<Self, Error> {
         check_count(count, self.len())?;
-        Ok(Self {
-            omega_squared: self.omega_squared.rows(0, count).into_owned(),
-            shapes: self.shapes.columns(0, count).into_owned(),
-        })
+        Ok(Self(self.select(&(0..count).collect::<Vec<_>>())))
     }
-
-    /// The same modes with every shape scaled to unit generalized mass with another mass matrix, $v^t M v = 1$.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] for a mass that does not fit; [`Error::NotPositive`] for a generalized mass that is not.
-    pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
-        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
-        let mut shapes = self.shapes.clone();
-        scale_to_unit_mass(&mut shapes, mass)?;
-        Ok(Self {
-            omega_squared: self.omega_squared.clone(),
-            shapes,
-        })
-    }
-
-    /// Modes from frequencies (Hz) and shapes of any scale, such as measured ones: each shape is scaled to unit
-    /// generalized mass and signed by the rule; order is kept. Orthogonality is not enforced (Appendix B does).
-    ///
-    /// # Errors
-    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency or
-    /// a generalized mass that is not positive.
-    pub fn from_measured(
-        frequencies_hz: &[f64],
-        shapes: &DMatrix<f64>,
-        mass: &DMatrix<f64>,
-    ) -> Result<Self, Error> {
-        if frequencies_hz.is_empty() {
-            return Err(Error::Empty { what: "test modes" });
-        }
-        check_symmetric("dynamic mass", mass)?;
-        check_shape(
-            "test mode shapes",
-            shapes,
-            mass.nrows(),
-            frequencies_hz.len(),
-        )?;
-        check_finite("test mode shapes", shapes)?;
-        let mut scaled = shapes.clone();
-        for (mode, &frequency) in frequencies_hz.iter().enumerate() {
-            crate::method::structure::positive("frequency", || owner(mode), frequency)?;
-        }
-        scale_to_unit_mass(&mut scaled, mass)?;
-        apply_sign_rule(&mut scaled);
-        Ok(Self {
-            omega_squared: DVector::from_iterator(
-                frequencies_hz.len(),
-                frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2)),
-            ),
-            shapes: scaled,
-        })
-    }
-}
-
-fn owner(mode: usize) -> String {
-    format!("test mode {mode} (from zero)")
-}
-
-fn scale_to_unit_mass(shapes: &mut DMatrix<f64>, mass: &DMatrix<f64>) -> Result<(), Error> {
-    for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
-        let generalized_mass = shape.dot(&(mass * &shape));
-        crate::method::structure::positive("generalized mass", || owner(mode), generalized_mass)?;
-        shape /= generalized_mass.sqrt();
-    }
-    Ok(())
 }
 
 fn check_count(count: usize, available: usize) -> Result<(), Error> {
@@ -163,12 +191,7 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
         });
     }
     solve_lower_transposed(&lower, &mut shapes);
-    apply_sign_rule(&mut shapes);
-    Modes {
-        omega_squared,
-        shapes,
-    }
-    .lowest(count)
+    Modes::ascending(omega_squared, shapes).lowest(count)
 }
 
 /// Makes the first of the largest components of every column positive.

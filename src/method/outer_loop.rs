@@ -1,12 +1,9 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 
 use crate::method::error::Error;
-use crate::method::error_sum::{Errors, errors};
+use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
-use crate::method::modal::{DynamicModel, ModalProblem};
-use crate::method::modes::Modes;
-use crate::method::pairing::{Pairing, cross_orthogonality, matched, pair_modes};
-use crate::method::step::Range;
+use crate::method::model::{Check, ModalModel, Range};
 
 /// When analysis and test count as correlated, and how long to try.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,8 +22,6 @@ pub struct Settings {
     pub least_passes: usize,
     /// Most passes.
     pub most_passes: usize,
-    /// Number of analysis modes; `None` takes as many as there are dynamic DOF.
-    pub analysis_modes: Option<usize>,
 }
 
 impl Default for Settings {
@@ -41,37 +36,8 @@ impl Default for Settings {
             shape_tolerance: 0.04,
             least_passes: 1,
             most_passes: 10,
-            analysis_modes: None,
         }
     }
-}
-
-/// An exact solution compared with the test.
-#[derive(Debug, Clone)]
-pub struct Check {
-    /// All analysis modes, ascending.
-    pub modes: Modes,
-    /// Which of them answers which test mode.
-    pub pairing: Pairing,
-    /// Frequencies in the order of the test modes, Hz.
-    pub frequencies_hz: Vec<f64>,
-    /// Distance from the test.
-    pub errors: Errors,
-}
-
-/// Exact modes of a dynamic model, paired and compared with the test modes.
-///
-/// # Errors
-/// Those of [`crate::method::modes::solve`] and [`pair_modes`].
-pub fn check(model: &DynamicModel, test: &Modes, analysis_modes: usize) -> Result<Check, Error> {
-    let modes = crate::method::modes::solve(&model.stiffness, &model.mass, analysis_modes)?;
-    let pairing = pair_modes(&cross_orthogonality(&modes, test, &model.mass)?)?;
-    Ok(Check {
-        frequencies_hz: matched(&modes, &pairing).frequencies_hz(),
-        errors: errors(&modes, &pairing, test),
-        modes,
-        pairing,
-    })
 }
 
 /// One pass: an inner loop and the exact check of where it led.
@@ -113,33 +79,30 @@ impl Correlation {
 
 /// Corrects a model until its modes agree with the test modes.
 ///
-/// `analyze` is the finite element analysis: given each parameter's factor on its first value it returns the
-/// dynamic model there, with a new $B$. `total_ranges` bounds those factors, one entry per parameter.
-/// `progress` is told of every pass as it is finished.
+/// `analyze` is the finite element analysis: given each parameter's factor on its first value it returns the modal model
+/// there, with a new $B$ and compared with the test modes, such as [`crate::method::model::FiniteElementModel::analyze`].
+/// `total_ranges` bounds those factors, one entry per parameter. `progress` is told of every pass as it is finished.
 ///
 /// # Errors
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
-pub fn correlate(
-    mut analyze: impl FnMut(&[f64]) -> Result<DynamicModel, Error>,
-    test: &Modes,
+pub fn correlate<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
-) -> Result<Correlation, Error> {
+) -> Result<Correlation, E> {
     check_settings(settings)?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
-    let mode_count = settings.analysis_modes.unwrap_or(model.stiffness.nrows());
-    let initial = check(&model, test, mode_count)?;
+    let initial = model.exact.clone();
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&initial.errors, settings);
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !converged)
     {
-        let problem = ModalProblem::new(&model, test, mode_count)?;
-        let inner = match run(&problem, &factors, total_ranges, &inner_settings) {
+        let inner = match run(&model, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
             Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })
@@ -147,14 +110,14 @@ pub fn correlate(
             {
                 break;
             }
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
         };
         for (factor, step) in factors.iter_mut().zip(&inner.last.factors) {
             *factor *= step;
         }
         model = analyze(&factors)?;
         let pass = Pass {
-            check: check(&model, test, mode_count)?,
+            check: model.exact.clone(),
             factors: factors.clone(),
             inner,
         };

@@ -1,8 +1,8 @@
-//! Mode sorting (4): which analysis mode answers which test mode.
+//! Pairing (4), which the paper calls mode sorting: which analysis mode answers which test mode.
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
 /// The analysis mode paired with every test mode.
@@ -21,8 +21,8 @@ pub struct Pairing {
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
 pub fn cross_orthogonality(
-    analysis: &Modes,
-    test: &Modes,
+    analysis: &ModeSet,
+    test: &ModeSet,
     mass: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
@@ -84,30 +84,26 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
         });
     }
     crate::method::linear_algebra::check_finite("cross-orthogonality", cross)?;
-    let mut analysis_mode = vec![usize::MAX; test_count];
-    let mut taken = vec![false; analysis_count];
-    for _ in 0..test_count {
-        let (mut best, mut distance) = ((0, 0), f64::INFINITY);
-        for j in (0..test_count).filter(|&j| analysis_mode[j] == usize::MAX) {
-            for i in (0..analysis_count).filter(|&i| !taken[i]) {
+    let mut partner: Vec<Option<usize>> = vec![None; test_count];
+    loop {
+        let mut closest: Option<(usize, usize, f64)> = None;
+        for j in (0..test_count).filter(|&j| partner[j].is_none()) {
+            for i in (0..analysis_count).filter(|&i| !partner.contains(&Some(i))) {
                 let from_one = (1.0 - cross[(i, j)].abs()).abs();
-                if from_one < distance {
-                    (best, distance) = ((i, j), from_one);
+                if closest.is_none_or(|(_, _, least)| from_one < least) {
+                    closest = Some((i, j, from_one));
                 }
             }
         }
-        let (i, j) = best;
-        analysis_mode[j] = i;
-        taken[i] = true;
+        match closest {
+            Some((i, j, _)) => partner[j] = Some(i),
+            None => break,
+        }
     }
-    let sign = (0..test_count)
-        .map(|j| {
-            if cross[(analysis_mode[j], j)] < 0.0 {
-                -1.0
-            } else {
-                1.0
-            }
-        })
+    let analysis_mode: Vec<usize> = partner.into_iter().flatten().collect();
+    let pairs = analysis_mode.iter().enumerate();
+    let sign = pairs
+        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
         .collect();
     Ok(Pairing {
         analysis_mode,
@@ -116,13 +112,10 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
 }
 
 /// The paired analysis modes, in the order and with the signs of the test modes.
-pub fn matched(analysis: &Modes, pairing: &Pairing) -> Modes {
-    let mut shapes = analysis.shapes.select_columns(&pairing.analysis_mode);
-    for (mut shape, &sign) in shapes.column_iter_mut().zip(&pairing.sign) {
+pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> ModeSet {
+    let mut paired = analysis.select(&pairing.analysis_mode);
+    for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&pairing.sign) {
         shape *= sign;
     }
-    Modes {
-        omega_squared: analysis.omega_squared.select_rows(&pairing.analysis_mode),
-        shapes,
-    }
+    paired
 }

@@ -1,4 +1,4 @@
-//! The structure: grid points, materials, elements, and which motions are held.
+//! The structure: grid points, materials, elements, and which motions are constrained.
 
 use crate::method::error::Error;
 use nalgebra::Vector3;
@@ -15,8 +15,8 @@ pub struct Grid {
     pub label: usize,
     /// Position, in.
     pub position: Vector3<f64>,
-    /// Which of x, y, z are fixed to ground.
-    pub held: [bool; 3],
+    /// Which of x, y, z a support fixes to ground.
+    pub constrained: [bool; 3],
 }
 
 /// A linear elastic isotropic material.
@@ -118,7 +118,7 @@ pub struct StructuralDof {
 
 /// A checked structure: grids and elements that refer to each other correctly.
 ///
-/// Its free structural DOF (SDOF) are the directions that are not held, grid by grid in the order given,
+/// Its free structural DOF (SDOF) are the directions that are not constrained, grid by grid in the order given,
 /// x before y before z. Every matrix over SDOF in this crate has its rows in that order.
 #[derive(Debug, Clone)]
 pub struct Structure {
@@ -158,7 +158,7 @@ impl Structure {
                         value,
                     });
                 }
-                if !grid.held[direction] {
+                if !grid.constrained[direction] {
                     *index = Some(free.len());
                     free.push(StructuralDof {
                         grid: grid.label,
@@ -201,7 +201,7 @@ impl Structure {
         &self.free
     }
 
-    /// Row of a grid's direction among the free DOF; `None` if it is held or the grid does not exist.
+    /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
         let row = *self.index_of_grid.get(&grid)?;
         *self.free_index[row].get(direction)?

@@ -11,11 +11,13 @@ use crate::cases::CaseResult;
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::cases::fit::Fit;
 use crate::cases::torque_box::TEST_GAGE;
-use crate::files::deck::{Deck, DeckModes};
+use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::{Check, Correlation, Pass};
+use crate::method::model::Check;
+use crate::method::modes::ModeSet;
+use crate::method::outer_loop::{Correlation, Pass};
 use crate::method::structure::DIRECTIONS;
+use crate::method::whole_modes::WholeModes;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::matrix_comparison::MatrixComparison;
@@ -38,7 +40,7 @@ pub fn document(content: Value) -> Result<String, PresentError> {
 }
 
 /// Any correlation: its parameters by name, its test, and its whole history; `solver` did the finite element analyses.
-pub fn correlation(solver: &str, names: &[&str], test: &Modes, run: &Correlation) -> Value {
+pub fn correlation(solver: &str, names: &[&str], test: &ModeSet, run: &Correlation) -> Value {
     json!({
         "solver": solver,
         "converged": run.converged,
@@ -83,7 +85,7 @@ fn iteration(iteration: &Iteration) -> Value {
 /// The history of the cases run, and the fit of the box.
 ///
 /// # Errors
-/// [`PresentError::Method`] if Table 13 were damaged; those of [`document`].
+/// [`PresentError::Case`] if Table 13 were damaged; those of [`document`].
 pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
     let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
     document(json!({ "cases": cases, "reconstruction_fit": fit }))
@@ -153,7 +155,7 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 ///
 /// # Errors
 /// Those of [`document`].
-pub fn deck_modes(deck: &Deck, modes: &DeckModes, count: usize) -> Result<String, PresentError> {
+pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
     let dof = modes.dof.iter();
     let dof = dof.map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));

@@ -50,8 +50,10 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
-        results.push(run_case_with(&case, solver.name(), analyze, |pass, done| {
+        let elements = |model: &FiniteElementModel, factors: &[f64]| {
+            Ok::<_, PresentError>(solver.elements(model, factors)?)
+        };
+        results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
                     "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",

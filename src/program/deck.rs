@@ -6,7 +6,6 @@ use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::error::Error;
-use corfem::method::modes::solve;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
 use std::path::PathBuf;
@@ -64,8 +63,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
             }
         };
     }
-    let dynamic = model.analyze(&factors)?;
-    let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
+    let modes = model.modes(&factors)?;
     let frequencies = modes.frequencies_hz();
     let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
     let task = Task::Modes {

@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use corfem::cases::torque_box::Reconstruction;
+use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use corfem::present::render;
 use corfem::present::table::Table;
@@ -56,7 +57,7 @@ pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Present
 }
 
 pub fn read(path: &Path) -> Result<String, PresentError> {
-    std::fs::read_to_string(path).map_err(PresentError::file(path, "read"))
+    Ok(std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?)
 }
 
 /// Writes to a file, whole or not at all, or to standard output.
@@ -74,13 +75,13 @@ pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
         file.persist(path)?;
         Ok(())
     };
-    write().map_err(PresentError::file(path, "write"))
+    Ok(write().map_err(FileError::of_file(path, "write"))?)
 }
 
 /// Writes files into a folder, all of them or none: they are written elsewhere beside it first. A new folder then takes
 /// its place in one move; in an old one each file does, once every place is known to be free for a file.
 pub fn put_all(folder: &Path, files: &[(String, &str)]) -> Result<(), PresentError> {
-    let failed = |path: &Path| PresentError::file(path, "write");
+    let failed = |path: &Path| FileError::of_file(path, "write");
     // A bare name has an empty parent, which is the present folder.
     let beside = folder.parent().unwrap_or(Path::new(""));
     let scratch = tempfile::tempdir_in(beside).map_err(failed(folder))?;
@@ -91,13 +92,13 @@ pub fn put_all(folder: &Path, files: &[(String, &str)]) -> Result<(), PresentErr
         std::fs::write(staged.join(name), text).map_err(failed(&folder.join(name)))?;
     }
     if !folder.exists() {
-        return std::fs::rename(&staged, folder).map_err(failed(folder));
+        return Ok(std::fs::rename(&staged, folder).map_err(failed(folder))?);
     }
     for (name, _) in files {
         let path = folder.join(name);
         if path.is_dir() {
             let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
-            return Err(failed(&path)(source));
+            return Err(failed(&path)(source).into());
         }
     }
     for (name, _) in files {

@@ -2,10 +2,10 @@
 
 use clap::{Args, ValueEnum};
 use corfem::cases::BUILT_IN;
+use corfem::files::error::FileError;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
-use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
 use corfem::method::model::FiniteElementModel;
+use corfem::present::PresentError;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -42,7 +42,7 @@ pub enum Solver {
 
 impl Solver {
     /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
-    pub fn of(arguments: &SolverArguments) -> Result<Self, Error> {
+    pub fn of(arguments: &SolverArguments) -> Result<Self, PresentError> {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self::BuiltIn);
         }
@@ -64,15 +64,15 @@ impl Solver {
         }
     }
 
-    /// The dynamic model at the given factors on the parameters.
-    pub fn analyze(
+    /// The model with the solver's elements, at the given factors on the parameters.
+    pub fn elements(
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
-    ) -> Result<DynamicModel, Error> {
+    ) -> Result<FiniteElementModel, FileError> {
         match self {
-            Self::BuiltIn => model.analyze(factors),
-            Self::Nastran95(nastran) => nastran.analyze(model, factors),
+            Self::BuiltIn => Ok(model.clone()),
+            Self::Nastran95(nastran) => nastran.elements(model, factors),
         }
     }
 }

@@ -59,8 +59,10 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let analyze = |model: &FiniteElementModel, factors: &[f64]| solver.analyze(model, factors);
-    let run = correlate_wing_with(&wing, solver.name(), analyze, |_, _| {})?;
+    let elements = |model: &FiniteElementModel, factors: &[f64]| {
+        Ok::<_, PresentError>(solver.elements(model, factors)?)
+    };
+    let run = correlate_wing_with(&wing, solver.name(), elements, |_, _| {})?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
     arguments
         .output

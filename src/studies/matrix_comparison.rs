@@ -5,12 +5,13 @@
 //! no part of the test: thicker covers. The truth is the box with the right gages.
 
 use crate::cases::Case;
+use crate::cases::error::CaseError;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
-use crate::method::modal::DynamicModel;
-use crate::method::modes::{Modes, solve};
+use crate::method::model::DynamicModel;
+use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::outer_loop::correlate;
-use crate::method::pairing::{cross_orthogonality, matched, pair_modes};
+use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
 use crate::studies::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, mass_weighted, weighted_norm,
 };
@@ -92,7 +93,7 @@ pub struct MatrixComparison {
 ///
 /// # Errors
 /// Those of the model, the loops and the corrections.
-pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparison, Error> {
+pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparison, CaseError> {
     let first = case.first_gages();
     let start = analysis(case, &first)?;
     let all = case.test_modes()?;
@@ -100,8 +101,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
     let correlation = correlate(
-        |f| model.analyze(f),
-        &test,
+        |factors| model.analyze(factors, &test, None),
         &ranges,
         &case.settings,
         |_, _| {},
@@ -114,7 +114,8 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let berman_nagy = berman_nagy_stiffness(&start.stiffness, &corrected_mass, &read)?;
 
     let truth = [TEST_GAGE; PANEL_COUNT];
-    let doubled = |gages: &[f64]| Ok::<_, Error>(analysis(case, &with_doublers(gages))?.stiffness);
+    let doubled =
+        |gages: &[f64]| Ok::<_, CaseError>(analysis(case, &with_doublers(gages))?.stiffness);
     let design_change = doubled(&first)? - &start.stiffness;
     let mass = &start.mass;
     let candidates = [
@@ -178,9 +179,9 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
 }
 
 /// The dynamic model of a case at other gages.
-fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, Error> {
+fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, CaseError> {
     let model = case.model_with(gages)?;
-    model.analyze(&vec![1.0; model.parameters().len()])
+    Ok(model.matrices(&vec![1.0; model.parameters().len()])?)
 }
 
 fn with_doublers(gages: &[f64]) -> Vec<f64> {
@@ -193,13 +194,13 @@ fn with_doublers(gages: &[f64]) -> Vec<f64> {
 
 /// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
 /// then of unit generalized mass.
-fn as_read(modes: &Modes, mass: &DMatrix<f64>) -> Result<Modes, Error> {
+fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
     let mut shapes = modes.shapes.clone();
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    Modes {
+    ModeSet {
         omega_squared: modes.omega_squared.clone(),
         shapes,
     }
@@ -214,7 +215,7 @@ fn frequency_errors(
 ) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
-    let pairs = matched(&modes, &pairing).frequencies_hz();
+    let pairs = paired(&modes, &pairing).frequencies_hz();
     let errors = pairs.iter().zip(truth.frequencies_hz());
     Ok(errors.map(|(found, truth)| found / truth - 1.0).collect())
 }

@@ -12,7 +12,7 @@ use crate::method::linear_algebra::{
     check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
     symmetric_part,
 };
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
 /// Departure of $\Phi^t M \Phi$ from $I$ above which test shapes are refused where they must be orthonormal.
@@ -31,7 +31,7 @@ const LARGEST_CROSS_MASS: f64 = 1e-8;
 pub fn baruch_stiffness(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
-    test: &Modes,
+    test: &ModeSet,
 ) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
     // M Φ, and with it the projections M Φ Φᵗ and Φ Φᵗ M.
@@ -92,7 +92,7 @@ const SMALLEST_MASS_PIVOT: f64 = 1e-12;
 pub fn berman_nagy_stiffness(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
-    test: &Modes,
+    test: &ModeSet,
 ) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
     let inertia = mass * &test.shapes;
@@ -128,7 +128,11 @@ pub(crate) fn mass_weighted(
     Ok(weighted)
 }
 
-fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Modes) -> Result<(), Error> {
+fn check_problem(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> Result<(), Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_symmetric("dynamic mass", mass)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;

@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, CaseResult, anomalies, run_case};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 use toml::Table;
 
 fn expected() -> Table {

@@ -4,6 +4,7 @@ use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{
     EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF,
 };
+use corfem::cases::error::CaseError;
 use corfem::cases::fewer_modes::{
     Agreement, FewerModesRun, ITERATIONS, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
 };
@@ -12,7 +13,6 @@ use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{Case, run_case};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
-use corfem::method::outer_loop::check;
 use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
 use corfem::present::render::{csv, text};
@@ -117,9 +117,7 @@ fn inner_frequencies_bound_exact_ones_from_above() {
         let exact = case_2()
             .model_with(&run.gages_in)
             .unwrap()
-            .analyze(&[1.0; 15])
-            .unwrap();
-        let exact = corfem::method::modes::solve(&exact.stiffness, &exact.mass, 9)
+            .modes(&[1.0; 15])
             .unwrap()
             .frequencies_hz();
         for (inner, exact) in sorted(&run.inner.frequencies_hz).iter().zip(&exact) {
@@ -165,23 +163,26 @@ fn a_single_pass_is_made_whatever_the_case_asks_for() {
 #[test]
 fn numbers_of_modes_out_of_range_are_errors() {
     let error = |test, analysis| fewer_modes_run(&case_2(), test, analysis).unwrap_err();
-    assert!(matches!(error(0, 9), Error::Empty { what: "modes" }));
+    assert!(matches!(
+        error(0, 9),
+        CaseError::Method(Error::Empty { what: "modes" })
+    ));
     match error(10, 10) {
-        Error::TooMany {
+        CaseError::Method(Error::TooMany {
             what,
             available,
             requested,
-        } => {
+        }) => {
             assert_eq!((what, available, requested), ("modes", 9, 10));
         }
         other => panic!("{other:?}"),
     }
     match error(5, 4) {
-        Error::TooMany {
+        CaseError::Method(Error::TooMany {
             what,
             available,
             requested,
-        } => {
+        }) => {
             assert_eq!((what, available, requested), ("test modes", 4, 5));
         }
         other => panic!("{other:?}"),
@@ -200,13 +201,9 @@ fn exact_at_published(test_modes: usize, analysis_modes: usize) -> (Vec<f64>, f6
     let gages: Vec<f64> = (1..=15)
         .map(|e| table.required(&e.to_string(), &heading).unwrap())
         .collect();
-    let model = case_2()
-        .model_with(&gages)
-        .unwrap()
-        .analyze(&[1.0; 15])
-        .unwrap();
+    let model = case_2().model_with(&gages).unwrap();
     let test = case_2().test_modes().unwrap().lowest(test_modes).unwrap();
-    let check = check(&model, &test, 9).unwrap();
+    let check = model.analyze(&[1.0; 15], &test, None).unwrap().exact;
     // Case 2's modes keep their order at all these gages.
     (check.modes.frequencies_hz(), check.errors.frequency_rms())
 }

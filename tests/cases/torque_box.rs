@@ -210,7 +210,7 @@ fn the_structure_has_table_2s_elements_and_a_fixed_root() {
     }
     assert_eq!(found.free_dof().len(), 36);
     for (grid, label) in found.grids().iter().zip(1..) {
-        assert_eq!((grid.label, grid.held), (label, [label > 12; 3]));
+        assert_eq!((grid.label, grid.constrained), (label, [label > 12; 3]));
         assert_eq!(grid.position.z < 0.0, label % 2 == 0, "grid {label}");
         assert_eq!(
             <[f64; 3]>::from(grid.position),

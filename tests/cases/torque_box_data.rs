@@ -2,6 +2,7 @@
 
 use crate::common::tolerances::ROUND_OFF;
 use corfem::cases::Case;
+use corfem::cases::error::CaseError;
 use corfem::cases::torque_box::{Reconstruction, dynamic_points, load_distribution, structure};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector};
@@ -21,7 +22,7 @@ fn the_mass_is_diagonal_in_the_order_of_the_dynamic_points() {
     assert_eq!((mass[(0, 0)], mass[(8, 8)]), (0.001455, 0.03415));
 }
 
-fn refusal(from: &str, to: &str) -> Error {
+fn refusal(from: &str, to: &str) -> CaseError {
     assert!(TEXT.contains(from), "{from} is not in the file");
     Reconstruction::parse("box.toml", &TEXT.replace(from, to))
         .expect_err("a box that must be refused")
@@ -40,7 +41,7 @@ fn text_of_another_form_is_refused_by_the_files_name() {
         ("masses = [", "masses = [\"light\", ", "string"),
     ] {
         let refused = refusal(from, to);
-        let named = matches!(&refused, Error::Toml { name, expected: "a torque box: material, masses and grids", .. }
+        let named = matches!(&refused, CaseError::Toml { name, expected: "a torque box: material, masses and grids", .. }
             if name == "box.toml");
         assert!(named, "{refused:?}");
         let message = refused.to_string();
@@ -57,13 +58,13 @@ fn missing_masses_and_grids_are_refused_by_count_and_number() {
     assert!(
         matches!(
             refused,
-            Error::WrongShape {
+            CaseError::Method(Error::WrongShape {
                 what: "box masses",
                 expected_rows: 9,
                 expected_columns: 1,
                 rows: 8,
                 columns: 1
-            }
+            })
         ),
         "{refused:?}"
     );
@@ -71,12 +72,12 @@ fn missing_masses_and_grids_are_refused_by_count_and_number() {
     assert!(
         matches!(
             refused,
-            Error::WrongShape {
+            CaseError::Method(Error::WrongShape {
                 what: "box grids",
                 expected_rows: 16,
                 rows: 15,
                 ..
-            }
+            })
         ),
         "{refused:?}"
     );
@@ -84,7 +85,7 @@ fn missing_masses_and_grids_are_refused_by_count_and_number() {
     assert!(
         matches!(
             refused,
-            Error::MissingGrid {
+            CaseError::MissingGrid {
                 grid: 16,
                 count: 16
             }
@@ -99,7 +100,7 @@ fn missing_masses_and_grids_are_refused_by_count_and_number() {
     data.grids.remove(&6);
     let refused = load_distribution(&data).unwrap_err();
     assert!(
-        matches!(refused, Error::MissingGrid { grid: 6, count: 16 }),
+        matches!(refused, CaseError::MissingGrid { grid: 6, count: 16 }),
         "{refused:?}"
     );
 }
@@ -113,7 +114,7 @@ fn a_mid_point_must_lie_between_the_spars() {
         );
         let value: f64 = outside.parse().unwrap();
         assert!(
-            matches!(refused, Error::Setting { name: "mid_chord_fraction", expected: "a number between 0 and 1", found }
+            matches!(refused, CaseError::Method(Error::Setting { name: "mid_chord_fraction", expected: "a number between 0 and 1", found })
                 if found.to_bits() == value.to_bits()),
             "{refused:?}"
         );
@@ -126,7 +127,7 @@ fn a_rib_without_chord_or_depth_is_refused() {
         let mut data = Reconstruction::embedded().unwrap();
         change(&mut data);
         match load_distribution(&data) {
-            Err(Error::ZeroLength { length }) => length,
+            Err(CaseError::Method(Error::ZeroLength { length })) => length,
             other => panic!("expected a zero length, found {other:?}"),
         }
     };
@@ -173,7 +174,7 @@ fn dynamic_points_lie_between_grids_that_are_there() {
     assert_eq!(dynamic_points(&data).unwrap().len(), 9);
     data.grids.remove(&7);
     match dynamic_points(&data) {
-        Err(Error::MissingGrid { grid, count }) => assert_eq!((grid, count), (7, 16)),
+        Err(CaseError::MissingGrid { grid, count }) => assert_eq!((grid, count), (7, 16)),
         other => panic!("{other:?}"),
     }
 }

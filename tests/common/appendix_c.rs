@@ -1,10 +1,94 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::method::appendix_c::{ModalChange, Perturbed};
+use corfem::method::appendix_c::general::{self, ModalChange};
+use corfem::method::appendix_c::{
+    Perturbed, eigensolution, first_order, original, recursive_1, recursive_1_converged,
+    recursive_2,
+};
+use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
 use super::strategies::symmetric;
+
+/// A function of Appendix C on generalized stiffnesses and β.
+pub type Plain = fn(&DVector<f64>, &DMatrix<f64>) -> Result<Perturbed, Error>;
+
+/// A function of Appendix C on a change of stiffness and mass.
+pub type General = fn(&ModalChange<f64>) -> Result<Perturbed, Error>;
+
+/// One way of solving Appendix C, for stiffness alone and in general.
+pub struct Rule {
+    pub name: &'static str,
+    pub plain: Plain,
+    pub general: General,
+}
+
+/// The formulae of Appendix C, the recursive ones to a few orders and to convergence.
+pub const FORMULAE: [Rule; 7] = [
+    Rule {
+        name: "first order",
+        plain: first_order,
+        general: general::first_order,
+    },
+    Rule {
+        name: "original",
+        plain: original,
+        general: general::original,
+    },
+    Rule {
+        name: "Recursive 1, order 1",
+        plain: |k, beta| recursive_1(k, beta, 1),
+        general: |change| general::recursive_1(change, 1),
+    },
+    Rule {
+        name: "Recursive 1, order 4",
+        plain: |k, beta| recursive_1(k, beta, 4),
+        general: |change| general::recursive_1(change, 4),
+    },
+    Rule {
+        name: "Recursive 2, order 1",
+        plain: |k, beta| recursive_2(k, beta, 1),
+        general: |change| general::recursive_2(change, 1),
+    },
+    Rule {
+        name: "Recursive 2, order 3",
+        plain: |k, beta| recursive_2(k, beta, 3),
+        general: |change| general::recursive_2(change, 3),
+    },
+    Rule {
+        name: "Recursive 1, converged",
+        plain: |k, beta| Ok(recursive_1_converged(k, beta, 1e-13, 60)?.perturbed),
+        general: |change| Ok(general::recursive_1_converged(change, 1e-13, 60)?.perturbed),
+    },
+];
+
+/// What they approach.
+pub const EIGENSOLUTION: Rule = Rule {
+    name: "eigensolution",
+    plain: exact,
+    general: eigensolution,
+};
+
+/// The formulae and the eigensolution.
+pub fn rules() -> impl Iterator<Item = Rule> {
+    FORMULAE.into_iter().chain([EIGENSOLUTION])
+}
+
+/// The eigensolution for a change of stiffness alone.
+pub fn exact(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
+    let no_mass = DMatrix::zeros(k.len(), k.len());
+    eigensolution(&ModalChange::of_vibrations(k, beta.clone(), no_mass))
+}
+
+/// Largest change of a root relative to itself.
+pub fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
+    let changes = new
+        .iter()
+        .zip(old.iter())
+        .map(|(new, old)| (new / old - 1.0).abs());
+    changes.fold(0.0, f64::max)
+}
 
 /// Largest entry of a generalized change relative to its modes' own stiffness or mass. With roots a factor 1.5 apart
 /// and six modes the sum of a row's $|p_{ij}|$ stays below one half, so the recursions converge, by a digit in

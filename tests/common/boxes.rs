@@ -2,21 +2,23 @@
 
 use corfem::cases::Case;
 use corfem::cases::torque_box::PANEL_COUNT;
-use corfem::method::modal::ModalProblem;
+use corfem::method::model::ModalModel;
 use proptest::prelude::*;
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
-pub fn first_problem(number: usize) -> ModalProblem {
+pub fn first_problem(number: usize) -> ModalModel {
     let case = Case::new(number).expect("a case of the paper");
     problem_of(&case)
 }
 
 /// The same for a case with other gages or settings.
-pub fn problem_of(case: &Case) -> ModalProblem {
+pub fn problem_of(case: &Case) -> ModalModel {
     let model = case.model().expect("a model");
-    let dynamic = model.analyze(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
     let test = case.test_modes().expect("test modes");
-    ModalProblem::new(&dynamic, &test, dynamic.mass.nrows()).expect("a problem")
+    dynamic
+        .analyze(&test, Some(dynamic.mass.nrows()))
+        .expect("a problem")
 }
 
 /// Case 2's box, of membranes and shear panels, with first gages of 0.008 to 0.013 in: up to 30 % off the test's

@@ -1,7 +1,9 @@
 //! Chains with known spectra, and how far modes solved in blocks are from the exact ones.
 
 use super::appendix_c::{ascending, three_mass_chain};
-use corfem::method::appendix_c::{CloseRootsSettings, ModalChange, SolvedInBlocks, close_roots};
+use corfem::method::appendix_c::Perturbed;
+use corfem::method::appendix_c::close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots};
+use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, dvector};
 
@@ -32,8 +34,8 @@ pub fn root_error(roots: &DVector<f64>, change: &ModalChange<f64>) -> f64 {
 /// (k + β)p γ − (I + α)p, largest entry: zero for exact modes, repeated or not.
 pub fn residual(solved: &SolvedInBlocks, change: &ModalChange<f64>) -> f64 {
     let (stiffness, mass) = changed(change);
-    let roots = DMatrix::from_diagonal(&solved.perturbed.roots);
-    (stiffness * &solved.perturbed.shapes * roots - mass * &solved.perturbed.shapes).amax()
+    let Perturbed { roots, shapes } = &solved.settled.perturbed;
+    (stiffness * shapes * DMatrix::from_diagonal(roots) - mass * shapes).amax()
 }
 
 /// λ = 1, 4, 4: masses 1, 4, 1; springs to ground 0, 8, 0; 1-2: 2, 2-3: 2, 1-3: 1.

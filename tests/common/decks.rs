@@ -9,7 +9,7 @@ const WIDTHS: [usize; 2] = [8, 16];
 
 /// A decimal number of up to ten digits between 1e-15 and 1e15: a field of 16 characters holds it exactly, with its
 /// sign and an exponent.
-pub fn held_number() -> impl Strategy<Value = f64> {
+pub fn field_number() -> impl Strategy<Value = f64> {
     (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
         format!("{digits}e{power}")
             .parse()
@@ -66,7 +66,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     let grids = (
         labels(STRUCTURAL + POINTS),
         prop::collection::vec(
-            (prop::array::uniform3(held_number()), any::<[bool; 3]>()),
+            (prop::array::uniform3(field_number()), any::<[bool; 3]>()),
             STRUCTURAL + POINTS,
         ),
     );
@@ -78,7 +78,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
         ),
         materials(),
     );
-    let term = (0..STRUCTURAL, 0..3_usize, held_number());
+    let term = (0..STRUCTURAL, 0..3_usize, field_number());
     let ties = prop::collection::vec(
         (
             0..3_usize,
@@ -103,10 +103,10 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
         let mut grids: Vec<Grid> = labels
             .into_iter()
             .zip(places)
-            .map(|(label, (position, held))| Grid {
+            .map(|(label, (position, constrained))| Grid {
                 label,
                 position: position.into(),
-                held,
+                constrained,
             })
             .collect();
         let (labels, drawn, materials) = elements;
@@ -132,7 +132,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
         let mut tied = Vec::new();
         for (point, (direction, coefficient, terms)) in ties.into_iter().enumerate() {
             let grid = &mut grids[STRUCTURAL + point];
-            grid.held[direction] = false;
+            grid.constrained[direction] = false;
             let dependent = StructuralDof {
                 grid: grid.label,
                 direction,

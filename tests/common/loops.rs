@@ -2,18 +2,22 @@
 
 use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
-use corfem::method::appendix_c::UpdateRule;
-use corfem::method::derivatives::error_derivatives;
+use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
-use corfem::method::modal::{ModalProblem, ModalState};
+use corfem::method::model::ModalModel;
+use corfem::method::model::Range;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::{Limit, Range, StepRule, unlimited_factors};
+use corfem::method::state::ModalState;
+use corfem::method::state::UpdateRule;
+use corfem::method::step::{Limit, StepRule, stiffness_changes, unlimited_factors};
 use proptest::prelude::*;
 
 /// The problem of a chain towards the truth, with all its modes.
-pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalProblem {
+pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
     let count = truth.len();
-    ModalProblem::new(&chain.model(&vec![1.0; count]), &chain.modes(truth), count)
+    chain
+        .model(&vec![1.0; count])
+        .analyze(&chain.modes(truth), Some(count))
         .expect("a chain is a problem")
 }
 
@@ -40,20 +44,26 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
         Just(StepRule::SumOverModes),
         Just(StepRule::SteepestDescent),
     ];
-    let update = prop_oneof![
-        Just(UpdateRule::default()),
-        Just(UpdateRule::Recursive1 { order: 2 }),
-        Just(UpdateRule::Eigensolution),
+    let update = prop_oneof![Just(UpdateRule::default()), Just(UpdateRule::Eigensolution),];
+    let derivatives = prop_oneof![
+        3 => Just(DerivativeRule::Definition),
+        1 => Just(DerivativeRule::Gradient),
     ];
     (
         (0.3..3.0_f64, 0.3..3.0_f64),
         (0.5..0.95_f64, 1.05..2.0_f64),
         0.01..0.1_f64,
         (0..=5_usize, 0..=12_usize),
-        (rule, update),
+        (derivatives, rule, update),
     )
         .prop_map(
-            |(relaxations, (lower, upper), tolerance, (halvings, iterations), (step, update))| {
+            |(
+                relaxations,
+                (lower, upper),
+                tolerance,
+                (halvings, iterations),
+                (derivatives, step, update),
+            )| {
                 InnerSettings {
                     first_relaxation: relaxations.0,
                     relaxation: relaxations.1,
@@ -61,6 +71,7 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
                     tolerance,
                     halvings,
                     iterations,
+                    derivatives,
                     step,
                     update,
                 }
@@ -98,8 +109,8 @@ pub fn given() -> impl Strategy<Value = Given> {
         })
 }
 
-/// New total factor and what held it, written out case by case.
-fn held(
+/// New total factor and what limited it, written out case by case.
+fn limited(
     total: f64,
     base: f64,
     step: f64,
@@ -126,7 +137,7 @@ fn held(
 
 /// Factors, limits and state of a trial step halved so many times.
 fn trial(
-    problem: &ModalProblem,
+    problem: &ModalModel,
     given: &Given,
     state: &ModalState,
     unlimited: &[f64],
@@ -138,7 +149,7 @@ fn trial(
         .map(|e| {
             let step = 1.0 + fraction * (unlimited[e] - 1.0);
             let range = given.total_ranges[e];
-            held(
+            limited(
                 state.factors[e],
                 given.base[e],
                 step,
@@ -147,22 +158,23 @@ fn trial(
             )
         })
         .unzip();
-    let next = problem.state_at(factors.clone(), settings.update).ok();
+    let next = ModalState::at(problem, factors.clone(), settings.update).ok();
     let lower = next.filter(|next| next.errors.sum() < state.errors.sum());
     (factors, limits, lower)
 }
 
 /// Tells the loop again step by step and asserts that the record says the same.
-pub fn assert_record_is_the_loop(problem: &ModalProblem, given: &Given, run: &InnerRun) {
+pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &InnerRun) {
     let settings = &given.settings;
-    let mut state = problem.start_state().expect("a start");
+    let mut state = ModalState::start(problem);
     assert_eq!(run.start, state.errors);
     assert!(run.iterations.len() <= settings.iterations);
     let asks = |state: &ModalState, relaxation: f64| {
-        let derivatives = error_derivatives(problem, state).expect("separate modes");
+        let errors = error_changes(problem, state, settings.derivatives).expect("separate modes");
+        let stiffnesses = stiffness_changes(problem, state, &errors, settings.step);
         let sum = state.errors.sum();
-        let unlimited = unlimited_factors(&derivatives, sum, relaxation, settings.step);
-        (derivatives, unlimited)
+        let unlimited = unlimited_factors(&errors, &stiffnesses, sum, relaxation);
+        ((errors, stiffnesses), unlimited)
     };
     let relaxation = |number: usize| {
         if number == 0 {
@@ -173,8 +185,9 @@ pub fn assert_record_is_the_loop(problem: &ModalProblem, given: &Given, run: &In
     };
     for (number, iteration) in run.iterations.iter().enumerate() {
         assert!(number == 0 || state.errors.sum() >= settings.tolerance);
-        let (derivatives, unlimited) = asks(&state, relaxation(number));
-        assert_eq!(iteration.derivatives, derivatives);
+        let ((errors, stiffnesses), unlimited) = asks(&state, relaxation(number));
+        assert_eq!(iteration.error_changes, errors);
+        assert_eq!(iteration.stiffness_changes, stiffnesses);
         assert_eq!(iteration.unlimited_factors, unlimited);
         if number == 0 {
             assert_eq!(run.first_unlimited_factors, unlimited);
@@ -250,10 +263,9 @@ pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>]
 
 /// Correlates a chain with its truth, without bounds.
 pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
-    let ranges = vec![None; truth.len()];
+    let (test, ranges) = (chain.modes(truth), vec![None; truth.len()]);
     correlate(
-        |factors| Ok(chain.model(factors)),
-        &chain.modes(truth),
+        |factors| chain.model(factors).analyze(&test, None),
         &ranges,
         settings,
         |_, _| {},

@@ -1,8 +1,8 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
-use corfem::method::appendix_b::DynamicDof;
+use corfem::method::appendix_b::MeasuringPoint;
 use corfem::method::elements::rod::rod;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 pub struct FreeStructure {
     pub stiffness: DMatrix<f64>,
     pub mass: DMatrix<f64>,
-    pub dofs: Vec<DynamicDof>,
+    pub dofs: Vec<MeasuringPoint>,
 }
 
 impl FreeStructure {
@@ -29,7 +29,7 @@ impl FreeStructure {
     }
 
     /// Elastic modes through nalgebra, the lowest `rigid` left out.
-    pub fn elastic_modes(&self, rigid: usize) -> Modes {
+    pub fn elastic_modes(&self, rigid: usize) -> ModeSet {
         let root = self.mass.diagonal().map(|m| m.sqrt().recip());
         let root = DMatrix::from_diagonal(&root);
         let eigen = SymmetricEigen::new(&root * &self.stiffness * &root);
@@ -41,7 +41,10 @@ impl FreeStructure {
             .map(|&mode| eigen.eigenvalues[mode].sqrt() / (2.0 * PI))
             .collect();
         let shapes = root * eigen.eigenvectors.select_columns(elastic);
-        Modes::from_measured(&frequencies, &shapes, &self.mass).unwrap()
+        ModeSet::from_measured(&frequencies, &shapes)
+            .unwrap()
+            .scaled_with(&self.mass)
+            .unwrap()
     }
 }
 
@@ -72,7 +75,7 @@ pub fn free_beam() -> impl Strategy<Value = FreeStructure> {
                         if point > 0 {
                             x += links[point - 1];
                         }
-                        DynamicDof {
+                        MeasuringPoint {
                             position: Vector3::new(x, 0.0, 0.0),
                             direction: Vector3::z_axis(),
                         }
@@ -127,7 +130,7 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
             let dofs = joints
                 .iter()
                 .flat_map(|&position| {
-                    axes.map(|direction| DynamicDof {
+                    axes.map(|direction| MeasuringPoint {
                         position,
                         direction,
                     })
@@ -146,7 +149,7 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
 pub fn with_raw_shapes(
     structure: impl Strategy<Value = FreeStructure>,
     shapes: usize,
-) -> impl Strategy<Value = (FreeStructure, Modes)> {
+) -> impl Strategy<Value = (FreeStructure, ModeSet)> {
     structure.prop_flat_map(move |structure| {
         let size = structure.dofs.len();
         (
@@ -158,7 +161,7 @@ pub fn with_raw_shapes(
                     raw[(mode, mode)] += 2.0;
                 }
                 let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
-                let modes = Modes {
+                let modes = ModeSet {
                     omega_squared: omega,
                     shapes: raw,
                 };
@@ -178,7 +181,7 @@ pub fn noise(rows: usize, columns: usize) -> impl Strategy<Value = DMatrix<f64>>
 pub fn orthonormal_modes(
     size: usize,
     modes: usize,
-) -> impl Strategy<Value = (Modes, DMatrix<f64>)> {
+) -> impl Strategy<Value = (ModeSet, DMatrix<f64>)> {
     (
         super::strategies::positive_definite(size, 1.0),
         super::strategies::orthogonal(size),
@@ -195,7 +198,7 @@ pub fn orthonormal_modes(
                     Some(omega.powi(2))
                 }),
             );
-            let modes = Modes {
+            let modes = ModeSet {
                 omega_squared,
                 shapes,
             };
@@ -238,7 +241,7 @@ pub struct Mixture {
 
 impl Mixture {
     /// Spoils the mode in a set of mass-orthonormal shapes. The others overlap it by the fractions.
-    pub fn spoil(&self, exact: &Modes) -> Modes {
+    pub fn spoil(&self, exact: &ModeSet) -> ModeSet {
         let [wrong, first, second] = self.modes;
         let [a, b] = self.fractions;
         let own = (1.0 - a * a - b * b).sqrt();

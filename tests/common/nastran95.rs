@@ -96,7 +96,7 @@ impl StoredBoxes {
         let grids = stored.grids.iter().zip(1..).map(|(&position, label)| Grid {
             label,
             position: position.into(),
-            held: [self.fixed_grids.contains(&label); 3],
+            constrained: [self.fixed_grids.contains(&label); 3],
         });
         let panels = self.panels.iter().zip(1..).map(|(grids, label)| Element {
             label,

@@ -5,8 +5,8 @@ use corfem::method::assembly::{
 };
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::parameters::Parameter;
-use corfem::method::step::Range;
+use corfem::method::model::Parameter;
+use corfem::method::model::Range;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -16,11 +16,11 @@ pub fn unit_material() -> Material {
     Material::isotropic(1.0, 0.25).expect("a material")
 }
 
-pub fn grid(label: usize, position: [f64; 3], held: [bool; 3]) -> Grid {
+pub fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
     Grid {
         label,
         position: position.into(),
-        held,
+        constrained,
     }
 }
 
@@ -34,12 +34,12 @@ pub fn rod(label: usize, ends: [usize; 2], area: f64) -> Element {
     }
 }
 
-/// Springs in a row along x between grids 1, 2, …, free along x alone; `held` says which ends are fixed.
-pub fn spring_chain(springs: &[f64], held: [bool; 2]) -> Structure {
+/// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
+pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
     let last = springs.len() + 1;
     let grids = (1..=last)
         .map(|label| {
-            let fixed = (label == 1 && held[0]) || (label == last && held[1]);
+            let fixed = (label == 1 && constrained[0]) || (label == last && constrained[1]);
             grid(label, [label as f64, 0.0, 0.0], [fixed, true, true])
         })
         .collect();

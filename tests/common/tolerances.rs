@@ -82,6 +82,9 @@ pub const FIRST_ORDER_REMAINDER: f64 = 10.0;
 /// A forward difference of 0.1 % against a central one: half the step times the curvature, relative to the largest
 /// derivative.
 pub const CENTRAL_DIFFERENCE: f64 = 0.01;
+/// The gradient against a central difference of 1e-5, relative to the largest: the step's square times a third derivative of
+/// some hundreds where shapes of close modes turn, and a rounding of the error sum over the step.
+pub const CENTRAL_DIFFERENCE_GRADIENT: f64 = 1e-6;
 /// A force or moment that balancing leaves, relative to the sum of the magnitudes of its parts: sums over a dozen DOF.
 pub const BALANCE_RESIDUAL: f64 = 1e-12;
 /// Coefficients of {1} and {x}, 200 in from the reference axis on structures 20 in long: the balance equations have a

@@ -4,8 +4,8 @@
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
 use corfem::closed_forms::spring_chain::spring_stiffness;
-use corfem::method::modal::{DynamicModel, Share};
-use corfem::method::modes::Modes;
+use corfem::method::model::{DynamicModel, Share};
+use corfem::method::modes::{ModeSet, Modes};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -182,7 +182,11 @@ pub fn modes_by_nalgebra(
 
 /// The error sum written from its definition on all exact modes through nalgebra, paired and signed by their
 /// mass-weighted products.
-pub fn error_sum_by_definition(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Modes) -> f64 {
+pub fn error_sum_by_definition(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
     let cross = shapes.transpose() * mass * &test.shapes;
     let (mut frequency, mut shape) = (0.0, 0.0);

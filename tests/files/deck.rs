@@ -4,9 +4,10 @@ use crate::common::decks::{bulk_data, restyled, style};
 use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{CASES, Case};
-use corfem::files::deck::number::held_by_field;
+use corfem::files::deck::number::nearest_in_field;
 use corfem::files::deck::write::bulk_data as written;
 use corfem::files::deck::{self, BulkData, Task};
+use corfem::method::assembly::element_matrices;
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 
@@ -69,7 +70,11 @@ fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
 fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    let lower = stiffness.clone().cholesky().expect("a held structure").l();
+    let lower = stiffness
+        .clone()
+        .cholesky()
+        .expect("a constrained structure")
+        .l();
     let half = lower
         .solve_lower_triangular(mass)
         .expect("a nonzero diagonal");
@@ -90,7 +95,7 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
     for number in CASES {
         let case = Case::new(number).expect("a case");
         let model = case.model().expect("a model");
-        let dynamic = model.analyze(&[1.0; 15]).expect("an analysis");
+        let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
         let modes =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let sizes = model.sizes(&[1.0; 15]).expect("sizes");
@@ -132,7 +137,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
         assert!(read.unread.is_empty(), "{:?}", read.unread);
         let found = deck::modes(&read.model).expect("modes");
         let model = Case::new(number).expect("a case").model().expect("a model");
-        let dynamic = model.analyze(&factors).expect("an analysis");
+        let dynamic = model.matrices(&factors).expect("an analysis");
         let expected =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();
@@ -173,14 +178,15 @@ fn mpc_cards_are_the_load_distribution() {
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let dynamic = read.dynamic_dof(&structure).expect("dynamic DOF");
+    let elements = element_matrices(&structure).expect("elements");
+    let dynamic = read.mass_dof(&structure, &elements).expect("masses");
     assert_eq!(dynamic.load_distribution.shape(), (36, 9));
     for (read, meant) in dynamic
         .load_distribution
         .iter()
         .zip(model.load_distribution().iter())
     {
-        assert_eq!(*read, held_by_field(*meant));
+        assert_eq!(*read, nearest_in_field(*meant));
     }
     assert_eq!(DMatrix::from_diagonal(&dynamic.mass), *model.mass());
     assert_eq!(read.ties.len(), 9);

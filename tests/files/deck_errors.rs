@@ -1,6 +1,7 @@
 //! What is wrong with a deck is named: file, line, card and field.
 
 use corfem::files::deck;
+use corfem::files::error::FileError;
 use corfem::method::error::Error;
 
 /// A structure that reads: two grids, a rod, a material, its constraints, a mass.
@@ -15,7 +16,7 @@ CMASS2,7,.4,2,1
 ";
 
 /// The error of [`GOOD`] with one more card, or with one of its lines replaced.
-pub fn error(line: Option<usize>, card: &str) -> Error {
+pub fn error(line: Option<usize>, card: &str) -> FileError {
     let mut lines: Vec<&str> = GOOD.lines().collect();
     match line {
         Some(line) => lines[line - 1] = card,
@@ -92,7 +93,7 @@ const BAD_FIELDS: &str = "\
 - | MPC,1,2,5,-1.,1,1,1. | 4 | component 1, 2 or 3 | 5
 - | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient that is not zero | 0.
 - | MPC,1,2,1,1,1,1,1. | 5 | a real number with a decimal point | 1
-- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card holds | 1
+- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card constrains | 1
 ";
 
 #[test]
@@ -105,7 +106,7 @@ fn a_bad_field_is_named_with_file_line_and_card() {
         let field: usize = field.parse().expect(row);
         let error = error(line, card);
         let name = card.split([',', '*']).next().expect("a name");
-        let Error::DeckField {
+        let FileError::DeckField {
             file,
             line: at,
             card: of,
@@ -129,7 +130,7 @@ fn a_bad_field_is_named_with_file_line_and_card() {
 #[test]
 fn a_bad_field_of_a_continuation_has_its_own_line_and_number() {
     let field_of = |cards: &str| match error(None, cards) {
-        Error::DeckField { line, field, .. } => (line, field),
+        FileError::DeckField { line, field, .. } => (line, field),
         error => panic!("{cards}: {error}"),
     };
     assert_eq!(field_of("CONM2,8,2,,.4,,,,,+I\n+I,1."), (9, 12));
@@ -159,19 +160,19 @@ MPC,1,3,1,-1.,1,2,1.,,+M
 ";
     let error = deck::read("wing.dat", deck).expect_err("grid 2 x is dependent");
     assert!(
-        matches!(&error, Error::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
+        matches!(&error, FileError::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
         "{error}"
     );
     let error =
         deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,1,2,1")).expect_err("tied twice");
     assert!(
-        matches!(&error, Error::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
+        matches!(&error, FileError::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
         "{error}"
     );
     let error =
         deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,7,3,1")).expect_err("two sets");
     assert!(
-        matches!(&error, Error::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
+        matches!(&error, FileError::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
         "{error}"
     );
 }
@@ -197,11 +198,11 @@ fn what_no_deck_can_hold_is_refused() {
     assert!(
         matches!(
             error,
-            Error::NotFinite {
+            FileError::Method(Error::NotFinite {
                 what: "number on a bulk data card",
                 column: 3,
                 ..
-            }
+            })
         ),
         "{error}"
     );
@@ -211,11 +212,11 @@ fn what_no_deck_can_hold_is_refused() {
     assert!(
         matches!(
             error,
-            Error::TooMany {
+            FileError::Method(Error::TooMany {
                 what: "number of a grid or element in a deck",
                 available: 99_999_999,
                 requested: 100_000_000
-            }
+            })
         ),
         "{error}"
     );

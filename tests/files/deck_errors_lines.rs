@@ -2,7 +2,7 @@
 
 use crate::files::deck_errors::{GOOD, error};
 use corfem::files::deck;
-use corfem::method::error::Error;
+use corfem::files::error::FileError;
 
 #[test]
 fn a_line_that_is_no_card_is_named() {
@@ -72,7 +72,7 @@ fn a_line_that_is_no_card_is_named() {
     ];
     for &(cards, line, expected, found) in cases {
         let error = error(None, cards);
-        let Error::DeckLine {
+        let FileError::DeckLine {
             file,
             line: at,
             expected: wanted,
@@ -85,7 +85,10 @@ fn a_line_that_is_no_card_is_named() {
         assert_eq!((*wanted, there.as_str()), (expected, found));
     }
     let error = deck::read("wing.dat", "+,1\n").expect_err("nothing to continue");
-    assert!(matches!(error, Error::DeckLine { line: 1, .. }), "{error}");
+    assert!(
+        matches!(error, FileError::DeckLine { line: 1, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -98,7 +101,7 @@ fn case_control_that_selects_two_sets_is_refused() {
         let error =
             deck::read("wing.dat", &format!("{control}\nBEGIN BULK\n{GOOD}")).expect_err(control);
         assert!(
-            matches!(&error, Error::DeckLine { line: found, expected: "one set of constraints, by its number", .. } if *found == line),
+            matches!(&error, FileError::DeckLine { line: found, expected: "one set of constraints, by its number", .. } if *found == line),
             "{error}"
         );
     }

@@ -1,11 +1,13 @@
 //! Modes of decks whose answers are known in closed form.
 
 use crate::common::tolerances::EIGEN_ROUND_OFF;
-use corfem::files::deck::{self, DeckModes};
+use corfem::files::deck;
+use corfem::files::error::FileError;
 use corfem::method::error::Error;
+use corfem::method::whole_modes::WholeModes;
 use std::f64::consts::PI;
 
-fn modes(text: &str) -> Result<DeckModes, Error> {
+fn modes(text: &str) -> Result<WholeModes, FileError> {
     deck::modes(&deck::read("test", text)?.model)
 }
 
@@ -133,9 +135,9 @@ fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
     assert!(
         matches!(
             error,
-            Error::Empty {
+            FileError::Method(Error::Empty {
                 what: "degrees of freedom with mass"
-            }
+            })
         ),
         "{error}"
     );
@@ -144,11 +146,11 @@ fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
     assert!(
         matches!(
             error,
-            Error::SingularStiffness {
+            FileError::Method(Error::SingularStiffness {
                 grid: 3,
                 direction: 'x',
                 ..
-            }
+            })
         ),
         "{error}"
     );
@@ -163,7 +165,7 @@ fn an_element_at_a_tied_grid_is_refused() {
     assert!(
         matches!(
             error,
-            Error::TiedElement {
+            FileError::TiedElement {
                 element: 2,
                 grid: 3,
                 direction: 'x'

@@ -1,8 +1,8 @@
 //! Real numbers in the fields of a deck.
 
-use crate::common::decks::held_number;
+use crate::common::decks::field_number;
 use crate::common::tolerances::{DECK_ROUNDING, FIELD_ROUNDING};
-use corfem::files::deck::number::{exact_real, held_by_field, large_real, parse_real};
+use corfem::files::deck::number::{exact_real, large_real, nearest_in_field, parse_real};
 use proptest::prelude::*;
 
 #[test]
@@ -63,7 +63,7 @@ fn reals_are_written_short() {
     );
     assert_eq!(large_real(f64::NAN), None);
     assert_eq!(large_real(f64::INFINITY), None);
-    assert!(held_by_field(f64::NAN).is_nan());
+    assert!(nearest_in_field(f64::NAN).is_nan());
 }
 
 proptest! {
@@ -85,10 +85,10 @@ proptest! {
         prop_assume!(value.is_normal());
         let text = large_real(value).expect("a finite number");
         prop_assert!(text.len() <= 16, "{}", text);
-        let held = held_by_field(value);
+        let held = nearest_in_field(value);
         prop_assert_eq!(parse_real(&text), Some(held));
         prop_assert!((held - value).abs() <= FIELD_ROUNDING * value.abs(), "{} as {}", value, text);
-        prop_assert_eq!(held_by_field(held), held);
+        prop_assert_eq!(nearest_in_field(held), held);
     }
 
     #[test]
@@ -98,12 +98,12 @@ proptest! {
         is_negative in any::<bool>(),
     ) {
         let value = if is_negative { -mantissa } else { mantissa } * 10.0_f64.powi(exponent);
-        let difference = (held_by_field(value) - value).abs();
+        let difference = (nearest_in_field(value) - value).abs();
         prop_assert!(difference <= DECK_ROUNDING * value.abs());
     }
 
     #[test]
-    fn a_number_that_fits_a_large_field_is_written_exactly(value in held_number()) {
-        prop_assert_eq!(held_by_field(value), value);
+    fn a_number_that_fits_a_large_field_is_written_exactly(value in field_number()) {
+        prop_assert_eq!(nearest_in_field(value), value);
     }
 }

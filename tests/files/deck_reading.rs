@@ -3,7 +3,7 @@
 use crate::common::tolerances::ROUND_OFF;
 use corfem::files::deck::write::bulk_data;
 use corfem::files::deck::{self, Reason, Unread};
-use corfem::method::error::Error;
+use corfem::files::error::FileError;
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
 const ROD: &str = "\
@@ -31,12 +31,17 @@ fn case_control_selects_the_sets() {
     assert_eq!(read.unread, [skipped("MPC", 15), skipped("SPC1", 16)]);
     assert_eq!(read.model.ties.len(), 1);
     assert_eq!(read.model.ties[0].terms[0].1, 1.0);
-    assert!(!read.model.grids[1].held[0]);
+    assert!(!read.model.grids[1].constrained[0]);
     // Case control that selects nothing holds nothing.
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
     let read = deck::read("test", &loose).expect("it reads");
     assert_eq!(read.unread.len(), 2);
-    assert!(read.model.grids.iter().all(|grid| grid.held == [false; 3]));
+    assert!(
+        read.model
+            .grids
+            .iter()
+            .all(|grid| grid.constrained == [false; 3])
+    );
 }
 
 #[test]
@@ -45,7 +50,10 @@ fn unknown_cards_are_listed_in_the_order_of_the_file() {
         "PARAM,WTMASS,2.\n{ROD}CMASS2,8,.4,2,1\nCBAR,9,1,1,2,1.,0.,0.\nEIGR,1,INV\n+X,MAX\n"
     );
     let error = deck::read("test", &deck).expect_err("+X continues nothing");
-    assert!(matches!(error, Error::DeckLine { line: 12, .. }), "{error}");
+    assert!(
+        matches!(error, FileError::DeckLine { line: 12, .. }),
+        "{error}"
+    );
     let read = deck::read("test", &deck.replace("+X,MAX\n", "")).expect("it reads");
     let unknown = |card: &str, line| Unread {
         card: card.into(),
@@ -80,11 +88,14 @@ MAT1,1,1.04+7,4.+6
     assert_eq!(model.elements[2].grids, [1, 2, 3]);
     assert_eq!(model.elements[3].grids, [1, 2, 3, 1]);
     assert_eq!(
-        model.grids[2].held,
+        model.grids[2].constrained,
         [false, false, true],
         "its own card counts"
     );
-    assert_eq!(model.grids[0].held, [false; 3], "rotations have no place");
+    assert_eq!(
+        model.grids[0].constrained, [false; 3],
+        "rotations have no place"
+    );
     let material = model.elements[0].material;
     assert_eq!(material.shear_modulus, 4e6);
     approx::assert_relative_eq!(material.poissons_ratio, 0.3, epsilon = ROUND_OFF);
@@ -117,7 +128,7 @@ fn mat1_derives_what_is_blank() {
     ] {
         let error = with(fields).expect_err(fields);
         assert!(
-            matches!(&error, Error::DeckField { card, line: 5, field: found, .. } if card == "MAT1" && *found == field),
+            matches!(&error, FileError::DeckField { card, line: 5, field: found, .. } if card == "MAT1" && *found == field),
             "{fields}: {error}"
         );
     }
@@ -138,18 +149,18 @@ SPC1,1,3,12,THRU,12
 +B,12
 ";
     let model = deck::read("test", deck).expect("it reads").model;
-    let held: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.held).collect();
+    let constrained: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.constrained).collect();
     let x = [true, false, false];
     let yz = [false, true, true];
-    assert_eq!(held, [x, x, x, yz, yz, yz]);
+    assert_eq!(constrained, [x, x, x, yz, yz, yz]);
 }
 
 #[test]
 fn grdset_holds_where_a_grid_says_nothing() {
     let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
     let grids = deck::read("test", deck).expect("it reads").model.grids;
-    assert_eq!(grids[0].held, [false, false, true]);
-    assert_eq!(grids[1].held, [true, false, false]);
+    assert_eq!(grids[0].constrained, [false, false, true]);
+    assert_eq!(grids[1].constrained, [true, false, false]);
 }
 
 #[test]
@@ -157,13 +168,13 @@ fn neighbors_held_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
     let model = deck::read("test", deck).expect("it reads").model;
     let text = bulk_data(&model, &mut 0).expect("a deck");
-    let held: Vec<Vec<&str>> = text
+    let constrained: Vec<Vec<&str>> = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))
         .map(|line| line.split_whitespace().skip(2).collect())
         .collect();
     assert_eq!(
-        held,
+        constrained,
         [
             vec!["12456", "1", "THRU", "2"],
             vec!["3456", "3"],
@@ -184,7 +195,7 @@ MPC     1       1       1       1.      2       3       .5
     let model = deck::read("test", deck).expect("it reads").model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 2.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [3.0, 4.0, 5.0]);
-    assert_eq!(model.grids[1].held, [true, true, false]);
+    assert_eq!(model.grids[1].constrained, [true, true, false]);
     assert_eq!(model.ties[0].terms.len(), 2);
     assert_eq!(model.ties[0].terms[1].1, 1.5);
 }

@@ -5,11 +5,12 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
 use crate::files::nastran95_analysis::disordered;
+use corfem::cases::error::CaseError;
 use corfem::cases::fit::fit;
 use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::files::deck::BulkData;
+use corfem::files::error::FileError;
 use corfem::method::error::Error;
-use corfem::method::modal::Share;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::tables::cases::all_tables;
 use corfem::present::{json, render};
@@ -20,9 +21,9 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
     let model = disordered();
     let home = fake("cat > \"$RFDIR/deck\"");
     let error = solver(&home)
-        .analyze(&model, &[2.0, 1.0])
+        .elements(&model, &[2.0, 1.0])
         .expect_err("no answer");
-    assert!(matches!(error, Error::SolverAnswer { .. }), "{error}");
+    assert!(matches!(error, FileError::SolverAnswer { .. }), "{error}");
     let text = std::fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
     for line in [
         "INSERT READ,-1 $",
@@ -40,7 +41,11 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
     let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
     assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
     assert_eq!(labels[7..], (201..=213).collect::<Vec<_>>());
-    assert!(read.grids[7..].iter().all(|grid| grid.held == [true; 3]));
+    assert!(
+        read.grids[7..]
+            .iter()
+            .all(|grid| grid.constrained == [true; 3])
+    );
     let labels: Vec<usize> = read.elements.iter().map(|element| element.label).collect();
     assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
     assert_eq!(read.elements[5].size, 0.2);
@@ -76,7 +81,10 @@ fn a_deck_holds_point_masses_alone() {
     )
     .expect("a model");
     let error = BulkData::of(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
-    assert!(matches!(error, Err(Error::CoupledMass { dof: 0 })));
+    assert!(matches!(
+        error,
+        Err(FileError::Method(Error::CoupledMass { dof: 0 }))
+    ));
 }
 
 #[test]
@@ -90,8 +98,8 @@ fn element_matrices_of_another_origin_must_fit() {
     let doubled = own.iter().map(|unit| 2.0 * unit).collect();
     let stiffer = model.with_unit_stiffness(doubled).expect("they fit");
     let (once, twice) = (
-        model.analyze(&[1.0, 1.0]).expect("an analysis"),
-        stiffer.analyze(&[1.0, 1.0]).expect("an analysis"),
+        model.matrices(&[1.0, 1.0]).expect("an analysis"),
+        stiffer.matrices(&[1.0, 1.0]).expect("an analysis"),
     );
     let expected = 2.0 * once.stiffness;
     approx::assert_relative_eq!(
@@ -162,13 +170,10 @@ fn element_matrices_of_another_origin_must_fit() {
 #[test]
 fn a_case_runs_with_the_analysis_it_is_given() {
     let case = Case::new(2).expect("a case");
-    let stiffer = |model: &FiniteElementModel, factors: &[f64]| {
-        let mut dynamic = model.analyze(factors)?;
-        dynamic.stiffness *= 4.0;
-        for share in &mut dynamic.shares {
-            *share = Share::Stiffness(4.0 * share.matrix());
-        }
-        Ok(dynamic)
+    let stiffer = |model: &FiniteElementModel, _: &[f64]| {
+        let elements = model.element_matrices().iter();
+        let units = elements.map(|element| 4.0 * &element.unit).collect();
+        Ok::<_, CaseError>(model.with_unit_stiffness(units)?)
     };
     let own = run_case(&case, |_, _| ()).expect("a run");
     let other = run_case_with(&case, "a stiffer box", stiffer, |_, _| ()).expect("a run");

@@ -74,7 +74,7 @@ fn snap_factors(case: &Case) -> Vec<f64> {
 /// The crate's frequencies at given gages.
 fn frequencies(case: &Case, gages: &[f64]) -> Vec<f64> {
     let model = case.model_with(gages).expect("a model");
-    let dynamic = model.analyze(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
     solve(&dynamic.stiffness, &dynamic.mass, 9)
         .expect("modes")
         .frequencies_hz()

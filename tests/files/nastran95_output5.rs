@@ -3,8 +3,8 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::output5;
+use corfem::files::error::FileError;
 use corfem::files::nastran95::read_output5;
-use corfem::method::error::Error;
 use nalgebra::DMatrix;
 
 #[test]
@@ -41,7 +41,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
         let mut lines = lines.clone();
         lines[line - 1] = text;
         let error = read_output5(&lines.join("\n")).expect_err(text);
-        let Error::SolverAnswer {
+        let FileError::SolverAnswer {
             expected: wanted, ..
         } = &error
         else {
@@ -97,7 +97,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     let cut = lines[..4].join("\n");
     let error = read_output5(&cut).expect_err("its end");
     assert!(
-        matches!(&error, Error::SolverAnswer { expected, found } if expected == "reals in line 5 of the OUTPUT5 file" && found == "its end"),
+        matches!(&error, FileError::SolverAnswer { expected, found } if expected == "reals in line 5 of the OUTPUT5 file" && found == "its end"),
         "{error}"
     );
 }

@@ -3,8 +3,8 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
+use corfem::files::error::FileError;
 use corfem::files::nastran95::{Nastran95, default_folder};
-use corfem::method::error::Error;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -30,7 +30,7 @@ fn a_missing_solver_is_named() {
     ] {
         let error = Nastran95::in_folder(folder).expect_err("nothing there");
         assert!(
-            matches!(&error, Error::SolverMissing { path } if path == folder),
+            matches!(&error, FileError::SolverMissing { path } if path == folder),
             "{error}"
         );
         assert!(
@@ -48,7 +48,7 @@ fn a_program_that_cannot_start_is_named() {
     std::fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).expect("not executable");
     let error = solver(&home).run("").expect_err("it cannot start");
     assert!(
-        matches!(&error, Error::File { path, action: "run", .. } if path.ends_with("bin/nastrn")),
+        matches!(&error, FileError::File { path, action: "run", .. } if path.ends_with("bin/nastrn")),
         "{error}"
     );
 }
@@ -91,7 +91,7 @@ fn a_run_without_an_answer_says_what_was_printed_last() {
         .matrices("")
         .expect_err("nothing at all");
     assert!(
-        matches!(&silent, Error::SolverAnswer { found, .. } if found == "none; printed last: nothing printed"),
+        matches!(&silent, FileError::SolverAnswer { found, .. } if found == "none; printed last: nothing printed"),
         "{silent}"
     );
 }
@@ -101,14 +101,14 @@ fn a_crash_gives_its_status_and_last_words() {
     let home = fake("echo reading bulk data; echo Segmentation fault >&2; exit 3");
     let error = solver(&home).run("").expect_err("a crash");
     assert!(
-        matches!(&error, Error::SolverCrashed { status, message } if status == "exit status: 3" && message == "reading bulk data / Segmentation fault"),
+        matches!(&error, FileError::SolverCrashed { status, message } if status == "exit status: 3" && message == "reading bulk data / Segmentation fault"),
         "{error}"
     );
     let killed = solver(&fake("kill -SEGV $$"))
         .run("")
         .expect_err("a signal");
     assert!(
-        matches!(&killed, Error::SolverCrashed { status, .. } if status.contains("signal: 11")),
+        matches!(&killed, FileError::SolverCrashed { status, .. } if status.contains("signal: 11")),
         "{killed}"
     );
 }
@@ -122,7 +122,7 @@ fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
         ));
         let error = solver(&home).run("").expect_err("a fatal message");
         assert!(
-            matches!(&error, Error::SolverFatal { message } if message == "USER FATAL MESSAGE 2025, UNDEFINED GRID POINT 77 ON ELEMENT 3"),
+            matches!(&error, FileError::SolverFatal { message } if message == "USER FATAL MESSAGE 2025, UNDEFINED GRID POINT 77 ON ELEMENT 3"),
             "{error}"
         );
     }
@@ -131,13 +131,13 @@ fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
         fake("printf '\\377\\0\\n0*** SYSTEM FATAL MESSAGE 1\\n0*** USER FATAL MESSAGE 2\\n'");
     let error = solver(&home).run("").expect_err("fatal messages");
     assert!(
-        matches!(&error, Error::SolverFatal { message } if message == "SYSTEM FATAL MESSAGE 1"),
+        matches!(&error, FileError::SolverFatal { message } if message == "SYSTEM FATAL MESSAGE 1"),
         "{error}"
     );
     let long = fake("printf 'FATAL a\\nb\\nc\\nd\\n'");
     let error = solver(&long).run("").expect_err("a long message");
     assert!(
-        matches!(&error, Error::SolverFatal { message } if message == "FATAL a b c"),
+        matches!(&error, FileError::SolverFatal { message } if message == "FATAL a b c"),
         "{error}"
     );
 }
@@ -155,7 +155,7 @@ fn a_hang_is_stopped_with_everything_it_started() {
     let start = Instant::now();
     let error = solver.run("").expect_err("a hang");
     assert!(
-        matches!(error, Error::SolverTimeLimit { seconds } if seconds == 0.3),
+        matches!(error, FileError::SolverTimeLimit { seconds } if seconds == 0.3),
         "{error}"
     );
     let took = start.elapsed();
@@ -176,7 +176,7 @@ fn a_request_to_stop_ends_the_run() {
     let solver = solver(&home);
     solver.stop.store(true, Ordering::Relaxed);
     let error = solver.run("").expect_err("stopped");
-    assert!(matches!(error, Error::SolverInterrupted), "{error}");
+    assert!(matches!(error, FileError::SolverInterrupted), "{error}");
 }
 
 /// Runs the program with a fake solver and its temporary files in a folder of their own; how many it left there.

@@ -9,11 +9,10 @@ use corfem::cases::torque_box::{PANEL_COUNT, dynamic_points};
 use corfem::cases::{Case, run_case_with};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::DynamicModel;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::solve;
-use corfem::method::outer_loop::check;
-use corfem::present::render;
+use corfem::present::{PresentError, render};
 use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, test_modes};
@@ -44,7 +43,8 @@ fn nastran_answers_as_stored() {
         for check in std::iter::once(&stored.initial).chain(&stored.passes) {
             let model = case.model_with(&check.gages_in).expect("a model");
             let dynamic = nastran
-                .analyze(&model, &[1.0; PANEL_COUNT])
+                .elements(&model, &[1.0; PANEL_COUNT])
+                .and_then(|model| Ok(model.matrices(&[1.0; PANEL_COUNT])?))
                 .expect("an analysis");
             let found = solve(&dynamic.stiffness, &dynamic.mass, 9)
                 .expect("modes")
@@ -71,7 +71,7 @@ fn nastran_answers_as_stored() {
     let run = run_case_with(
         &case,
         NAME,
-        |model, factors| nastran.analyze(model, factors),
+        |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),
         |_, _| (),
     )
     .expect("a run");
@@ -115,7 +115,7 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         let lower = matrices["KAA"]
             .clone()
             .cholesky()
-            .expect("a held structure")
+            .expect("a constrained structure")
             .l();
         let half = lower
             .solve_lower_triangular(&matrices["MAA"])
@@ -136,7 +136,7 @@ fn nastran_solves_the_written_deck_for_its_modes() {
 
 /// Squared circular frequencies of a case's model, and its deck.
 fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkData) {
-    let dynamic = model.analyze(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
     let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
     let points = dynamic_points(&case.reconstruction).expect("points");
     let bulk = BulkData::of(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
@@ -170,15 +170,13 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
     let stored = stored_wing();
     let wing = DeltaWing::embedded().expect("the wing");
     let model = first_model(&wing).expect("a model");
-    let start = nastran
-        .analyze(&model, &stored.initial.factors)
-        .expect("an analysis");
-    let test = test_modes(&wing, &start.mass).expect("test modes");
+    let test = test_modes(&wing).expect("test modes");
     for expected in stored.checks() {
-        let here = model.analyze(&expected.factors).expect("an analysis");
-        let there = nastran
-            .analyze(&model, &expected.factors)
+        let here = model.matrices(&expected.factors).expect("an analysis");
+        let elements = nastran
+            .elements(&model, &expected.factors)
             .expect("an analysis");
+        let there = elements.matrices(&expected.factors).expect("condensed");
         for (here, there) in [
             (&here.stiffness, &there.stiffness),
             (&here.mass, &there.mass),
@@ -196,7 +194,10 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
             NASTRAN_FREQUENCY,
             "delta wing",
         );
-        let again = check(&there, &test, 19).expect("modes");
+        let again = elements
+            .analyze(&expected.factors, &test, None)
+            .expect("modes")
+            .exact;
         assert_near(
             &again.frequencies_hz,
             &expected.frequencies_hz,
@@ -214,7 +215,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
     let run = correlate_wing_with(
         &DeltaWing::embedded().expect("the wing"),
         NAME,
-        |model, factors| nastran.analyze(model, factors),
+        |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),
         |_, _| (),
     )
     .expect("a run");

@@ -1,4 +1,4 @@
-//! The named alternatives to the primary step and update rules, on the torque box: why the primary ones are primary.
+//! The alternatives to the primary step and update rules, on the torque box: why the primary ones are primary.
 //!
 //! Statements, not histories: how the alternatives compare on this box, with room for another machine's last digit.
 //! First passes of Cases 1, 2 and 3, iterations and error sum reached:
@@ -8,19 +8,26 @@
 //! | root sum of squares | 5 | 14, 2.5 % | 6, 2.4 % | 22, 2.5 % |
 //! | root sum of squares | 0 | 14, 2.5 % | 4, 6.2 % | 6, 4.0 % |
 //! | sum over modes | 5 | 25, 2.5 % | 12, 2.3 % | 32, 2.5 % |
-//! | steepest descent | 5 | 51, 2.8 % | 34, 2.6 % | 51, 2.7 % |
 //! | steepest descent | 0 | 3, 8.6 % | 6, 6.8 % | 4, 8.9 % |
 
-use crate::common::boxes::problem_of;
-use crate::common::tolerances::SAME_HISTORY;
+use crate::common::appendix_c::exact;
+use crate::common::boxes::{first_problem, problem_of};
+use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
-use corfem::method::appendix_c::UpdateRule;
+use corfem::method::appendix_c::{
+    Perturbed, first_order, normalize_with_mass, recursive_1, recursive_2,
+};
+use corfem::method::error::Error;
+use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::ModalProblem;
-use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::model::{ModalModel, Share};
+use corfem::method::modes::ModeSet;
+use corfem::method::pairing::pair_modes;
+use corfem::method::state::UpdateRule;
 use corfem::method::step::StepRule;
+use nalgebra::DMatrix;
 
 /// A case's first pass with other rules.
 fn first_pass(number: usize, change: impl Fn(&mut InnerSettings)) -> InnerRun {
@@ -70,36 +77,33 @@ fn a_sum_over_modes_takes_smaller_steps_and_more_iterations() {
 }
 
 #[test]
-fn plain_steepest_descent_stalls() {
+fn plain_steepest_descent_stops_far_from_the_test() {
     for number in 1..=3 {
         let run = first_pass(number, |settings| {
             settings.step = StepRule::SteepestDescent;
             settings.halvings = 0;
         });
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!(
-            (3..=6).contains(&run.iterations.len()),
-            "{}",
-            run.iterations.len()
-        );
+        let (count, gages) = (run.iterations.len(), gage_error(number, &run));
+        assert!((3..=6).contains(&count), "{count}");
         assert!(run.last.errors.sum() > 0.06, "{}", run.last.errors.sum());
         // Where the primary rules leave 6, 5 and 13 %.
-        assert!(
-            gage_error(number, &run) > 0.17,
-            "{}",
-            gage_error(number, &run)
-        );
+        assert!(gages > 0.17, "{gages}");
     }
 }
 
 #[test]
-fn steepest_descent_with_halvings_creeps_and_still_misses_the_tolerance() {
+fn steepest_descent_with_halvings_creeps() {
+    // Whether it ever reaches the tolerance hangs on the last digit. That it does not with twice the iterations of the
+    // primary rule does not: it stands at 3.5, 3.9 and 2.9 % then.
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
-        let run = first_pass(number, |settings| settings.step = StepRule::SteepestDescent);
-        assert_eq!(run.stop, Stop::LocalMinimum);
+        let run = first_pass(number, |settings| {
+            settings.step = StepRule::SteepestDescent;
+            settings.iterations = 2 * primary.iterations.len();
+        });
+        assert_eq!(run.stop, Stop::Iterations);
         assert!(run.last.errors.sum() > 0.025);
-        assert!(run.iterations.len() > 2 * primary.iterations.len());
         assert!(gage_error(number, &run) > gage_error(number, &primary));
     }
 }
@@ -143,73 +147,50 @@ fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
     }
 }
 
+/// β of given factors on a model's parameters.
+fn change_by(problem: &ModalModel, factors: &[f64]) -> DMatrix<f64> {
+    let of_parameter = |(share, factor): (&Share, &f64)| (factor - 1.0) * share.matrix();
+    problem.shares.iter().zip(factors).map(of_parameter).sum()
+}
+
 #[test]
 fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
-    // Factors after the first iteration, which every rule computes from the same derivatives, are the same; the error
-    // sum there is where the rules differ.
+    // The factors of the first iteration come from derivatives alone and are the same for every rule; the error sum there
+    // is where the rules differ.
     for number in 1..=3 {
-        let exact = first_pass(number, |settings| {
-            settings.update = UpdateRule::Eigensolution
+        let problem = first_problem(number);
+        let run = first_pass(number, |settings| {
+            settings.update = UpdateRule::Eigensolution;
+            settings.iterations = 1;
         });
-        let distance = |update| {
-            let run = first_pass(number, |settings| {
-                settings.update = update;
-                settings.iterations = 1;
-            });
-            assert_eq!(run.last.factors, exact.iterations[0].factors);
-            (run.last.errors.sum() - exact.iterations[0].errors.sum()).abs()
+        let k = &problem.exact.modes.omega_squared;
+        let beta = change_by(&problem, &run.last.factors);
+        let distance = |found: Result<Perturbed, Error>| {
+            let Perturbed { roots, mut shapes } = found.unwrap();
+            normalize_with_mass(&mut shapes, &DMatrix::zeros(k.len(), k.len())).unwrap();
+            let pairing = pair_modes(&shapes.tr_mul(&problem.cross)).unwrap();
+            let modes = ModeSet {
+                omega_squared: roots.map(f64::recip),
+                shapes: &problem.exact.modes.shapes * shapes,
+            };
+            let sum = errors(&modes, &pairing, &problem.test).sum();
+            (sum - run.last.errors.sum()).abs()
         };
-        let first = distance(UpdateRule::FirstOrder);
-        let second = distance(UpdateRule::Recursive1 { order: 2 });
-        let fourth = distance(UpdateRule::Recursive1 { order: 4 });
+        let first = distance(first_order(k, &beta));
+        let second = distance(recursive_1(k, &beta, 2));
+        let fourth = distance(recursive_1(k, &beta, 4));
         assert!(
             fourth < second && second < first,
             "{first:e} {second:e} {fourth:e}"
         );
-        let third = distance(UpdateRule::Recursive2 { order: 3 });
+        let third = distance(recursive_2(k, &beta, 3));
         assert!(third < second);
+        assert!(distance(exact(k, &beta)) < ROUND_OFF);
     }
 }
 
-#[test]
-fn first_order_modes_mislead_the_inner_loop() {
-    // Case 1, first pass: what the inner loop holds for 2.5 % is 9 % when checked, where the primary rule's is 4 %.
-    let check = |update| {
-        let mut case = Case::new(1).unwrap();
-        case.settings.inner.update = update;
-        let settings = Settings {
-            most_passes: 1,
-            ..case.settings.clone()
-        };
-        let model = case.model().unwrap();
-        let test = case.test_modes().unwrap();
-        let found = correlate(
-            |f| model.analyze(f),
-            &test,
-            &[None; 15],
-            &settings,
-            |_, _| {},
-        )
-        .unwrap();
-        let pass = &found.passes[0];
-        assert!(pass.inner.last.errors.sum() < 0.025);
-        (pass.inner.iterations.len(), pass.check.errors.sum())
-    };
-    let (primary, first) = (check(UpdateRule::default()), check(UpdateRule::FirstOrder));
-    let original = check(UpdateRule::Original);
-    assert!(
-        first.0 > 2 * primary.0 && first.1 > 2.0 * primary.1,
-        "{primary:?} {first:?}"
-    );
-    // The original formulae lie between the two.
-    assert!(
-        primary.1 < original.1 && original.1 < first.1,
-        "{original:?}"
-    );
-}
-
 /// Largest error of nine frequencies, in percent, of Recursive 1 at the published total change of a case.
-fn largest_frequency_error(case: &Case, problem: &ModalProblem, table: usize, order: usize) -> f64 {
+fn largest_frequency_error(case: &Case, problem: &ModalModel, table: usize, order: usize) -> f64 {
     let column = if case.number == 3 {
         "pass_3_in"
     } else {
@@ -221,57 +202,32 @@ fn largest_frequency_error(case: &Case, problem: &ModalProblem, table: usize, or
         .iter()
         .map(|panel| table.required(&panel.label.to_string(), column).unwrap() / panel.gage)
         .collect();
-    let frequencies = |update| {
-        let state = problem.state_at(factors.clone(), update).unwrap();
-        state.modes.frequencies_hz()
-    };
-    let exact = frequencies(UpdateRule::Eigensolution);
-    let found = frequencies(UpdateRule::Recursive1 { order });
-    let errors = found.iter().zip(exact).map(|(a, b)| (a / b - 1.0).abs());
-    100.0 * errors.fold(0.0, f64::max)
+    let (k, beta) = (
+        &problem.exact.modes.omega_squared,
+        change_by(problem, &factors),
+    );
+    let exact = exact(k, &beta).unwrap().roots;
+    let found = recursive_1(k, &beta, order).unwrap().roots;
+    // f is one over the square root of γ.
+    let errors = exact
+        .iter()
+        .zip(found.iter())
+        .map(|(exact, found)| (exact / found).sqrt() - 1.0);
+    100.0 * errors.map(f64::abs).fold(0.0, f64::max)
 }
 
 #[test]
 fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
     // Percent, to the last digit that an independent program gave for the same changes.
+    let orders = [1, 2, 3, 4, 6];
     for (number, table, expected) in [
-        (
-            1,
-            4,
-            [
-                (1, "0.96"),
-                (2, "0.043"),
-                (3, "0.013"),
-                (4, "0.0004"),
-                (6, "0.00001"),
-            ],
-        ),
-        (
-            2,
-            6,
-            [
-                (1, "0.085"),
-                (2, "0.0013"),
-                (3, "0.00009"),
-                (4, "0.000003"),
-                (6, "0.000000"),
-            ],
-        ),
-        (
-            3,
-            8,
-            [
-                (1, "2.3"),
-                (2, "0.094"),
-                (3, "0.14"),
-                (4, "0.007"),
-                (6, "0.0008"),
-            ],
-        ),
+        (1, 4, ["0.96", "0.043", "0.013", "0.0004", "0.00001"]),
+        (2, 6, ["0.085", "0.0013", "0.00009", "0.000003", "0.000000"]),
+        (3, 8, ["2.3", "0.094", "0.14", "0.007", "0.0008"]),
     ] {
         let case = Case::new(number).unwrap();
         let problem = problem_of(&case);
-        for (order, printed) in expected {
+        for (order, printed) in orders.into_iter().zip(expected) {
             let digits = printed.len() - 1 - printed.find('.').unwrap();
             let last_digit = 0.1_f64.powi(i32::try_from(digits).unwrap());
             let found = largest_frequency_error(&case, &problem, table, order);

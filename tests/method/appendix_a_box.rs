@@ -6,9 +6,9 @@ use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
-use corfem::method::appendix_a::{condense, unit_share};
+use corfem::method::appendix_a::{condense, generalized_stiffness};
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -60,7 +60,7 @@ proptest! {
     #[test]
     fn element_shares_sum_to_the_dynamic_stiffness(case in case(), factors in factors(39)) {
         let model = with_every_element(&case);
-        let dynamic = model.analyze(&factors).unwrap();
+        let dynamic = model.matrices(&factors).unwrap();
         prop_assert_eq!(dynamic.shares.len(), 39);
         let sum: DMatrix<f64> = dynamic.shares.iter().map(Share::matrix).sum();
         prop_assert!(relative_distance(&sum, &dynamic.stiffness) <= MATRIX_ROUND_OFF);
@@ -86,7 +86,7 @@ proptest! {
         }
         let expected = bt.tr_mul(&(spread * &bt));
         let scale = element.unit.amax() * bt.amax().powi(2);
-        prop_assert!((unit_share(&bt, element) - &expected).amax() <= MATRIX_ROUND_OFF * scale);
+        prop_assert!((generalized_stiffness(&bt, element) - &expected).amax() <= MATRIX_ROUND_OFF * scale);
         prop_assert_eq!(expected.shape(), (9, 9));
     }
 
@@ -95,8 +95,8 @@ proptest! {
     #[test]
     fn frozen_b_frequencies_bound_exact_ones_from_above(case in case(), factors in factors(15)) {
         let model = case.model().unwrap();
-        let start = model.analyze(&[1.0; 15]).unwrap();
-        let exact = model.analyze(&factors).unwrap();
+        let start = model.matrices(&[1.0; 15]).unwrap();
+        let exact = model.matrices(&factors).unwrap();
         let frozen = frozen(&start, &factors);
         let excess = (&frozen - &exact.stiffness).symmetric_eigenvalues();
         prop_assert!(excess.min() >= -MATRIX_ROUND_OFF * frozen.amax(), "{:e}", excess.min());
@@ -110,8 +110,8 @@ proptest! {
     #[test]
     fn a_common_factor_leaves_b_exact(case in case(), factor in 0.55..=1.5_f64) {
         let model = with_every_element(&case);
-        let start = model.analyze(&[1.0; 39]).unwrap();
-        let scaled = model.analyze(&[factor; 39]).unwrap();
+        let start = model.matrices(&[1.0; 39]).unwrap();
+        let scaled = model.matrices(&[factor; 39]).unwrap();
         prop_assert!(relative_distance(&scaled.stiffness, &(factor * start.stiffness)) <= MATRIX_ROUND_OFF);
     }
 }
@@ -133,8 +133,8 @@ fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
         let (from, to) = (gages("initial_in"), gages("pass_1_in"));
         let factors: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to / from).collect();
         let model = case.model_with(&from).unwrap();
-        let start = model.analyze(&[1.0; 15]).unwrap();
-        let exact = model.analyze(&factors).unwrap();
+        let start = model.matrices(&[1.0; 15]).unwrap();
+        let exact = model.matrices(&factors).unwrap();
         let excess = largest_excess(&frozen(&start, &factors), &exact);
         assert_eq!(format!("{:.1}", 100.0 * excess), percent, "case {number}");
     }

@@ -11,12 +11,12 @@ mod rigid_body;
 mod strategies;
 
 use corfem::method::appendix_b::Movement;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
 /// Test modes from squared circular frequencies and shapes by columns.
-fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> Modes {
-    Modes {
+fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> ModeSet {
+    ModeSet {
         omega_squared: DVector::from_column_slice(omega_squared),
         shapes,
     }
@@ -45,7 +45,7 @@ fn unit_shapes(columns: &[[f64; 4]]) -> DMatrix<f64> {
 }
 
 /// Two modes of overlap 0.05 at 10 and 20 rad/s, and their movement.
-fn slight_overlap() -> (Modes, DMatrix<f64>, Vec<Movement>) {
+fn slight_overlap() -> (ModeSet, DMatrix<f64>, Vec<Movement>) {
     let raw = modes(
         &[100.0, 400.0],
         unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),

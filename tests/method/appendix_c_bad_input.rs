@@ -1,8 +1,10 @@
-//! What the perturbation refuses, rule by rule: bad input, lost roots, coalescing modes, orders of zero.
+//! What the perturbation refuses, rule by rule: bad input, lost roots, coalescing modes, roots that do not settle, orders of
+//! zero.
 
-use crate::method::appendix_c::RULES;
+use crate::common::appendix_c::{FORMULAE, exact, largest_change, rules};
+use crate::common::tolerances::CANCELLED_DIFFERENCE;
 use corfem::method::appendix_c::{
-    SMALLEST_SEPARATION, UpdateRule, first_order, original, perturb, recursive_1,
+    LARGEST_UNSETTLED_CHANGE, SMALLEST_SEPARATION, first_order, original, recursive_1,
     recursive_1_converged, recursive_2,
 };
 use corfem::method::error::Error;
@@ -10,19 +12,19 @@ use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 #[test]
 fn every_rule_needs_modes() {
-    for rule in RULES {
-        match perturb(&DVector::zeros(0), &DMatrix::zeros(0, 0), rule) {
+    for rule in rules() {
+        match (rule.plain)(&DVector::zeros(0), &DMatrix::zeros(0, 0)) {
             Err(Error::Empty { what }) => assert_eq!(what, "modes"),
-            other => panic!("{rule:?}: {other:?}"),
+            other => panic!("{}: {other:?}", rule.name),
         }
     }
 }
 
 #[test]
 fn every_rule_refuses_a_change_of_another_shape() {
-    for rule in RULES {
+    for rule in rules() {
         for (rows, columns) in [(3, 3), (2, 3), (1, 2)] {
-            match perturb(&dvector![1.0, 2.0], &DMatrix::zeros(rows, columns), rule) {
+            match (rule.plain)(&dvector![1.0, 2.0], &DMatrix::zeros(rows, columns)) {
                 Err(Error::WrongShape {
                     what,
                     expected_rows,
@@ -39,7 +41,7 @@ fn every_rule_refuses_a_change_of_another_shape() {
                     ),
                     ("generalized stiffness change", 2, 2, rows, columns)
                 ),
-                other => panic!("{rule:?}: {other:?}"),
+                other => panic!("{}: {other:?}", rule.name),
             }
         }
     }
@@ -48,28 +50,50 @@ fn every_rule_refuses_a_change_of_another_shape() {
 #[test]
 fn every_rule_refuses_nan() {
     let beta = dmatrix![0.0, f64::NAN; 0.0, 0.0];
-    for rule in RULES {
-        match perturb(&dvector![1.0, 2.0], &beta, rule) {
+    for rule in rules() {
+        match (rule.plain)(&dvector![1.0, 2.0], &beta) {
             Err(Error::NotFinite {
                 what, row, column, ..
             }) => assert_eq!((what, row, column), ("generalized stiffness change", 0, 1)),
-            other => panic!("{rule:?}: {other:?}"),
+            other => panic!("{}: {other:?}", rule.name),
         }
     }
 }
 
 #[test]
-fn every_rule_starts_from_vibrations() {
-    for rule in RULES {
+fn every_formula_starts_from_vibrations() {
+    for rule in FORMULAE {
         for bad in [0.0, -1.0, f64::INFINITY] {
-            match perturb(&dvector![1.0, bad], &DMatrix::zeros(2, 2), rule) {
+            match (rule.plain)(&dvector![1.0, bad], &DMatrix::zeros(2, 2)) {
                 Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (1, bad)),
-                other => panic!("{rule:?}: {other:?}"),
+                other => panic!("{}: {other:?}", rule.name),
             }
         }
         assert!(matches!(
-            perturb(&dvector![f64::NAN], &DMatrix::zeros(1, 1), rule),
+            (rule.plain)(&dvector![f64::NAN], &DMatrix::zeros(1, 1)),
             Err(Error::NotAVibration { mode: 0, value }) if value.is_nan()
+        ));
+    }
+}
+
+/// It works on roots as well as on stiffnesses, and says which of the two is not a number it can use.
+#[test]
+fn the_eigensolution_starts_from_vibrations() {
+    let from = |bad: f64| exact(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
+    assert!(matches!(
+        from(0.0),
+        Err(Error::NotFinite { what: "roots", row: 1, value, .. }) if value == f64::INFINITY
+    ));
+    // Modes of the eigensolution are numbered in ascending order: the one that is no vibration comes first.
+    assert!(matches!(
+        from(-1.0),
+        Err(Error::NotAVibration { mode: 0, value }) if value == -1.0
+    ));
+    for bad in [f64::INFINITY, f64::NAN] {
+        assert!(matches!(
+            from(bad),
+            Err(Error::NotFinite { what: "generalized stiffness", row: 1, value, .. })
+                if value.to_bits() == bad.to_bits()
         ));
     }
 }
@@ -78,15 +102,12 @@ fn every_rule_starts_from_vibrations() {
 fn a_change_that_takes_all_stiffness_loses_the_root() {
     for lost in [-2.0, -3.0] {
         let beta = dmatrix![0.0, 0.0; 0.0, lost];
-        for rule in RULES
-            .iter()
-            .filter(|&&rule| rule != UpdateRule::Eigensolution)
-        {
-            match perturb(&dvector![1.0, 2.0], &beta, *rule) {
+        for rule in FORMULAE {
+            match (rule.plain)(&dvector![1.0, 2.0], &beta) {
                 Err(Error::LostRoot { mode, value }) => {
                     assert_eq!((mode, value), (1, 1.0 / (2.0 + lost)));
                 }
-                other => panic!("{rule:?}: {other:?}"),
+                other => panic!("{}: {other:?}", rule.name),
             }
         }
     }
@@ -120,52 +141,48 @@ fn a_strong_coupling_loses_the_root_in_a_higher_order() {
 fn modes_that_come_together_are_named() {
     // k + β is 2 for both modes, so that the denominator of row 1 in mode 0 vanishes.
     let beta = dmatrix![1.0, 0.1; 0.1, 0.0];
-    for rule in RULES
-        .iter()
-        .filter(|&&rule| rule != UpdateRule::Eigensolution)
-    {
-        match perturb(&dvector![1.0, 2.0], &beta, *rule) {
+    for rule in FORMULAE {
+        match (rule.plain)(&dvector![1.0, 2.0], &beta) {
             Err(Error::CoalescingModes {
                 first,
                 second,
                 separation,
             }) => assert_eq!((first, second, separation), (1, 0, 0.0)),
-            other => panic!("{rule:?}: {other:?}"),
+            other => panic!("{}: {other:?}", rule.name),
         }
     }
     // What the recursion cannot do, the eigensolution can: 2 -+ 0.1.
-    let exact = perturb(&dvector![1.0, 2.0], &beta, UpdateRule::Eigensolution).unwrap();
+    let exact = exact(&dvector![1.0, 2.0], &beta).unwrap();
     let sum: f64 = exact.roots.iter().map(|root| 1.0 / root).sum();
     assert!((sum - 4.0).abs() < 1e-12);
 }
 
+/// Two modes that a change couples slightly count as coalescing when their roots are closer than the smallest separation, a
+/// fraction of the stiffness whatever its size.
 #[test]
-fn modes_count_as_coalescing_below_the_smallest_separation() {
-    let separated_by = |fraction: f64| {
-        let k = dvector![1.0, 1.0 + fraction * SMALLEST_SEPARATION];
-        first_order(&k, &DMatrix::zeros(2, 2))
+fn coupled_modes_coalesce_below_the_smallest_separation() {
+    let coupling = 1e-12;
+    let separated_by = |fraction: f64, scale: f64| {
+        let k = scale * dvector![1.0, 1.0 + fraction * SMALLEST_SEPARATION];
+        first_order(&k, &(scale * dmatrix![0.0, coupling; coupling, 0.0]))
     };
-    assert_eq!(separated_by(2.0).unwrap().shapes, DMatrix::identity(2, 2));
-    match separated_by(0.5) {
-        Err(Error::CoalescingModes {
-            first,
-            second,
-            separation,
-        }) => {
-            assert_eq!((first, second), (1, 0));
-            assert!((separation / SMALLEST_SEPARATION - 0.5).abs() < 1e-3);
+    for scale in [1e-6, 1.0, 1e6] {
+        let shapes = separated_by(2.0, scale).unwrap().shapes;
+        let turn = coupling / (2.0 * SMALLEST_SEPARATION);
+        assert!((shapes[(0, 1)] / turn - 1.0).abs() < CANCELLED_DIFFERENCE);
+        assert!((shapes[(1, 0)] / turn + 1.0).abs() < CANCELLED_DIFFERENCE);
+        match separated_by(0.5, scale) {
+            Err(Error::CoalescingModes {
+                first,
+                second,
+                separation,
+            }) => {
+                assert_eq!((first, second), (1, 0));
+                let ratio = separation / SMALLEST_SEPARATION;
+                assert!((ratio / 0.5 - 1.0).abs() < CANCELLED_DIFFERENCE, "{ratio}");
+            }
+            other => panic!("{other:?}"),
         }
-        other => panic!("{other:?}"),
-    }
-    // The fraction is of the stiffness, whatever its size.
-    let soft = dvector![1e-6, 1e-6 * (1.0 + 2.0 * SMALLEST_SEPARATION)];
-    assert!(first_order(&soft, &DMatrix::zeros(2, 2)).is_ok());
-    let stiff = dvector![1e6, 1e6 * (1.0 + 0.5 * SMALLEST_SEPARATION)];
-    match first_order(&stiff, &DMatrix::zeros(2, 2)) {
-        Err(Error::CoalescingModes { separation, .. }) => {
-            assert!((separation / SMALLEST_SEPARATION - 0.5).abs() < 1e-3);
-        }
-        other => panic!("{other:?}"),
     }
 }
 
@@ -191,7 +208,7 @@ fn order_zero_is_no_order() {
     for result in [
         recursive_1(&k, &beta, 0),
         recursive_2(&k, &beta, 0),
-        recursive_1_converged(&k, &beta, 1e-3, 0),
+        recursive_1_converged(&k, &beta, 1e-13, 0).map(|settled| settled.perturbed),
     ] {
         match result {
             Err(Error::Setting {
@@ -202,4 +219,29 @@ fn order_zero_is_no_order() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+#[test]
+fn roots_that_do_not_settle_are_refused_with_their_last_change() {
+    // Coupled by a tenth of their distance, two modes gain about two digits in two orders: three orders are too few.
+    let (k, beta) = (dvector![1.0, 2.0], dmatrix![0.0, 0.1; 0.1, 0.0]);
+    let of_order = |order| recursive_1(&k, &beta, order).unwrap().roots;
+    match recursive_1_converged(&k, &beta, 1e-13, 3) {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        }) => {
+            assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
+            assert_eq!(last_change, largest_change(&of_order(3), &of_order(2)));
+        }
+        other => panic!("{other:?}"),
+    }
+    // One order alone has nothing to compare with.
+    assert!(matches!(
+        recursive_1_converged(&k, &beta, 1e-13, 1),
+        Err(Error::UnsettledRoots { orders: 1, .. })
+    ));
+    let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
+    assert!(settled.last_change < 1e-13);
 }

@@ -1,14 +1,12 @@
 //! Close and repeated roots: three-mass chains with known spectra, and how blocks form.
 
-use crate::common::appendix_c::three_mass_chain;
+use crate::common::appendix_c::{FORMULAE, Rule, three_mass_chain};
 use crate::common::close_roots::{
-    changed, repeated_chain, residual, root_error, separate_chain, solved, spring_change,
+    repeated_chain, residual, root_error, separate_chain, solved, spring_change,
 };
-use crate::common::log_log_slope;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::{
-    CloseRootsSettings, ModalChange, UpdateRule, close_roots, first_order_held, perturb,
-};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::method::appendix_c::general::{self, ModalChange};
+use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
@@ -46,7 +44,7 @@ fn repeated_roots_of_a_chain_are_followed_exactly() {
                 3,
             )
             .unwrap();
-            let omega_squared = found.perturbed.roots.map(f64::recip);
+            let omega_squared = found.settled.perturbed.roots.map(f64::recip);
             for i in 0..3 {
                 let error = omega_squared[i] / exact.omega_squared[i] - 1.0;
                 assert!(
@@ -59,23 +57,68 @@ fn repeated_roots_of_a_chain_are_followed_exactly() {
     }
 }
 
-/// The plain rules refuse what the blocks solve: a change that leaves the two roots together.
+/// The plain formulae refuse what the blocks solve: a change that couples the two modes and leaves their roots together.
 #[test]
-fn plain_rules_refuse_a_repeated_root_and_name_it() {
+fn plain_formulae_refuse_a_coupled_repeated_root_and_name_it() {
     let (_, _, modes) = repeated_chain();
-    let none = spring_change(&modes, [0.0; 3], [0.0; 3]);
-    for rule in [
-        UpdateRule::default(),
-        UpdateRule::FirstOrder,
-        UpdateRule::Original,
-    ] {
-        assert!(matches!(
-            perturb(&none.generalized_stiffness, &none.beta, rule),
-            Err(Error::CoalescingModes { first: 2, second: 1, separation }) if separation < 1e-9
-        ));
+    let mut change = spring_change(&modes, [0.0; 3], [0.0; 3]);
+    change.beta[(1, 2)] = 0.1;
+    change.beta[(2, 1)] = 0.1;
+    for rule in FORMULAE {
+        for result in [
+            (rule.plain)(&change.generalized_stiffness, &change.beta),
+            (rule.general)(&change),
+        ] {
+            assert!(
+                matches!(
+                    result,
+                    Err(Error::CoalescingModes { first: 2, second: 1, separation }) if separation < 1e-9
+                ),
+                "{}",
+                rule.name
+            );
+        }
     }
-    let found = solved(&none).perturbed;
+    let found = solved(&change).settled.perturbed;
+    assert!(root_error(&found.roots, &change) < EIGEN_ROUND_OFF);
+    change.beta.fill(0.0);
+    let found = solved(&change).settled.perturbed;
     assert!((found.roots - modes.omega_squared.map(f64::recip)).amax() < ROUND_OFF);
+}
+
+/// Modes that a change does not couple turn nowhere, however close their roots: first order and Recursive 1 follow them
+/// where another mode is coupled to both.
+#[test]
+fn uncoupled_modes_may_have_equal_roots() {
+    let k = dvector![1.0, 4.0, 4.0, 14.0];
+    // Modes 1 and 2 rise to 5 together, neither with the other nor with anything else.
+    let beta = dmatrix![
+        0.1, 0.0, 0.0, 0.05;
+        0.0, 1.0, 0.0, 0.0;
+        0.0, 0.0, 1.0, 0.0;
+        0.05, 0.0, 0.0, 0.2];
+    let change = ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(4, 4));
+    // Recursive 2 solves a linear system for all other modes from its second order on, which an equal root makes singular.
+    let others = |rule: &Rule| rule.name != "Recursive 2, order 3";
+    for rule in FORMULAE.into_iter().filter(others) {
+        for found in [(rule.plain)(&k, &beta), (rule.general)(&change)] {
+            let found = found.unwrap_or_else(|error| panic!("{}: {error}", rule.name));
+            for mode in [1, 2] {
+                assert!((found.roots[mode] - 0.2).abs() < ROUND_OFF, "{}", rule.name);
+                let mut own = found.shapes.column(mode).into_owned();
+                own[mode] -= 1.0;
+                assert_eq!(own.amax(), 0.0, "{}", rule.name);
+            }
+            assert!(found.shapes[(0, 3)] > 0.0 && found.shapes[(3, 0)] < 0.0);
+        }
+    }
+    let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
+    assert!(root_error(&settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
+    // A change of mass that moves the two alike does not part them either.
+    let alpha = DMatrix::from_diagonal(&dvector![0.0, 0.1, 0.1, 0.0]);
+    let with_mass = ModalChange::of_vibrations(&k, beta, alpha);
+    let settled = general::recursive_1_converged(&with_mass, 1e-13, 60).unwrap();
+    assert!(root_error(&settled.perturbed.roots, &with_mass) < EIGEN_ROUND_OFF);
 }
 
 /// λ = 1, 4, 8 are apart: no blocks, and Recursive 1 itself.
@@ -85,31 +128,34 @@ fn chain_with_separate_roots_forms_no_block() {
     let change = spring_change(&modes, [0.1, -0.05, 0.0], [0.0, 0.1, 0.2]);
     let found = solved(&change);
     assert!(found.blocks.is_empty());
-    let plain = perturb(
-        &change.generalized_stiffness,
-        &change.beta,
-        UpdateRule::default(),
-    )
-    .unwrap();
-    assert!((found.perturbed.roots - plain.roots).amax() < ROUND_OFF);
+    let (k, beta) = (&change.generalized_stiffness, &change.beta);
+    let plain = recursive_1_converged(k, beta, 1e-13, 60).unwrap().perturbed;
+    assert!((found.settled.perturbed.roots - plain.roots).amax() < ROUND_OFF);
 }
 
-/// Softening spring 1-3 from 3 to 1 turns λ = 1, 4, 8 into 1, 4, 4: roots that were apart are brought together.
+/// Softening spring 1-3 from 3 to 1 turns λ = 1, 4, 8 into 1, 4, 4: roots that were apart are brought together. A ground
+/// spring of 0.3 more under mass 1 raises modes 1 and 2 by 0.05 and 0.15 and couples them, so that Recursive 1 refuses them
+/// where spring 1-3 makes up for the difference.
 #[test]
 fn roots_that_a_change_brings_together_form_a_block() {
     let (_, _, modes) = separate_chain();
-    let change = spring_change(&modes, [0.0; 3], [0.0, 0.0, -2.0]);
+    let coupled = spring_change(&modes, [0.3, 0.0, 0.0], [0.0, 0.0, -2.05]);
     assert!(matches!(
-        perturb(
-            &change.generalized_stiffness,
-            &change.beta,
-            UpdateRule::default()
-        ),
-        Err(Error::CoalescingModes { .. })
+        recursive_1_converged(&coupled.generalized_stiffness, &coupled.beta, 1e-13, 60),
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 1,
+            ..
+        })
     ));
+    let found = solved(&coupled);
+    assert_eq!(found.blocks, [vec![1, 2]]);
+    assert!(root_error(&found.settled.perturbed.roots, &coupled) < EIGEN_ROUND_OFF);
+    assert!(residual(&found, &coupled) < EIGEN_ROUND_OFF);
+    let change = spring_change(&modes, [0.0; 3], [0.0, 0.0, -2.0]);
     let found = solved(&change);
     assert_eq!(found.blocks, [vec![1, 2]]);
-    for (root, expected) in found.perturbed.roots.iter().zip([1.0, 0.25, 0.25]) {
+    for (root, expected) in found.settled.perturbed.roots.iter().zip([1.0, 0.25, 0.25]) {
         assert!((root - expected).abs() < ROUND_OFF);
     }
     assert!(residual(&found, &change) < MATRIX_ROUND_OFF);
@@ -125,7 +171,7 @@ fn block_whose_solution_meets_a_third_root_takes_it_in() {
     );
     let found = solved(&change);
     assert_eq!(found.blocks, [vec![0, 1, 2]]);
-    assert!(root_error(&found.perturbed.roots, &change) < EIGEN_ROUND_OFF);
+    assert!(root_error(&found.settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
     assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
     // Without their coupling the pair stays where it is, and the third mode stays out.
     let mut apart = change;
@@ -150,10 +196,10 @@ fn blocks_follow_the_changed_roots_and_not_the_order_of_modes() {
     );
     let found = solved(&change);
     assert_eq!(found.blocks, [vec![0, 3], vec![1, 4]]);
-    assert!(root_error(&found.perturbed.roots, &change) < EIGEN_ROUND_OFF);
+    assert!(root_error(&found.settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
     assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
     // The mode outside blocks stays in its place.
-    assert!((1.0 / found.perturbed.roots[2] - 3.0).abs() < 0.01);
+    assert!((1.0 / found.settled.perturbed.roots[2] - 3.0).abs() < 0.01);
 }
 
 /// The separation is a fraction of the larger root: just inside it joins, just outside it does not.
@@ -167,120 +213,7 @@ fn separation_is_a_fraction_of_the_larger_root() {
         );
         let blocks = solved(&change).blocks;
         assert_eq!(blocks == [vec![0, 1]], joined, "{ratio}: {blocks:?}");
-        let held = first_order_held(
-            &ModalChange {
-                beta: DMatrix::repeat(3, 3, 1e-6),
-                ..change
-            },
-            0.1,
-        )
-        .unwrap();
-        assert_eq!(held.shapes[(0, 1)] == 0.0, joined);
-        assert_eq!(held.shapes[(1, 0)] == 0.0, joined);
-        assert!(held.shapes[(0, 2)] != 0.0);
     }
-}
-
-/// A fixed order leaves the roots of a block with an error of order 2(r + 1), Rayleigh's quotient on shapes of order
-/// r + 1; the others with r + 1 as in Recursive 1.
-#[test]
-fn roots_of_a_block_gain_two_orders_each_time() {
-    let beta = dmatrix![
-        0.3, 0.5, -0.4, 0.6;
-        0.5, -0.8, 0.9, 0.7;
-        -0.4, 0.9, 1.1, -1.3;
-        0.6, 0.7, -1.3, 1.7];
-    for orders in 1..=2 {
-        let errors: Vec<(f64, f64, f64)> = [0.2, 0.14, 0.1]
-            .into_iter()
-            .map(|size| {
-                let change = ModalChange::of_vibrations(
-                    &dvector![1.0, 4.0, 4.0, 14.0],
-                    size * &beta,
-                    DMatrix::zeros(4, 4),
-                );
-                let settings = CloseRootsSettings {
-                    orders,
-                    tolerance: -1.0,
-                    ..CloseRootsSettings::default()
-                };
-                let found = close_roots(&change, settings).unwrap();
-                assert_eq!(found.blocks, [vec![1, 2]]);
-                assert_eq!(found.perturbed.order, orders);
-                let exact =
-                    corfem::method::modes::solve(&changed(&change).0, &DMatrix::identity(4, 4), 4)
-                        .unwrap();
-                let error =
-                    |i: usize| (found.perturbed.roots[i] * exact.omega_squared[i] - 1.0).abs();
-                (size, error(1).max(error(2)), error(0).max(error(3)))
-            })
-            .collect();
-        let slope = |points: Vec<(f64, f64)>| log_log_slope(&points);
-        let block = slope(errors.iter().map(|e| (e.0, e.1)).collect());
-        let single = slope(errors.iter().map(|e| (e.0, e.2)).collect());
-        let expected = orders as f64 + 1.0;
-        assert!(
-            block > 2.0 * (expected - ORDER_SLACK),
-            "order {orders}: block {block}"
-        );
-        assert!(
-            block < 2.0 * expected + 1.0,
-            "order {orders}: block {block}"
-        );
-        assert!(
-            (single - expected).abs() < 2.0 * ORDER_SLACK,
-            "order {orders}: single {single}"
-        );
-    }
-}
-
-/// The recursion stops at its tolerance and says how far the last order moved a root, in blocks too.
-#[test]
-fn recursion_with_blocks_stops_at_its_tolerance() {
-    let (_, _, modes) = repeated_chain();
-    let change = spring_change(&modes, [0.3, 0.0, 0.1], [0.2, 0.0, 0.0]);
-    let default = solved(&change).perturbed;
-    assert!(default.last_change < 1e-13 && default.order > 3 && default.order < 60);
-    let loose = close_roots(
-        &change,
-        CloseRootsSettings {
-            tolerance: 1e-4,
-            ..CloseRootsSettings::default()
-        },
-    )
-    .unwrap()
-    .perturbed;
-    assert!(loose.last_change < 1e-4 && loose.order > 3 && loose.order < default.order);
-    // Two quiet orders, and a louder one before them.
-    let fewer = |orders| CloseRootsSettings {
-        orders,
-        tolerance: 1e-4,
-        ..CloseRootsSettings::default()
-    };
-    let last_change = |orders| {
-        close_roots(&change, fewer(orders))
-            .unwrap()
-            .perturbed
-            .last_change
-    };
-    assert!(last_change(loose.order - 1) < 1e-4);
-    assert!(last_change(loose.order - 2) >= 1e-4);
-    let first = CloseRootsSettings {
-        orders: 1,
-        ..CloseRootsSettings::default()
-    };
-    assert_eq!(
-        close_roots(&change, first).unwrap().perturbed.last_change,
-        f64::INFINITY
-    );
-    assert_eq!(
-        CloseRootsSettings::default(),
-        CloseRootsSettings {
-            separation: 0.1,
-            tolerance: 1e-13,
-            orders: 60
-        }
-    );
 }
 
 /// Every shape has its first largest component positive.
@@ -289,6 +222,7 @@ fn shapes_are_signed_by_their_largest_component() {
     let (_, _, modes) = repeated_chain();
     for size in [-0.3, 0.1, 0.4] {
         let shapes = solved(&spring_change(&modes, [size, 0.0, 0.0], [0.0, 0.0, 0.2]))
+            .settled
             .perturbed
             .shapes;
         assert_eq!(shapes.shape(), (3, 3));

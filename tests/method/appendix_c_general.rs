@@ -1,34 +1,21 @@
 //! Appendix C in full on real numbers: equal to the plain path where that applies, and mass changes beside stiffness.
 
-use crate::common::appendix_c::{ascending, errors, four_modes, separate_change, three_mass_chain};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
-use corfem::method::appendix_c::{
-    ModalChange, UpdateRule, eigensolution, eigensolution_with_mass, general, normalize_with_mass,
-    perturb, perturb_with_mass, recursive,
+use crate::common::appendix_c::{
+    ascending, errors, four_modes, rules, separate_change, three_mass_chain,
 };
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
+use corfem::method::appendix_c::general::{self, ModalChange};
+use corfem::method::appendix_c::{eigensolution, normalize_with_mass, recursive};
+use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
-
-const EVERY_RULE: [UpdateRule; 6] = [
-    UpdateRule::Recursive1Converged {
-        tolerance: 1e-13,
-        orders: 60,
-    },
-    UpdateRule::Recursive1 { order: 3 },
-    UpdateRule::Recursive2 { order: 3 },
-    UpdateRule::FirstOrder,
-    UpdateRule::Original,
-    UpdateRule::Eigensolution,
-];
 
 proptest! {
     #![proptest_config(crate::common::config())]
 
     /// The general formulae with α = 0, k = 1/λ are the plain ones, order by order.
     #[test]
-    fn general_path_is_the_plain_path_for_stiffness_alone(mut change in separate_change(), order in 1..6_usize) {
+    fn general_path_is_the_plain_path_for_stiffness_alone(mut change in separate_change(), order in 1..=6_usize) {
         change.alpha.fill(0.0);
         let (k, beta) = (&change.generalized_stiffness, &change.beta);
         for (general, plain) in [
@@ -39,35 +26,27 @@ proptest! {
         ] {
             let (root, shape) = errors(&general, &plain);
             prop_assert!(root < ROUND_OFF && shape < MATRIX_ROUND_OFF, "{root:e} {shape:e}");
-            prop_assert_eq!(general.order, plain.order);
-            prop_assert!(
-                general.last_change == plain.last_change
-                    || (general.last_change - plain.last_change).abs() < ROUND_OFF
-            );
         }
     }
 
-    /// The same through the dispatcher, so that every rule is the function of its name.
+    /// Carried to convergence they meet too; the general recursion waits for a second quiet order in a row.
     #[test]
-    fn rules_with_mass_are_the_plain_rules_for_stiffness_alone(mut change in separate_change()) {
+    fn both_paths_converge_to_the_same_modes_for_stiffness_alone(mut change in separate_change()) {
         change.alpha.fill(0.0);
-        for rule in EVERY_RULE {
-            let general = perturb_with_mass(&change, rule)?;
-            let plain = perturb(&change.generalized_stiffness, &change.beta, rule)?;
-            let (root, shape) = errors(&general, &plain);
-            prop_assert!(root < EIGEN_ROUND_OFF && shape < EIGEN_ROUND_OFF, "{rule:?} {root:e} {shape:e}");
-            // The general recursion waits for a second quiet order in a row.
-            let converges = matches!(rule, UpdateRule::Recursive1Converged { .. });
-            prop_assert!(general.order == plain.order || (converges && general.order > plain.order));
-        }
+        let (k, beta) = (&change.generalized_stiffness, &change.beta);
+        let general = general::recursive_1_converged(&change, 1e-13, 60)?;
+        let plain = recursive::recursive_1_converged(k, beta, 1e-13, 60)?;
+        let (root, shape) = errors(&general.perturbed, &plain.perturbed);
+        prop_assert!(root < EIGEN_ROUND_OFF && shape < EIGEN_ROUND_OFF, "{root:e} {shape:e}");
+        prop_assert!(general.order >= plain.order);
     }
 
     /// Mass enters through α: carried to convergence, the recursion solves (k + β)p = ω²(I + α)p.
     #[test]
     fn converged_recursion_is_the_exact_eigensolution_with_mass(change in separate_change()) {
-        let converged = perturb_with_mass(&change, UpdateRule::default())?;
-        let exact = eigensolution_with_mass(&change)?;
-        let (root, shape) = errors(&converged, &exact);
+        let converged = general::recursive_1_converged(&change, 1e-13, 60)?;
+        let exact = eigensolution(&change)?;
+        let (root, shape) = errors(&converged.perturbed, &exact);
         prop_assert!(root < EIGEN_ROUND_OFF && shape < EIGEN_ROUND_OFF, "{root:e} {shape:e}");
         prop_assert!(converged.last_change < 1e-13);
     }
@@ -82,10 +61,10 @@ proptest! {
             scale * DMatrix::from_diagonal(&k),
             scale * DMatrix::identity(size, size),
         );
-        for rule in EVERY_RULE {
-            let same = perturb_with_mass(&alike, rule)?;
+        for rule in rules() {
+            let same = (rule.general)(&alike)?;
             let root = same.roots.component_mul(&k).add_scalar(-1.0).amax();
-            prop_assert!(root < MATRIX_ROUND_OFF, "{rule:?} {root:e}");
+            prop_assert!(root < MATRIX_ROUND_OFF, "{} {root:e}", rule.name);
             prop_assert!((same.shapes - DMatrix::identity(size, size)).amax() < MATRIX_ROUND_OFF);
         }
     }
@@ -93,7 +72,7 @@ proptest! {
     /// After normalization the shapes are orthonormal in the changed mass.
     #[test]
     fn normalized_shapes_are_orthonormal_in_the_changed_mass(change in separate_change()) {
-        let mut shapes = perturb_with_mass(&change, UpdateRule::default())?.shapes;
+        let mut shapes = general::recursive_1_converged(&change, 1e-13, 60)?.perturbed.shapes;
         normalize_with_mass(&mut shapes, &change.alpha)?;
         let size = change.len();
         let mass = DMatrix::identity(size, size) + &change.alpha;
@@ -116,7 +95,9 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let mass_change = DMatrix::from_diagonal(&dvector![0.0, 0.15, -0.03]);
     let change = ModalChange::new(&stiffness, &base, &share_change, &mass_change).unwrap();
     assert!((&change.generalized_stiffness - &modes.omega_squared).amax() < MATRIX_ROUND_OFF);
-    let converged = perturb_with_mass(&change, UpdateRule::default()).unwrap();
+    let converged = general::recursive_1_converged(&change, 1e-13, 60)
+        .unwrap()
+        .perturbed;
     let exact =
         corfem::method::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3)
             .unwrap();
@@ -131,7 +112,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     normalize_with_mass(&mut shapes, &change.alpha).unwrap();
     let mut structural = &modes.shapes * shapes;
     corfem::method::modes::apply_sign_rule(&mut structural);
-    assert!((structural - exact.shapes).amax() < EIGEN_ROUND_OFF);
+    assert!((structural - &exact.shapes).amax() < EIGEN_ROUND_OFF);
 }
 
 /// A mass added alone: first order is Rayleigh's quotient on the old shapes, (1 + α_ii)/ω_i².
@@ -181,40 +162,29 @@ fn scale_of_the_left_shapes_does_not_matter() {
 #[test]
 fn eigensolution_with_mass_continues_every_mode() {
     let change = four_modes(0.1);
-    let exact = eigensolution_with_mass(&change).unwrap();
+    let exact = eigensolution(&change).unwrap();
     assert_eq!(exact.shapes.shape(), (4, 4));
     assert!((0..4).all(|j| exact.shapes[(j, j)] == 1.0));
-    assert_eq!((exact.order, exact.last_change), (0, 0.0));
     let stiffness = DMatrix::from_diagonal(&change.generalized_stiffness) + &change.beta;
     let mass = DMatrix::identity(4, 4) + &change.alpha;
     let residual =
         stiffness * &exact.shapes * DMatrix::from_diagonal(&exact.roots) - mass * &exact.shapes;
     assert!(residual.amax() < EIGEN_ROUND_OFF);
-    let plain = eigensolution(&change.generalized_stiffness, &change.beta).unwrap();
-    assert!((plain.roots - exact.roots).amax() > 1e-3);
+    let without_mass = ModalChange {
+        alpha: DMatrix::zeros(4, 4),
+        ..change
+    };
+    let without_mass = eigensolution(&without_mass).unwrap();
+    assert!((without_mass.roots - exact.roots).amax() > 1e-3);
 }
 
-/// Pairing takes the largest parts first; a mode left over may have no part in the place left over, and cannot be
-/// scaled to unit own component.
+/// One mode has no others: every rule gives Rayleigh's quotient, (1 + 0.2)/(2 + 0.5), and the shape itself.
 #[test]
-fn mode_without_part_in_the_mode_it_would_continue_is_refused() {
-    // Three shapes take places 0, 1, 2 by clear margins; the last has no component left in place 3.
-    let columns: DMatrix<f64> = dmatrix![
-        0.523, 0.659, 0.310, 0.443;
-        -0.594, 0.324, 0.688, -0.262;
-        0.611, -0.249, 0.404, -0.634;
-        0.0, 0.632, -0.517, -0.577];
-    let shapes = columns.qr().q().select_columns(&[1, 2, 3, 0]);
-    let stiffness =
-        &shapes * DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0, 4.0]) * shapes.transpose();
-    let stiffness = 0.5 * (&stiffness + stiffness.transpose());
-    let beta = &stiffness - DMatrix::identity(4, 4);
-    let k = DVector::repeat(4, 1.0);
-    let change = ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(4, 4));
-    for result in [eigensolution(&k, &beta), eigensolution_with_mass(&change)] {
-        assert!(matches!(
-            result,
-            Err(Error::CoalescingModes { first: 3, second: 3, separation }) if separation < 1e-9
-        ));
+fn one_mode_alone_is_exact_with_mass_too() {
+    let change = ModalChange::of_vibrations(&dvector![2.0], dmatrix![0.5], dmatrix![0.2]);
+    for rule in rules() {
+        let found = (rule.general)(&change).unwrap();
+        assert!((found.roots[0] - 0.48).abs() < ROUND_OFF, "{}", rule.name);
+        assert_eq!(found.shapes, dmatrix![1.0], "{}", rule.name);
     }
 }

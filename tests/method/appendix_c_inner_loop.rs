@@ -1,14 +1,16 @@
-//! Close roots as the inner loop meets them: the state of a chain whose changed springs bring two roots together.
+//! Appendix C as the inner loop meets it: the state of a chain by either update rule, near a meeting of two roots and at it,
+//! and changes of mass that take too much.
 
 use crate::common::appendix_c::three_mass_chain;
 use crate::common::tolerances::EIGEN_ROUND_OFF;
-use corfem::method::appendix_c::{CloseRootsSettings, UpdateRule};
 use corfem::method::error::Error;
-use corfem::method::modal::{DynamicModel, ModalProblem};
-use nalgebra::DMatrix;
+use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::modes::ModeSet;
+use corfem::method::state::{ModalState, UpdateRule};
+use nalgebra::{DMatrix, dmatrix};
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
-fn chain() -> ModalProblem {
+fn chain() -> ModalModel {
     let springs = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let grounds = springs.map(|ground| three_mass_chain(ground, [0.0; 3]));
     let couplings = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 3.0]];
@@ -22,41 +24,88 @@ fn chain() -> ModalProblem {
         shares: grounds
             .into_iter()
             .chain(betweens)
-            .map(corfem::method::modal::Share::Stiffness)
+            .map(Share::Stiffness)
             .collect(),
     };
-    ModalProblem::new(&model, &test, 3).expect("a held chain")
+    model.analyze(&test, Some(3)).expect("a held chain")
 }
 
-/// A third of spring 1-3 turns λ = 1, 4, 8 into 1, 4, 4. With springs near that the errors of the state are those of the
-/// eigensolution, at it they are finite, and the default rule refuses it.
+/// Where Recursive 1 settles, its state is the eigensolution's.
 #[test]
-fn state_where_two_roots_meet_is_that_of_the_eigensolution() {
-    let problem = chain();
-    let close = UpdateRule::CloseRoots(CloseRootsSettings::default());
-    for distance in [0.1, 1e-2, -1e-3, 1e-4] {
-        let factors = vec![1.0, 1.0, 1.0 - distance, 1.0, 1.0, 1.0 / 3.0 + distance];
-        let found = problem.state_at(factors.clone(), close).unwrap();
-        let exact = problem
-            .state_at(factors, UpdateRule::Eigensolution)
-            .unwrap();
-        // Shapes turn by round-off over the distance of the roots.
-        let tolerance = EIGEN_ROUND_OFF / distance.abs();
+fn both_update_rules_reach_the_same_state() {
+    let model = chain();
+    for factors in [
+        [1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
+        [1.2, 1.0, 0.9, 1.1, 1.0, 0.9],
+        [0.8, 1.1, 1.0, 1.0, 0.9, 1.3],
+    ] {
+        let by = |rule| ModalState::at(&model, factors.to_vec(), rule).expect("separate roots");
+        let (found, exact) = (by(UpdateRule::Recursive1), by(UpdateRule::Eigensolution));
+        let (modes, exact_modes) = (&found.modes, &exact.modes);
+        for (found, exact) in modes
+            .omega_squared
+            .iter()
+            .zip(exact_modes.omega_squared.iter())
+        {
+            assert!(
+                (found / exact - 1.0).abs() < EIGEN_ROUND_OFF,
+                "{found} {exact}"
+            );
+        }
+        assert!((&modes.shapes - &exact_modes.shapes).amax() < EIGEN_ROUND_OFF);
+        assert!((found.generalized_shapes - exact.generalized_shapes).amax() < EIGEN_ROUND_OFF);
+        assert_eq!(found.pairing, exact.pairing);
         assert!((found.errors.frequency - exact.errors.frequency).abs() < EIGEN_ROUND_OFF);
-        assert!(
-            (found.errors.shape - exact.errors.shape).abs() < tolerance,
-            "{distance}"
-        );
-        let product = found.generalized_shapes.tr_mul(&found.generalized_shapes);
-        assert!((product - DMatrix::identity(3, 3)).amax() < EIGEN_ROUND_OFF);
+        assert!((found.errors.shape - exact.errors.shape).abs() < EIGEN_ROUND_OFF);
     }
-    let meeting = vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0 / 3.0];
-    let found = problem.state_at(meeting.clone(), close).unwrap();
-    assert!((found.modes.omega_squared[1] / 4.0 - 1.0).abs() < EIGEN_ROUND_OFF);
-    assert!((found.modes.omega_squared[2] / 4.0 - 1.0).abs() < EIGEN_ROUND_OFF);
-    assert!(found.errors.sum().is_finite());
+}
+
+/// Ground spring 1 of 1.3 and spring 1-3 of 0.95 bring the first-order roots of modes 1 and 2 to 4.05, coupled: Recursive 1
+/// refuses the state and names them, the eigensolution has it, and shapes of unit generalized mass.
+#[test]
+fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
+    let model = chain();
+    let meeting = vec![1.3, 1.0, 1.0, 1.0, 1.0, 0.95 / 3.0];
     assert!(matches!(
-        problem.state_at(meeting, UpdateRule::default()),
-        Err(Error::CoalescingModes { .. })
+        ModalState::at(&model, meeting.clone(), UpdateRule::Recursive1),
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 1,
+            ..
+        })
     ));
+    let found = ModalState::at(&model, meeting, UpdateRule::Eigensolution).unwrap();
+    // Both are turned by 45 degrees, 0.3/√12 to either side of 4.05 but for what mode 0 adds.
+    for (mode, side) in [(1, -1.0), (2, 1.0)] {
+        let expected = 4.05 + side * 0.3 / 12_f64.sqrt();
+        let found = found.modes.omega_squared[mode];
+        assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    }
+    let product = found.generalized_shapes.tr_mul(&found.generalized_shapes);
+    assert!((product - DMatrix::identity(3, 3)).amax() < EIGEN_ROUND_OFF);
+    assert!(found.errors.sum().is_finite());
+}
+
+/// Two oscillators side by side whose second mass is a parameter: without it the root is zero, with less than nothing it is
+/// negative, and neither is a vibration.
+#[test]
+fn mass_that_is_taken_whole_loses_the_root() {
+    let model = DynamicModel {
+        stiffness: dmatrix![1.0, 0.0; 0.0, 4.0],
+        mass: DMatrix::identity(2, 2),
+        shares: vec![Share::Mass(dmatrix![0.0, 0.0; 0.0, 1.0])],
+    };
+    let test = ModeSet::from_measured(&[0.1, 0.4], &DMatrix::identity(2, 2)).unwrap();
+    let model = model.analyze(&test, None).unwrap();
+    for (factor, root) in [(0.0, 0.0), (-0.5, -0.125)] {
+        match ModalState::at(&model, vec![factor], UpdateRule::Recursive1) {
+            Err(Error::LostRoot { mode, value }) => assert_eq!((mode, value), (1, root)),
+            other => panic!("{other:?}"),
+        }
+        assert!(matches!(
+            ModalState::at(&model, vec![factor], UpdateRule::Eigensolution),
+            Err(Error::NotPositiveDefinite { dof: 1, .. })
+        ));
+    }
+    assert!(ModalState::at(&model, vec![0.5], UpdateRule::Recursive1).is_ok());
 }

@@ -1,22 +1,22 @@
 //! Orders of approximation of Appendix C with mass changes: by log-log slope, and when the recursion stops.
 
-use crate::common::appendix_c::{errors, four_modes};
+use crate::common::appendix_c::{errors, four_modes, largest_change};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::{
-    CloseRootsSettings, ModalChange, UpdateRule, eigensolution_with_mass, general,
-    perturb_with_mass,
-};
+use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
+use corfem::method::appendix_c::general::{self, ModalChange};
+use corfem::method::appendix_c::{LARGEST_UNSETTLED_CHANGE, Perturbed, eigensolution};
+use corfem::method::error::Error;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
 /// Slopes of both errors over change sizes for which every order is above round-off.
-fn slopes(rule: UpdateRule) -> (f64, f64) {
+fn slopes(rule: impl Fn(&ModalChange<f64>) -> Result<Perturbed, Error>) -> (f64, f64) {
     let points: Vec<(f64, f64, f64)> = [0.04, 0.02, 0.01]
         .into_iter()
         .map(|size| {
             let change = four_modes(size);
-            let exact = eigensolution_with_mass(&change).expect("separate modes");
-            let perturbed = perturb_with_mass(&change, rule).expect("separate modes");
+            let exact = eigensolution(&change).expect("separate modes");
+            let perturbed = rule(&change).expect("separate modes");
             let (root, shape) = errors(&perturbed, &exact);
             (size, root, shape)
         })
@@ -31,7 +31,7 @@ fn slopes(rule: UpdateRule) -> (f64, f64) {
 #[test]
 fn recursive_1_gains_an_order_each_time() {
     for order in 1..=4 {
-        let (root, shape) = slopes(UpdateRule::Recursive1 { order });
+        let (root, shape) = slopes(|change| general::recursive_1(change, order));
         let expected = order as f64 + 1.0;
         assert!(root > expected - ORDER_SLACK, "order {order}: roots {root}");
         assert!(
@@ -45,7 +45,7 @@ fn recursive_1_gains_an_order_each_time() {
 /// The original formulae: second-order roots (error of order three) with first-order shapes (error of order two).
 #[test]
 fn original_roots_are_an_order_better_than_their_shapes() {
-    let (root, shape) = slopes(UpdateRule::Original);
+    let (root, shape) = slopes(general::original);
     assert!((root - 3.0).abs() < 2.0 * ORDER_SLACK, "{root}");
     assert!((shape - 2.0).abs() < ORDER_SLACK, "{shape}");
     let change = four_modes(0.05);
@@ -58,58 +58,59 @@ fn original_roots_are_an_order_better_than_their_shapes() {
         original.shapes,
         general::first_order(&change).unwrap().shapes
     );
-    assert_eq!(original.order, 2);
 }
 
 /// Recursive 2 solves the rows of the shapes exactly, so its errors fall two orders at a time after the first.
 #[test]
 fn recursive_2_gains_two_orders_each_time() {
-    let (root, shape) = slopes(UpdateRule::Recursive2 { order: 2 });
+    let (root, shape) = slopes(|change| general::recursive_2(change, 2));
     assert!((root - 3.0).abs() < 2.0 * ORDER_SLACK, "{root}");
     assert!(shape > 4.0 - ORDER_SLACK, "{shape}");
-    let (root, _) = slopes(UpdateRule::Recursive2 { order: 3 });
+    let (root, _) = slopes(|change| general::recursive_2(change, 3));
     assert!(root > 5.0 - ORDER_SLACK, "{root}");
 }
 
-/// The recursion stops at its tolerance or at its last order, whichever comes first, and says which.
+/// The recursion stops after two quiet orders in a row and is the recursion of the order it names.
 #[test]
-fn recursion_stops_at_its_tolerance_or_its_last_order() {
+fn recursion_stops_at_the_second_quiet_order() {
     let change = four_modes(0.1);
-    let loose = general::recursive_1_converged(&change, 1e-3, 60).unwrap();
-    assert!(loose.order > 3 && loose.last_change < 1e-3);
-    let before = general::recursive_1(&change, loose.order - 1).unwrap();
-    assert_eq!(before.order, loose.order - 1);
-    assert!(before.last_change < 1e-3, "the first quiet order");
-    assert!(
-        general::recursive_1(&change, loose.order - 2)
-            .unwrap()
-            .last_change
-            >= 1e-3
-    );
-    let change_of_roots = loose
-        .roots
-        .component_div(&before.roots)
-        .add_scalar(-1.0)
-        .amax();
-    assert!((loose.last_change - change_of_roots).abs() < ROUND_OFF);
-    let short = general::recursive_1_converged(&change, 1e-13, 3).unwrap();
-    assert_eq!(short.order, 3);
-    assert!(short.last_change > 1e-13);
-    assert_eq!(general::first_order(&change).unwrap().order, 1);
-    assert_eq!(
-        general::first_order(&change).unwrap().last_change,
-        f64::INFINITY
-    );
-    assert_eq!(general::recursive_1(&change, 1).unwrap().order, 1);
-    let second = general::recursive_2(&change, 2).unwrap();
-    assert_eq!(second.order, 2);
-    let first = general::recursive_2(&change, 1).unwrap();
-    let change_of_roots = second
-        .roots
-        .component_div(&first.roots)
-        .add_scalar(-1.0)
-        .amax();
-    assert!((second.last_change - change_of_roots).abs() < ROUND_OFF);
+    let of_order = |order| general::recursive_1(&change, order).unwrap();
+    let moved_by = |order| largest_change(&of_order(order).roots, &of_order(order - 1).roots);
+    let settled = general::recursive_1_converged(&change, 1e-7, 60).unwrap();
+    assert!(settled.order > 4 && settled.last_change < 1e-7);
+    assert_eq!(settled.perturbed, of_order(settled.order));
+    assert!((settled.last_change - moved_by(settled.order)).abs() < ROUND_OFF);
+    assert!(moved_by(settled.order - 1) < 1e-7, "the first quiet order");
+    assert!(moved_by(settled.order - 2) >= 1e-7);
+}
+
+/// At its last order it stops too: without an error when the roots hardly moved in it, with one that says how far otherwise.
+#[test]
+fn recursion_stops_at_its_last_order() {
+    let moved_by = |size: f64| {
+        let of_order = |order| {
+            general::recursive_1(&four_modes(size), order)
+                .unwrap()
+                .roots
+        };
+        largest_change(&of_order(3), &of_order(2))
+    };
+    match general::recursive_1_converged(&four_modes(0.1), 1e-13, 3) {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        }) => {
+            assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
+            assert!((last_change - moved_by(0.1)).abs() < ROUND_OFF);
+            assert!(last_change > LARGEST_UNSETTLED_CHANGE);
+        }
+        other => panic!("{other:?}"),
+    }
+    let settled = general::recursive_1_converged(&four_modes(0.002), 1e-13, 3).unwrap();
+    assert_eq!(settled.order, 3);
+    assert!((settled.last_change - moved_by(0.002)).abs() < ROUND_OFF);
+    assert!((1e-13..LARGEST_UNSETTLED_CHANGE).contains(&settled.last_change));
 }
 
 /// Two modes coupled by mass alone move their roots in every second order only, and the recursion waits for it.
@@ -120,15 +121,17 @@ fn quiet_order_between_two_others_does_not_stop_the_recursion() {
         DMatrix::zeros(2, 2),
         dmatrix![0.0, 0.02; 0.02, 0.0],
     );
-    assert_eq!(general::recursive_1(&change, 3).unwrap().last_change, 0.0);
-    assert!(general::recursive_1(&change, 4).unwrap().last_change > 1e-7);
-    let exact = eigensolution_with_mass(&change).unwrap();
-    for rule in [
-        UpdateRule::default(),
-        UpdateRule::CloseRoots(CloseRootsSettings::default()),
+    let of_order = |order| general::recursive_1(&change, order).unwrap().roots;
+    assert_eq!(of_order(3), of_order(2));
+    assert!(largest_change(&of_order(4), &of_order(3)) > 1e-7);
+    let exact = eigensolution(&change).unwrap();
+    for found in [
+        general::recursive_1_converged(&change, 1e-13, 60).unwrap(),
+        close_roots(&change, CloseRootsSettings::default())
+            .unwrap()
+            .settled,
     ] {
-        let found = perturb_with_mass(&change, rule).unwrap();
-        assert!(errors(&found, &exact).0 < EIGEN_ROUND_OFF, "{rule:?}");
+        assert!(errors(&found.perturbed, &exact).0 < EIGEN_ROUND_OFF);
         assert!(found.order > 4);
     }
 }
@@ -148,7 +151,7 @@ fn root_of_a_massless_motion_stays_zero() {
         flexibility[(0, 0)]
     };
     let converged = general::recursive_1_converged(&change, 1e-14, 60).unwrap();
-    assert!((converged.roots[0] / exact - 1.0).abs() < ROUND_OFF);
-    assert_eq!(converged.roots[1], 0.0);
+    assert!((converged.perturbed.roots[0] / exact - 1.0).abs() < ROUND_OFF);
+    assert_eq!(converged.perturbed.roots[1], 0.0);
     assert!(converged.order < 60);
 }

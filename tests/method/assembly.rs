@@ -20,8 +20,8 @@ fn loads(count: usize) -> impl Strategy<Value = DMatrix<f64>> {
         .prop_map(move |entries| DMatrix::from_vec(count, 2, entries))
 }
 
-/// One element of each kind on a unit square, any of the twelve DOF held.
-fn square(held: &[bool]) -> Structure {
+/// One element of each kind on a unit square, any of the twelve DOF constrained.
+fn square(constrained: &[bool]) -> Structure {
     let positions = [
         [0.0, 0.0, 0.0],
         [1.0, 0.0, 0.2],
@@ -33,7 +33,11 @@ fn square(held: &[bool]) -> Structure {
             grid(
                 k + 1,
                 positions[k],
-                [held[3 * k], held[3 * k + 1], held[3 * k + 2]],
+                [
+                    constrained[3 * k],
+                    constrained[3 * k + 1],
+                    constrained[3 * k + 2],
+                ],
             )
         })
         .collect();
@@ -55,12 +59,12 @@ fn square(held: &[bool]) -> Structure {
 proptest! {
     #![proptest_config(crate::common::config())]
 
-    /// All twelve DOF at once, the held ones struck out afterwards: the slow obvious way.
+    /// All twelve DOF at once, the constrained ones struck out afterwards: the slow obvious way.
     #[test]
     fn assembly_scatters_elements_and_strikes_out_the_held_dof(
-        held in prop::collection::vec(prop::bool::ANY, 12).prop_filter("all held", |held| held.contains(&false)),
+        constrained in prop::collection::vec(prop::bool::ANY, 12).prop_filter("all constrained", |constrained| constrained.contains(&false)),
     ) {
-        let structure = square(&held);
+        let structure = square(&constrained);
         let mut whole = DMatrix::zeros(12, 12);
         for element in structure.elements() {
             let unit = unit_stiffness(element.kind, &structure.corners(element), &element.material).unwrap();
@@ -71,7 +75,7 @@ proptest! {
                 }
             }
         }
-        let free: Vec<usize> = (0..12).filter(|&k| !held[k]).collect();
+        let free: Vec<usize> = (0..12).filter(|&k| !constrained[k]).collect();
         let expected = whole.select_rows(&free).select_columns(&free);
         let found = dense(&structure);
         prop_assert_eq!(found.shape(), expected.shape());

@@ -1,24 +1,26 @@
-//! Derivatives of the error sum (12) against exact differences, and a loop that allocates nothing.
+//! Derivatives of the error sum (12), by the paper's difference and by the gradient, against exact differences.
 
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::counting_allocator::allocations;
+use crate::common::log_log_slope;
 use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER, ROUND_OFF,
+    CENTRAL_DIFFERENCE, CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, DERIVATIVE_ROUND_OFF,
+    FIRST_ORDER_REMAINDER, ORDER_SLACK,
 };
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::appendix_c::UpdateRule;
+use crate::method::mass_parameters::both;
 use corfem::method::derivatives::{
-    DERIVATIVE_STEP, Workspace, error_changes_into, error_derivatives,
+    DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient,
 };
-use corfem::method::error::Error;
-use corfem::method::modal::{ModalProblem, ModalState};
+use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::modes::solve;
+use corfem::method::state::{ModalState, UpdateRule};
+use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
-fn exact_error_sum(problem: &ModalProblem, factors: Vec<f64>) -> f64 {
-    let state = problem
-        .state_at(factors, UpdateRule::Eigensolution)
-        .unwrap();
+fn exact_error_sum(problem: &ModalModel, factors: Vec<f64>) -> f64 {
+    let state = ModalState::at(problem, factors, UpdateRule::Eigensolution).unwrap();
     state.errors.sum()
 }
 
@@ -31,10 +33,10 @@ fn with_one(factors: &[f64], parameter: usize, by: f64) -> Vec<f64> {
 
 /// What first order leaves out of the change of the error sum by a 0.1 % step of a parameter: second-order terms of the
 /// ratio of coupling to separation of any two modes.
-fn first_order_remainder(problem: &ModalProblem, state: &ModalState, parameter: usize) -> f64 {
+fn first_order_remainder(problem: &ModalModel, state: &ModalState, parameter: usize) -> f64 {
     let g = &state.generalized_shapes;
     let size = DERIVATIVE_STEP * state.factors[parameter];
-    let beta = size * g.tr_mul(&(problem.generalized_shares[parameter].matrix() * g));
+    let beta = size * g.tr_mul(&(problem.shares[parameter].matrix() * g));
     let k = &state.modes.omega_squared;
     let mut ratio = size;
     for i in 0..k.len() {
@@ -68,13 +70,13 @@ proptest! {
     ) {
         let count = truth.len();
         let problem =
-            ModalProblem::new(&chain.model(&vec![1.0; count]), &chain.modes(&truth), count).unwrap();
-        let state = problem.state_at(factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
-        let found = error_derivatives(&problem, &state).unwrap();
-        prop_assert_eq!(found.error_change.len(), count);
-        for (e, change) in found.error_change.iter().enumerate() {
+            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
+        let state = ModalState::at(&problem, factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
+        let found = by_definition(&problem, &state).unwrap();
+        prop_assert_eq!(found.len(), count);
+        for (e, change) in found.iter().enumerate() {
             let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
-            let ahead = problem.state_at(factors, UpdateRule::Eigensolution).unwrap();
+            let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();
@@ -89,15 +91,16 @@ proptest! {
     ) {
         let count = truth.len();
         let start = vec![1.0; count];
-        let problem = ModalProblem::new(&chain.model(&start), &chain.modes(&truth), count).unwrap();
-        let state = problem.start_state().unwrap();
+        let test = chain.modes(&truth);
+        let problem = chain.model(&start).analyze(&test, None).unwrap();
+        let state = ModalState::start(&problem);
         let error_sum = |factors: &[f64]| {
             let model = chain.model(factors);
-            error_sum_by_definition(&model.stiffness, &model.mass, &problem.test)
+            error_sum_by_definition(&model.stiffness, &model.mass, &test)
         };
         let (h, here) = (DERIVATIVE_STEP, error_sum(&start));
-        let found = error_derivatives(&problem, &state).unwrap();
-        for (e, change) in found.error_change.iter().enumerate() {
+        let found = by_definition(&problem, &state).unwrap();
+        for (e, change) in found.iter().enumerate() {
             let ahead = error_sum(&with_one(&start, e, 1.0 + h));
             let behind = error_sum(&with_one(&start, e, 1.0 - h));
             // A forward difference is off by half the second one, which is large where the error sum has a kink:
@@ -109,35 +112,14 @@ proptest! {
     }
 
     #[test]
-    fn share_changes_are_a_thousandth_of_the_present_shares_on_the_test_modes(
-        (chain, truth) in chain_and_truth(),
-        factors in prop::collection::vec(0.9..1.1_f64, 5),
-    ) {
-        let (count, test) = (truth.len(), chain.modes(&truth));
-        let problem = ModalProblem::new(&chain.model(&vec![1.0; count]), &test, count).unwrap();
-        let state = problem.state_at(factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
-        let found = error_derivatives(&problem, &state).unwrap().share_change;
-        prop_assert_eq!(found.shape(), (count, count));
-        let present = chain.model(&factors[..count]);
-        for e in 0..count {
-            for i in 0..count {
-                let shape = test.shapes.column(i);
-                let energy = (shape.transpose() * present.shares[e].matrix() * shape)[0];
-                let expected = 0.001 * energy / test.omega_squared[i];
-                prop_assert!((found[(i, e)] - expected).abs() <= ROUND_OFF);
-            }
-        }
-    }
-
-    #[test]
     fn the_sum_of_all_derivatives_is_that_of_a_common_factor((chain, truth) in chain_and_truth()) {
         // A factor on everything leaves shapes alone and multiplies frequencies by its root.
         let count = truth.len();
         let problem =
-            ModalProblem::new(&chain.model(&vec![1.0; count]), &chain.modes(&truth), count).unwrap();
-        let state = problem.start_state().unwrap();
-        let found = error_derivatives(&problem, &state).unwrap();
-        let sum: f64 = found.error_change.iter().sum();
+            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
+        let state = ModalState::start(&problem);
+        let found = by_definition(&problem, &state).unwrap();
+        let sum: f64 = found.iter().sum();
         let ratios: Vec<f64> = (0..count)
             .map(|j| {
                 let i = state.pairing.analysis_mode[j];
@@ -164,12 +146,12 @@ proptest! {
     #[test]
     fn derivatives_of_boxes_are_exact_to_second_order_of_the_step(case in uneven_box()) {
         let problem = problem_of(&case);
-        let state = problem.start_state().unwrap();
-        let found = error_derivatives(&problem, &state).unwrap();
-        prop_assert_eq!(found.error_change.len(), 15);
-        for (e, change) in found.error_change.iter().enumerate() {
+        let state = ModalState::start(&problem);
+        let found = by_definition(&problem, &state).unwrap();
+        prop_assert_eq!(found.len(), 15);
+        for (e, change) in found.iter().enumerate() {
             let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
-            let ahead = problem.state_at(factors, UpdateRule::Eigensolution).unwrap();
+            let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();
@@ -183,8 +165,8 @@ proptest! {
 fn derivatives_of_the_box_are_central_differences() {
     for case in 1..=4 {
         let problem = first_problem(case);
-        let state = problem.start_state().unwrap();
-        let found = error_derivatives(&problem, &state).unwrap();
+        let state = ModalState::start(&problem);
+        let found = by_definition(&problem, &state).unwrap();
         let h = DERIVATIVE_STEP / 10.0;
         let central: Vec<f64> = (0..15)
             .map(|e| {
@@ -194,7 +176,6 @@ fn derivatives_of_the_box_are_central_differences() {
             })
             .collect();
         let slopes: Vec<f64> = found
-            .error_change
             .iter()
             .map(|change| change / DERIVATIVE_STEP)
             .collect();
@@ -207,37 +188,171 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     // The state at some factors, and the exact solution there as a problem of its own, see the same structure.
     let chain = Chain::uniform(4);
     let (test, factors) = (chain.modes(&[1.2, 0.8, 1.3, 0.9]), [1.05, 0.97, 1.1, 0.94]);
-    let problem = ModalProblem::new(&chain.model(&[1.0; 4]), &test, 4).unwrap();
-    let state = problem
-        .state_at(factors.to_vec(), UpdateRule::default())
-        .unwrap();
-    let moved = ModalProblem::new(&chain.model(&factors), &test, 4).unwrap();
-    let found = error_derivatives(&problem, &state).unwrap();
-    let expected = error_derivatives(&moved, &moved.start_state().unwrap()).unwrap();
-    for (a, b) in found.error_change.iter().zip(&expected.error_change) {
+    let problem = chain.model(&[1.0; 4]).analyze(&test, Some(4)).unwrap();
+    let state = ModalState::at(&problem, factors.to_vec(), UpdateRule::default()).unwrap();
+    let moved = chain.model(&factors).analyze(&test, Some(4)).unwrap();
+    let found = by_definition(&problem, &state).unwrap();
+    let expected = by_definition(&moved, &ModalState::start(&moved)).unwrap();
+    for (a, b) in found.iter().zip(&expected) {
         assert!((a - b).abs() <= CONVERGED_STATE, "{a:e} {b:e}");
     }
-    let difference = (found.share_change - expected.share_change).amax();
-    assert!(difference <= ROUND_OFF);
+    for (a, b) in gradient(&problem, &state)
+        .iter()
+        .zip(gradient(&moved, &ModalState::start(&moved)))
+    {
+        assert!(
+            (a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP,
+            "{a:e} {b:e}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn the_gradient_is_a_central_difference_of_exact_solutions(
+        (chain, truth) in chain_and_truth(),
+        factors in prop::collection::vec(0.95..1.05_f64, 5),
+    ) {
+        let count = truth.len();
+        let problem = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
+        let state = ModalState::at(&problem, factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
+        let h = 1e-6;
+        for (e, slope) in gradient(&problem, &state).iter().enumerate() {
+            let at = |by: f64| {
+                ModalState::at(&problem, with_one(&state.factors, e, by), UpdateRule::Eigensolution).unwrap()
+            };
+            let (ahead, behind) = (at(1.0 + h), at(1.0 - h));
+            prop_assume!(ahead.pairing == state.pairing && behind.pairing == state.pairing);
+            let (ahead, behind) = (ahead.errors.sum(), behind.errors.sum());
+            // A second difference this large is a kink of the error sum within the step.
+            let kink = (ahead - 2.0 * state.errors.sum() + behind).abs();
+            let difference = (slope * h - (ahead - behind) / 2.0).abs();
+            prop_assert!(difference <= kink + DERIVATIVE_ROUND_OFF, "{e}: {difference:e} {kink:e}");
+        }
+    }
+}
+
+/// The same model with every share a part of what it was: a tenth of a share changed by 0.1 % is the share changed by 0.01 %.
+fn with_smaller_shares(problem: &ModalModel, part: f64) -> ModalModel {
+    let smaller = |share: &Share| match share {
+        Share::Stiffness(matrix) => Share::Stiffness(part * matrix),
+        Share::Mass(matrix) => Share::Mass(part * matrix),
+    };
+    ModalModel {
+        shares: problem.shares.iter().map(smaller).collect(),
+        ..problem.clone()
+    }
 }
 
 #[test]
-fn the_loop_over_parameters_allocates_nothing() {
-    let chain = Chain::uniform(40);
-    let large = ModalProblem::new(&chain.model(&[1.0; 40]), &chain.modes(&[1.2; 40]), 40).unwrap();
-    for problem in [first_problem(3), large] {
-        let state = problem.start_state().unwrap();
-        let mut workspace = Workspace::new(&problem);
-        let mut change = vec![0.0; problem.parameter_count()];
-        let count = allocations(|| {
-            error_changes_into(&problem, &state, &mut workspace, &mut change).unwrap();
-        });
-        assert_eq!(count, 0);
-        assert_eq!(
-            change,
-            error_derivatives(&problem, &state).unwrap().error_change
+fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
+    for problem in [
+        first_problem(1),
+        first_problem(2),
+        first_problem(3),
+        mass_problem(),
+    ] {
+        let state = ModalState::start(&problem);
+        let exact = gradient(&problem, &state);
+        let points: Vec<(f64, f64)> = [1.0, 0.3, 0.1, 0.03]
+            .into_iter()
+            .map(|part| {
+                let found = by_definition(&with_smaller_shares(&problem, part), &state).unwrap();
+                let off = found
+                    .iter()
+                    .zip(&exact)
+                    .map(|(change, slope)| change / (part * DERIVATIVE_STEP) - slope);
+                (part, off.map(|off| off * off).sum::<f64>().sqrt())
+            })
+            .collect();
+        let slope = log_log_slope(&points);
+        assert!((slope - 1.0).abs() <= ORDER_SLACK, "{slope}: {points:?}");
+    }
+}
+
+/// The box with stiffnesses and point masses as parameters.
+fn mass_problem() -> ModalModel {
+    let (model, test) = both();
+    model.analyze(&[1.0; 24], &test, None).unwrap()
+}
+
+#[test]
+fn the_gradient_of_boxes_is_a_central_difference() {
+    for problem in [
+        first_problem(1),
+        first_problem(2),
+        first_problem(3),
+        first_problem(4),
+        mass_problem(),
+    ] {
+        let state = ModalState::start(&problem);
+        let h = 1e-5;
+        let at = |e: usize, by: f64| exact_error_sum(&problem, with_one(&state.factors, e, by));
+        let central: Vec<f64> = (0..problem.shares.len())
+            .map(|e| (at(e, 1.0 + h) - at(e, 1.0 - h)) / (2.0 * h))
+            .collect();
+        assert_near(
+            &gradient(&problem, &state),
+            &central,
+            CENTRAL_DIFFERENCE_GRADIENT,
         );
     }
+}
+
+/// Two like oscillators, one stiffened: at equal roots the shapes have no derivative, but the roots have one.
+#[test]
+fn derivatives_at_repeated_roots_are_those_of_the_roots() {
+    let stiffness = DMatrix::identity(2, 2) * 100.0;
+    let first = dmatrix![100.0, 0.0; 0.0, 0.0];
+    let coupled = dmatrix![50.0, 50.0; 50.0, 50.0];
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(first), Share::Stiffness(coupled)],
+        mass: DMatrix::identity(2, 2),
+        stiffness,
+    };
+    let test = solve(&dmatrix![121.0, 0.0; 0.0, 144.0], &model.mass, 2).unwrap();
+    let problem = model.analyze(&test, None).unwrap();
+    let state = ModalState::start(&problem);
+    // r = 1/1.1 - 1 and 1/1.2 - 1; d(ratio)/dc of a whole share is ratio/2, of half a share in each ratio/4.
+    let (a, b) = (1.0 / 1.1 - 1.0, 1.0 / 1.2 - 1.0);
+    let e_f = f64::hypot(a, b);
+    let expected = [a / 1.1 / 2.0 / e_f, (a / 1.1 + b / 1.2) / 4.0 / e_f];
+    assert_near(&gradient(&problem, &state), &expected, CONVERGED_STATE);
+    let found: Vec<f64> = by_definition(&problem, &state)
+        .unwrap()
+        .iter()
+        .map(|change| change / DERIVATIVE_STEP)
+        .collect();
+    assert_near(&found, &expected, CENTRAL_DIFFERENCE);
+}
+
+#[test]
+fn an_error_of_zero_has_no_slope() {
+    // The frequencies agree and the shapes too: the error sum has a kink here, and no direction to go.
+    let chain = Chain::uniform(3);
+    let problem = chain
+        .model(&[1.0; 3])
+        .analyze(&chain.modes(&[1.0; 3]), None)
+        .unwrap();
+    let mut state = ModalState::start(&problem);
+    (state.errors.frequency, state.errors.shape) = (0.0, 0.0);
+    assert_eq!(gradient(&problem, &state), [0.0; 3]);
+}
+
+#[test]
+fn the_gradient_allocates_nothing_a_parameter() {
+    let problem = first_problem(3);
+    let state = ModalState::start(&problem);
+    let mut twice = problem.clone();
+    twice.shares.extend(problem.shares.clone());
+    let double = ModalState {
+        factors: [state.factors.clone(), state.factors.clone()].concat(),
+        ..state.clone()
+    };
+    let once = allocations(|| drop(gradient(&problem, &state)));
+    assert_eq!(allocations(|| drop(gradient(&twice, &double))), once);
     // The counter counts.
     let mut kept = Vec::new();
     assert_eq!(allocations(|| kept.push(1_u8)), 1);
@@ -245,19 +360,16 @@ fn the_loop_over_parameters_allocates_nothing() {
 }
 
 #[test]
-fn there_is_one_error_change_a_parameter() {
-    let problem = first_problem(1);
-    let state = problem.start_state().unwrap();
-    let mut workspace = Workspace::new(&problem);
-    for count in [14, 16] {
-        match error_changes_into(&problem, &state, &mut workspace, &mut vec![0.0; count]) {
-            Err(Error::WrongShape {
-                what,
-                expected_rows,
-                rows,
-                ..
-            }) => assert_eq!((what, expected_rows, rows), ("error changes", 15, count)),
-            other => panic!("{other:?}"),
-        }
+fn either_rule_gives_changes_for_a_thousandth() {
+    let problem = first_problem(2);
+    let state = ModalState::start(&problem);
+    let changes = |rule| error_changes(&problem, &state, rule).unwrap();
+    assert_eq!(
+        changes(DerivativeRule::Definition),
+        by_definition(&problem, &state).unwrap()
+    );
+    let slopes = gradient(&problem, &state);
+    for (change, slope) in changes(DerivativeRule::Gradient).iter().zip(slopes) {
+        assert_eq!(*change, DERIVATIVE_STEP * slope);
     }
 }

@@ -5,7 +5,7 @@ use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
 use corfem::cases::published::PublishedTable;
 use corfem::method::error_sum::{Errors, errors};
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use corfem::method::pairing::{Pairing, cross_orthogonality, pair_modes};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -45,7 +45,7 @@ proptest! {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test);
         let (mut scaled, mut scaled_test, mut pairing) =
-            (analysis.clone(), test.clone(), in_order(test.len()));
+            (ModeSet::from(analysis.clone()), ModeSet::from(test.clone()), in_order(test.len()));
         for (mode, (scale, flip, test_scale)) in scales.into_iter().take(test.len()).enumerate() {
             let sign = if flip { -1.0 } else { 1.0 };
             scaled.shapes.column_mut(mode).scale_mut(sign * scale);
@@ -65,7 +65,7 @@ proptest! {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test);
         let order: Vec<usize> = change.order.iter().copied().filter(|&i| i < test.len()).collect();
-        let reordered = Modes {
+        let reordered = ModeSet {
             omega_squared: test.omega_squared.select_rows(&order),
             shapes: test.shapes.select_columns(&order),
         };
@@ -81,7 +81,7 @@ proptest! {
         error in -0.5..1.0_f64,
     ) {
         let test = chain.modes(&truth);
-        let analysis = Modes {
+        let analysis = ModeSet {
             omega_squared: (1.0 + error).powi(2) * &test.omega_squared,
             shapes: test.shapes.clone(),
         };
@@ -109,11 +109,11 @@ proptest! {
 fn errors_by_hand() {
     // Frequencies 1.1 and 1.8 against 1 and 2: (0.1)^2 + (-0.1)^2. Shapes (2, 1) against (1, 0) is (1, 1/2) against
     // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
-    let analysis = Modes {
+    let analysis = ModeSet {
         omega_squared: dvector![3.24, 1.21],
         shapes: dmatrix![1.0, 2.0; -3.0, 1.0],
     };
-    let test = Modes {
+    let test = ModeSet {
         omega_squared: dvector![1.0, 4.0],
         shapes: dmatrix![1.0, -1.0; 0.0, 4.0],
     };
@@ -149,12 +149,7 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
             .collect()
     };
     let modes = |frequencies: &[f64]| {
-        Modes::from_measured(
-            frequencies,
-            &DMatrix::identity(9, 9),
-            &DMatrix::identity(9, 9),
-        )
-        .unwrap()
+        ModeSet::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap()
     };
     let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
     let found = errors(&analysis, &in_order(9), &test);

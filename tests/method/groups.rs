@@ -1,9 +1,10 @@
 //! Groups: the paper's substructures, all elements of one scaled together.
 
+use corfem::cases::error::CaseError;
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::method::error::Error;
-use corfem::method::parameters::Scaled;
+use corfem::method::model::Scaled;
 
 fn grouped(number: usize) -> CaseResult {
     let mut case = Case::new(number).expect("a case");
@@ -124,12 +125,12 @@ fn there_is_a_gage_for_every_panel() {
     let case = Case::new(1).expect("a case");
     for count in [14, 16] {
         match case.model_with(&vec![TEST_GAGE; count]) {
-            Err(Error::WrongShape {
+            Err(CaseError::Method(Error::WrongShape {
                 what,
                 expected_rows,
                 rows,
                 ..
-            }) => assert_eq!((what, expected_rows, rows), ("panel gages", 15, count)),
+            })) => assert_eq!((what, expected_rows, rows), ("panel gages", 15, count)),
             other => panic!("{other:?}"),
         }
     }

@@ -9,12 +9,13 @@ use crate::common::loops::{
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::ModalProblem;
-use corfem::method::step::Range;
+use corfem::method::model::ModalModel;
+use corfem::method::model::Range;
+use corfem::method::state::ModalState;
 use proptest::prelude::*;
 
 /// A run as given; where roots are so close that no first step settles there is nothing to look at.
-fn run_given(given: &Given) -> Result<(ModalProblem, InnerRun), TestCaseError> {
+fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
     let problem = chain_problem(&given.chain, &given.truth);
     match run(&problem, &given.base, &given.total_ranges, &given.settings) {
         Ok(run) => Ok((problem, run)),
@@ -40,7 +41,7 @@ proptest! {
     fn a_small_step_lowers_the_error_sum((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
         let count = truth.len();
-        let start = problem.start_state().unwrap().errors;
+        let start = ModalState::start(&problem).errors;
         // Near zero either error has a kink, and no slope to go down.
         prop_assume!(start.frequency > 0.02 && start.shape > 0.02);
         let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step()).unwrap();

@@ -2,10 +2,9 @@
 
 use crate::common::loops::chain_problem;
 use crate::common::vibrations::Chain;
-use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
@@ -107,23 +106,6 @@ fn lists_must_have_one_entry_a_parameter() {
                 (what, expected_rows, expected_columns, rows, columns),
                 expected
             ),
-            other => panic!("{other:?}"),
-        }
-    }
-}
-
-#[test]
-fn an_update_rule_that_cannot_work_is_no_local_minimum() {
-    for update in [
-        UpdateRule::Recursive1 { order: 0 },
-        UpdateRule::Recursive2 { order: 0 },
-        UpdateRule::Recursive1Converged {
-            tolerance: 1e-13,
-            orders: 0,
-        },
-    ] {
-        match with_settings(|settings| settings.update = update) {
-            Err(Error::Setting { name, found, .. }) => assert_eq!((name, found), ("order", 0.0)),
             other => panic!("{other:?}"),
         }
     }

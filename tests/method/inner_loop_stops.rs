@@ -5,16 +5,18 @@ use crate::common::loops::{assert_error_sum_only_falls, assert_limits_hold, chai
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::cases::Case;
-use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::modal::{DynamicModel, ModalProblem, Share};
+use corfem::method::model::Range;
+use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
-use corfem::method::step::{Limit, Range};
+use corfem::method::state::ModalState;
+use corfem::method::state::UpdateRule;
+use corfem::method::step::Limit;
 use nalgebra::dmatrix;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
-fn one_spring() -> ModalProblem {
+fn one_spring() -> ModalModel {
     chain_problem(&Chain::uniform(1), &[0.81])
 }
 
@@ -48,8 +50,8 @@ fn relaxation_is_another_in_the_first_iteration() {
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     let step = |iteration: usize, error_sum: f64| {
         let record = &run.iterations[iteration];
-        let change = record.derivatives.error_change[0];
-        let stiffness = record.derivatives.share_change[(0, 0)];
+        let change = record.error_changes[0];
+        let stiffness = record.stiffness_changes[0];
         (1.0 - record.unlimited_factors[0]) * stiffness / (change * error_sum)
     };
     assert!((step(0, run.start.sum()) - 0.5).abs() <= 1e3 * ROUND_OFF);
@@ -108,7 +110,7 @@ fn a_step_too_far_for_the_perturbation_is_halved() {
             .iter()
             .map(|c| (1.0 + fraction * (c - 1.0)).clamp(0.05, 20.0))
             .collect();
-        problem.state_at(factors, UpdateRule::default())
+        ModalState::at(&problem, factors, UpdateRule::default())
     };
     assert!(matches!(at(1.0), Err(Error::LostRoot { mode: 2, .. })));
     assert!(at(0.5).unwrap().errors.sum() > run.start.sum());
@@ -127,7 +129,7 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
         ],
     };
     let test = solve(&dmatrix![81.0], &model.mass, 1).unwrap();
-    let problem = ModalProblem::new(&model, &test, 1).unwrap();
+    let problem = model.analyze(&test, Some(1)).unwrap();
     let settings = InnerSettings {
         first_relaxation: 6.0,
         iterations: 1,
@@ -135,7 +137,11 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
         ..InnerSettings::default()
     };
     let run = run(&problem, &[1.0; 2], &[None; 2], &settings).unwrap();
-    let whole = problem.state_at(run.first_unlimited_factors.clone(), settings.update);
+    let whole = ModalState::at(
+        &problem,
+        run.first_unlimited_factors.clone(),
+        settings.update,
+    );
     assert!(matches!(whole, Err(Error::NotAVibration { mode: 0, .. })));
     assert!(run.iterations[0].halvings >= 1);
     assert!(run.last.errors.sum() < run.start.sum());

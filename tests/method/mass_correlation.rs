@@ -2,8 +2,8 @@
 
 use crate::common::tolerances::ROUND_OFF;
 use crate::method::mass_parameters::{DENSITY, both, boxed, modes, point_masses};
+use corfem::method::model::Parameter;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::parameters::Parameter;
 
 #[test]
 fn wrong_point_masses_are_found() {
@@ -17,9 +17,9 @@ fn wrong_point_masses_are_found() {
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
     let ranges = model.factor_ranges().expect("no bounds");
+    let test = modes(&truth);
     let result = correlate(
-        |f| model.analyze(f),
-        &modes(&truth),
+        |f| model.analyze(f, &test, None),
         &ranges,
         &settings,
         |_, _| {},
@@ -43,8 +43,13 @@ fn stiffness_and_mass_change_together() {
     let (model, test) = both();
     let ranges = model.factor_ranges().expect("no bounds");
     let settings = Settings::default();
-    let result =
-        correlate(|f| model.analyze(f), &test, &ranges, &settings, |_, _| {}).expect("it runs");
+    let result = correlate(
+        |f| model.analyze(f, &test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )
+    .expect("it runs");
     assert!(
         result.converged,
         "{:?}",
@@ -59,7 +64,7 @@ fn stiffness_and_mass_change_together() {
 #[test]
 fn mass_limits_hold() {
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let range = corfem::method::step::Range::positive("factor", 0.9, 1.1).expect("a range");
+    let range = corfem::method::model::Range::positive("factor", 0.9, 1.1).expect("a range");
     let parameters = point_masses()
         .into_iter()
         .map(|p| Parameter {
@@ -74,8 +79,13 @@ fn mass_limits_hold() {
         most_passes: 2,
         ..Settings::default()
     };
-    let result =
-        correlate(|f| model.analyze(f), &truth, &ranges, &settings, |_, _| {}).expect("it runs");
+    let result = correlate(
+        |f| model.analyze(f, &truth, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )
+    .expect("it runs");
     for pass in &result.passes {
         assert!(
             pass.factors

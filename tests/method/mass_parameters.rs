@@ -4,18 +4,20 @@ use crate::common::log_log_slope;
 use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::cases::Case;
-use corfem::method::appendix_a::{condense, unit_mass_share};
-use corfem::method::appendix_c::UpdateRule;
+use corfem::method::appendix_a::{condense, generalized_mass};
+use corfem::method::appendix_c::general::{ModalChange, first_order};
 use corfem::method::assembly::{FactorizedStiffness, element_matrices};
-use corfem::method::derivatives::{DERIVATIVE_STEP, error_derivatives};
+use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::elements::mass::corner_volumes;
 use corfem::method::error::Error;
-use corfem::method::modal::{ModalProblem, Share};
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::parameters::{Parameter, Scaled};
+use corfem::method::model::{ModalModel, Share};
+use corfem::method::model::{Parameter, Scaled};
+use corfem::method::modes::ModeSet;
+use corfem::method::state::ModalState;
+use corfem::method::state::UpdateRule;
 use corfem::method::structure::Structure;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Aluminum, lbf·s²/in⁴.
 pub const DENSITY: f64 = 2.5e-4;
@@ -26,8 +28,8 @@ pub fn boxed(
     density: f64,
     point_factors: [f64; 9],
 ) -> Result<FiniteElementModel, Error> {
-    let case = Case::new(2)?;
-    let model = case.model_with(&[0.010; 15])?;
+    let case = Case::new(2).expect("a case");
+    let model = case.model_with(&[0.010; 15]).expect("a model");
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
         element.material = element.material.with_density(density)?;
@@ -57,11 +59,9 @@ fn element_masses() -> Vec<Parameter> {
         .collect()
 }
 
-pub fn modes(model: &FiniteElementModel) -> Modes {
-    let dynamic = model
-        .analyze(&vec![1.0; model.parameters().len()])
-        .expect("held");
-    solve(&dynamic.stiffness, &dynamic.mass, 9).expect("solved")
+pub fn modes(model: &FiniteElementModel) -> ModeSet {
+    let factors = vec![1.0; model.parameters().len()];
+    model.modes(&factors).expect("solved").into()
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
         }
     }
     let expected = b_t.tr_mul(&(structural * &b_t)) + model.mass();
-    let dynamic = model.analyze(&[1.0; 39]).expect("held");
+    let dynamic = model.matrices(&[1.0; 39]).expect("held");
     assert_eq!(dynamic.mass.shape(), (9, 9));
     assert_relative_eq!(
         dynamic.mass,
@@ -114,7 +114,7 @@ fn mass_shares_sum_to_the_mass() {
         vec![1.0; 48],
         (0..48).map(|e| 0.6 + 0.02 * e as f64).collect(),
     ] {
-        let dynamic = model.analyze(&factors).expect("held");
+        let dynamic = model.matrices(&factors).expect("held");
         let mut sum = DMatrix::zeros(9, 9);
         for share in &dynamic.shares {
             assert!(matches!(share, Share::Mass(_)));
@@ -132,8 +132,8 @@ fn mass_shares_sum_to_the_mass() {
 fn mass_factors_leave_sizes_and_stiffness_alone() {
     let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
     let (light, heavy) = (
-        model.analyze(&[1.0; 39]).expect("held"),
-        model.analyze(&[2.0; 39]).expect("held"),
+        model.matrices(&[1.0; 39]).expect("held"),
+        model.matrices(&[2.0; 39]).expect("held"),
     );
     assert_eq!(light.stiffness, heavy.stiffness);
     assert_eq!(
@@ -149,7 +149,7 @@ fn unit_mass_share_is_symmetric_and_semidefinite() {
     let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
     let b_t = DMatrix::from_fn(36, 9, |i, j| ((i * 7 + j * 3) % 11) as f64 - 5.0);
     for element in model.element_matrices() {
-        let share = unit_mass_share(&b_t, element);
+        let share = generalized_mass(&b_t, element);
         assert_eq!(share.shape(), (9, 9));
         assert_eq!(share, share.transpose());
         let smallest = share.clone().symmetric_eigenvalues().min();
@@ -158,7 +158,7 @@ fn unit_mass_share_is_symmetric_and_semidefinite() {
 }
 
 /// The box with point masses off by up to 30 %, stiffness of panels and masses as parameters.
-pub fn both() -> (FiniteElementModel, Modes) {
+pub fn both() -> (FiniteElementModel, ModeSet) {
     let truth = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
     let parameters = (1..=15)
@@ -174,22 +174,25 @@ pub fn both() -> (FiniteElementModel, Modes) {
 #[test]
 fn mass_derivatives_are_central_differences() {
     let (model, test) = both();
-    let problem =
-        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
-    let state = problem.start_state().expect("a state");
-    let derivatives = error_derivatives(&problem, &state).expect("separate modes");
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
+    let state = ModalState::start(&problem);
+    let derivatives = by_definition(&problem, &state).expect("separate modes");
     for e in 0..24 {
         let e_s = |change: f64| {
             let mut factors = vec![1.0; 24];
             factors[e] += change;
-            let state = problem.state_at(factors, UpdateRule::Eigensolution);
+            let state = ModalState::at(&problem, factors, UpdateRule::Eigensolution);
             state.expect("solved").errors.sum()
         };
         let h = DERIVATIVE_STEP;
         let (below, here, above) = (e_s(-h), e_s(0.0), e_s(h));
         let central = (above - below) / (2.0 * h);
         let curvature = (above - 2.0 * here + below) / (h * h);
-        let forward = derivatives.error_change[e] / h;
+        let forward = derivatives[e] / h;
         // What a forward difference of exact error sums differs by; first-order roots and shapes leave the rest,
         // which is of the same order in the step.
         let difference = (forward - central - 0.5 * curvature * h).abs();
@@ -198,32 +201,40 @@ fn mass_derivatives_are_central_differences() {
             "parameter {e}: {forward} for {central}, off by {difference}"
         );
     }
-    // Mass lowers what stiffness raises.
-    assert!(derivatives.share_change.iter().all(|&change| change >= 0.0));
+}
+
+/// Squared circular frequencies at some factors by first order.
+fn first_order_state(problem: &ModalModel, factors: &[f64]) -> DVector<f64> {
+    let count = problem.exact.modes.len();
+    let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
+    for (share, factor) in problem.shares.iter().zip(factors) {
+        match share {
+            Share::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
+            Share::Mass(matrix) => alpha += (factor - 1.0) * matrix,
+        }
+    }
+    let change = ModalChange::of_vibrations(&problem.exact.modes.omega_squared, beta, alpha);
+    first_order(&change).expect("apart").roots.map(f64::recip)
 }
 
 #[test]
 fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
     let (model, test) = both();
-    let problem =
-        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
     let points: Vec<(f64, f64)> = [0.005, 0.01, 0.02, 0.04]
         .into_iter()
         .map(|size| {
             let factors: Vec<f64> = (0..24)
                 .map(|e| 1.0 + if e % 3 == 0 { size } else { -size })
                 .collect();
-            let first = problem
-                .state_at(factors.clone(), UpdateRule::FirstOrder)
-                .expect("solved");
-            let exact = problem
-                .state_at(factors, UpdateRule::Eigensolution)
-                .expect("solved");
-            let pairs = first
-                .modes
-                .omega_squared
-                .iter()
-                .zip(exact.modes.omega_squared.iter());
+            let first = first_order_state(&problem, &factors);
+            let exact =
+                ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
+            let pairs = first.iter().zip(exact.modes.omega_squared.iter());
             (
                 size,
                 pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max),
@@ -237,17 +248,16 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
 #[test]
 fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     let (model, test) = both();
-    let problem =
-        ModalProblem::new(&model.analyze(&[1.0; 24]).expect("held"), &test, 9).expect("reduced");
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
     let factors: Vec<f64> = (0..24)
         .map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0)
         .collect();
-    let ours = problem
-        .state_at(factors.clone(), UpdateRule::default())
-        .expect("solved");
-    let exact = problem
-        .state_at(factors, UpdateRule::Eigensolution)
-        .expect("solved");
+    let ours = ModalState::at(&problem, factors.clone(), UpdateRule::default()).expect("solved");
+    let exact = ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
     for (a, b) in ours
         .modes
         .omega_squared

@@ -5,8 +5,8 @@ use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
 use corfem::cases::Case;
-use corfem::method::parameters::{Parameter, Scaled};
-use corfem::method::step::Range;
+use corfem::method::model::Range;
+use corfem::method::model::{Parameter, Scaled};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
@@ -39,7 +39,7 @@ proptest! {
             }
         }
         prop_assert_eq!(groups.sizes(&factors).unwrap(), single.sizes(&each).unwrap());
-        let (together, apart) = (groups.analyze(&factors).unwrap(), single.analyze(&each).unwrap());
+        let (together, apart) = (groups.matrices(&factors).unwrap(), single.matrices(&each).unwrap());
         prop_assert_eq!(together.shares.len(), 4);
         prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
         for ((_, elements), share) in SUBSTRUCTURES.iter().zip(&together.shares) {
@@ -102,7 +102,7 @@ fn a_model_keeps_what_it_was_made_of() {
     assert_eq!(model.mass(), &DMatrix::identity(3, 3));
     assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
     // T and M the identity: K_D is K_S, and a spring's share its own matrix.
-    let dynamic = model.analyze(&[3.0, 0.5]).unwrap();
+    let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
     let expected =
         DMatrix::from_row_slice(3, 3, &[13.0, -12.0, 0.0, -12.0, 16.0, -4.0, 0.0, -4.0, 4.0]);
     assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);

@@ -2,10 +2,11 @@
 
 use crate::common::structures::{chain_model as chain, group, spring_chain, unit_material};
 use corfem::cases::Case;
+use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::parameters::Parameter;
-use corfem::method::step::Range;
+use corfem::method::model::Parameter;
+use corfem::method::model::Range;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use nalgebra::DMatrix;
 
@@ -98,7 +99,7 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
             ([value, 1.0], "parameter wing"),
             ([1.0, value], "parameter 3"),
         ] {
-            let refused = model.analyze(&factors).unwrap_err();
+            let refused = model.matrices(&factors).unwrap_err();
             assert!(
                 matches!(&refused, Error::NotPositive { what: "factor", owner, .. } if owner == name),
                 "{refused:?}"
@@ -126,12 +127,12 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     assert!(
         matches!(
             refused,
-            Error::NotFinite {
+            CaseError::Method(Error::NotFinite {
                 what: "dynamic mass",
                 row: 4,
                 column: 4,
                 ..
-            }
+            })
         ),
         "{refused:?}"
     );
@@ -200,7 +201,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
     );
     let nothing = with_mass(DMatrix::zeros(3, 0), DMatrix::zeros(0, 0))
         .unwrap()
-        .analyze(&[1.0])
+        .matrices(&[1.0])
         .unwrap_err();
     assert!(
         matches!(
@@ -242,7 +243,7 @@ fn what_is_wrong_with_an_element_or_the_structure_comes_through() {
     let t = DMatrix::identity(2, 1);
     let refused = FiniteElementModel::new(free, t, one, vec![Parameter::element(1, None)])
         .unwrap()
-        .analyze(&[1.0]);
+        .matrices(&[1.0]);
     assert!(
         matches!(
             refused,

@@ -2,7 +2,7 @@
 
 use corfem::closed_forms::spring_chain::uniform_held_modes;
 use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
+use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 fn identity(size: usize) -> DMatrix<f64> {
@@ -167,12 +167,12 @@ fn a_motion_that_is_no_vibration_is_refused() {
 }
 
 #[test]
-fn measured_modes_must_fit_the_mass() {
-    match Modes::from_measured(&[], &DMatrix::zeros(2, 0), &identity(2)) {
+fn measured_modes_must_fit_together() {
+    match ModeSet::from_measured(&[], &DMatrix::zeros(2, 0)) {
         Err(Error::Empty { what }) => assert_eq!(what, "test modes"),
         other => panic!("{other:?}"),
     }
-    match Modes::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1), &identity(2)) {
+    match ModeSet::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1)) {
         Err(Error::WrongShape {
             what,
             expected_rows,
@@ -181,18 +181,16 @@ fn measured_modes_must_fit_the_mass() {
             columns,
         }) => assert_eq!(
             (what, expected_rows, expected_columns, rows, columns),
-            ("test mode shapes", 2, 2, 3, 1)
+            ("test mode shapes", 3, 2, 3, 1)
         ),
         other => panic!("{other:?}"),
     }
-    match Modes::from_measured(&[1.0], &dmatrix![1.0; f64::NAN], &identity(2)) {
+    match ModeSet::from_measured(&[1.0], &dmatrix![1.0; f64::NAN]) {
         Err(Error::NotFinite {
             what, row, column, ..
-        }) => assert_eq!((what, row, column), ("test mode shapes", 1, 0)),
-        other => panic!("{other:?}"),
-    }
-    match Modes::from_measured(&[1.0], &dmatrix![1.0; 1.0], &dmatrix![1.0, 0.5; 0.0, 1.0]) {
-        Err(Error::NotSymmetric { what, .. }) => assert_eq!(what, "dynamic mass"),
+        }) => {
+            assert_eq!((what, row, column), ("test mode shapes", 1, 0));
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -200,7 +198,7 @@ fn measured_modes_must_fit_the_mass() {
 #[test]
 fn measured_frequencies_must_be_positive() {
     for bad in [0.0, -1.0, f64::INFINITY] {
-        match Modes::from_measured(&[1.0, bad], &identity(2), &identity(2)) {
+        match ModeSet::from_measured(&[1.0, bad], &identity(2)) {
             Err(Error::NotPositive { what, owner, value }) => assert_eq!(
                 (what, owner.as_str(), value),
                 ("frequency", "test mode 1 (from zero)", bad)
@@ -209,28 +207,56 @@ fn measured_frequencies_must_be_positive() {
         }
     }
     assert!(matches!(
-        Modes::from_measured(&[f64::NAN], &dmatrix![1.0], &identity(1)),
+        ModeSet::from_measured(&[f64::NAN], &dmatrix![1.0]),
         Err(Error::NotPositive { value, .. }) if value.is_nan()
     ));
 }
 
 #[test]
-fn measured_shapes_must_move_mass() {
-    match Modes::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0], &identity(2)) {
+fn measured_shapes_must_move() {
+    match ModeSet::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0]) {
         Err(Error::NotPositive { what, owner, value }) => assert_eq!(
             (what, owner.as_str(), value),
-            ("generalized mass", "test mode 1 (from zero)", 0.0)
+            ("largest component", "test mode 1 (from zero)", 0.0)
         ),
         other => panic!("{other:?}"),
     }
-    let negative = DMatrix::from_diagonal(&dvector![1.0, -4.0]);
-    match Modes::from_measured(&[1.0, 2.0], &identity(2), &negative) {
+}
+
+#[test]
+fn shapes_are_scaled_with_a_mass_that_fits_and_that_they_move() {
+    let modes = ModeSet::from_measured(&[1.0, 2.0], &identity(2)).unwrap();
+    match modes.scaled_with(&DMatrix::from_diagonal(&dvector![1.0, -4.0])) {
         Err(Error::NotPositive { what, owner, value }) => assert_eq!(
             (what, owner.as_str(), value),
             ("generalized mass", "test mode 1 (from zero)", -4.0)
         ),
         other => panic!("{other:?}"),
     }
+    match modes.scaled_with(&identity(3)) {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => assert_eq!(
+            (what, expected_rows, expected_columns, rows, columns),
+            ("test mode shapes", 3, 2, 2, 2)
+        ),
+        other => panic!("{other:?}"),
+    }
+    let mut broken = modes;
+    broken.shapes[(0, 1)] = f64::INFINITY;
+    assert!(matches!(
+        broken.scaled_with(&identity(2)),
+        Err(Error::NotFinite {
+            what: "test mode shapes",
+            row: 0,
+            column: 1,
+            ..
+        })
+    ));
 }
 
 #[test]

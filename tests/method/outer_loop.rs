@@ -3,12 +3,12 @@
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
-use corfem::method::appendix_c::UpdateRule;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::modal::ModalProblem;
-use corfem::method::outer_loop::{Check, Settings, check, correlate};
-use corfem::method::step::Range;
+use corfem::method::model::Check;
+use corfem::method::model::Range;
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::state::UpdateRule;
 use proptest::prelude::*;
 use std::cell::RefCell;
 
@@ -32,7 +32,6 @@ fn settings() -> impl Strategy<Value = Settings> {
                 shape_tolerance: outer.2,
                 least_passes,
                 most_passes,
-                analysis_modes: None,
             },
         )
 }
@@ -47,9 +46,8 @@ proptest! {
         let found = correlate(
             |factors| {
                 asked.borrow_mut().push(factors.to_vec());
-                Ok(chain.model(factors))
+                chain.model(factors).analyze(&test, None)
             },
-            &test,
             &ranges,
             &settings,
             |number, pass| told.borrow_mut().push((number, pass.factors.clone())),
@@ -70,7 +68,7 @@ proptest! {
             prop_assert!(number < settings.least_passes || !converged);
             // The inner loop of this pass begins at the factors so far, with this pass's tolerance.
             let model = chain.model(&factors);
-            let problem = ModalProblem::new(&model, &test, truth.len()).unwrap();
+            let problem = model.analyze(&test, Some(truth.len())).unwrap();
             let inner = InnerSettings { tolerance, ..settings.inner.clone() };
             let expected = run(&problem, &factors, &ranges, &inner).unwrap();
             prop_assert_eq!(&pass.inner.last.factors, &expected.last.factors);
@@ -135,7 +133,7 @@ proptest! {
         let best = found.best_factors();
         prop_assert_eq!(best.len(), truth.len());
         let test = chain.modes(&truth);
-        let sum = |factors: &[f64]| check(&chain.model(factors), &test, truth.len()).unwrap().errors.sum();
+        let sum = |factors: &[f64]| chain.model(factors).analyze(&test, None).unwrap().exact.errors.sum();
         let lowest = sum(&best);
         prop_assert!(lowest <= found.initial.errors.sum());
         for pass in &found.passes {
@@ -156,9 +154,9 @@ proptest! {
             .map(|&(lower, upper)| Some(Range { lower, upper }))
             .collect();
         let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
+        let test = chain.modes(&truth);
         let found = correlate(
-            |factors| Ok(chain.model(factors)),
-            &chain.modes(&truth),
+            |factors| chain.model(factors).analyze(&test, None),
             &ranges,
             &settings,
             |_, _| {},

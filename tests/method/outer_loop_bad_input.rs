@@ -2,30 +2,31 @@
 
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::ModalModel;
+use corfem::method::model::Range;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Range;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
+/// Three springs at the given factors, beside the truth.
+fn analyzed(factors: &[f64]) -> Result<ModalModel, Error> {
+    let chain = Chain::uniform(3);
+    chain.model(factors).analyze(&chain.modes(&TRUTH), None)
+}
+
 /// Three springs with the given analysis, bounds and a change of the default settings.
 fn correlate_with(
-    analyze: impl FnMut(&[f64]) -> Result<DynamicModel, Error>,
+    analyze: impl FnMut(&[f64]) -> Result<ModalModel, Error>,
     ranges: &[Option<Range>],
     change: impl Fn(&mut Settings),
 ) -> Result<Correlation, Error> {
     let mut settings = Settings::default();
     change(&mut settings);
-    let test = Chain::uniform(3).modes(&TRUTH);
-    correlate(analyze, &test, ranges, &settings, |_, _| {})
+    correlate(analyze, ranges, &settings, |_, _| {})
 }
 
 fn with_settings(change: impl Fn(&mut Settings)) -> Result<Correlation, Error> {
-    correlate_with(
-        |factors| Ok(Chain::uniform(3).model(factors)),
-        &[None; 3],
-        change,
-    )
+    correlate_with(analyzed, &[None; 3], change)
 }
 
 #[test]
@@ -109,7 +110,7 @@ fn errors_of_the_analysis_are_handed_on() {
                 if analyses > good {
                     Err(Error::ZeroLength { length: 7.0 })
                 } else {
-                    Ok(Chain::uniform(3).model(factors))
+                    analyzed(factors)
                 }
             },
             &[None; 3],
@@ -131,7 +132,7 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
             |_| {
                 let mut model = Chain::uniform(3).model(&[1.0; 3]);
                 model.shares.truncate(parameter_count);
-                Ok(model)
+                model.analyze(&Chain::uniform(3).modes(&TRUTH), None)
             },
             &vec![None; count],
             |_| {},
@@ -152,40 +153,12 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
 }
 
 #[test]
-fn analysis_modes_must_exist_and_cover_the_test() {
-    match with_settings(|settings| settings.analysis_modes = Some(4)) {
-        Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }) => assert_eq!((what, available, requested), ("modes", 3, 4)),
-        other => panic!("{other:?}"),
-    }
-    match with_settings(|settings| settings.analysis_modes = Some(2)) {
-        Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }) => assert_eq!((what, available, requested), ("test modes", 2, 3)),
-        other => panic!("{other:?}"),
-    }
-    assert!(matches!(
-        with_settings(|settings| settings.analysis_modes = Some(0)),
-        Err(Error::Empty { what: "modes" })
-    ));
-}
-
-#[test]
 fn bounds_must_be_in_order() {
     let crossed = Some(Range {
         lower: 2.0,
         upper: 0.5,
     });
-    let result = correlate_with(
-        |factors| Ok(Chain::uniform(3).model(factors)),
-        &[None, None, crossed],
-        |_| {},
-    );
+    let result = correlate_with(analyzed, &[None, None, crossed], |_| {});
     assert!(matches!(
         result,
         Err(Error::Limits { what, lower, upper })

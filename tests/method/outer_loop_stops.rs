@@ -5,7 +5,8 @@ use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::cases::Case;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::outer_loop::{Settings, check, correlate};
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::{Settings, correlate};
 
 #[test]
 fn a_model_that_is_right_needs_no_pass() {
@@ -116,15 +117,10 @@ fn analysis_modes_may_be_fewer_than_degrees_of_freedom() {
     let chain = Chain::uniform(5);
     let test = chain.modes(&[1.2, 0.9, 1.1, 1.0, 0.8]).lowest(2).unwrap();
     let with = |analysis_modes| {
-        let settings = Settings {
-            analysis_modes,
-            ..Settings::default()
-        };
         correlate(
-            |factors| Ok(chain.model(factors)),
-            &test,
+            |factors| chain.model(factors).analyze(&test, analysis_modes),
             &[None; 5],
-            &settings,
+            &Settings::default(),
             |_, _| {},
         )
         .unwrap()
@@ -144,10 +140,10 @@ fn analysis_modes_may_be_fewer_than_degrees_of_freedom() {
 #[test]
 fn frequencies_stand_in_the_order_of_the_test_modes() {
     let chain = Chain::uniform(3);
-    let mut test = chain.modes(&[1.0; 3]);
+    let mut test = ModeSet::from(chain.modes(&[1.0; 3]));
     test.omega_squared.swap_rows(0, 2);
     test.shapes.swap_columns(0, 2);
-    let found = check(&chain.model(&[1.0; 3]), &test, 3).unwrap();
+    let found = chain.model(&[1.0; 3]).analyze(&test, None).unwrap().exact;
     assert_eq!(found.pairing.analysis_mode, [2, 1, 0]);
     assert_eq!(found.frequencies_hz, test.frequencies_hz());
     assert_eq!(found.errors.frequency, 0.0);
@@ -162,7 +158,6 @@ fn the_default_settings_are_as_documented() {
     assert_eq!(settings.frequency_tolerance, 0.015);
     assert_eq!(settings.shape_tolerance, 0.04);
     assert_eq!((settings.least_passes, settings.most_passes), (1, 10));
-    assert_eq!(settings.analysis_modes, None);
 }
 
 #[test]
@@ -172,8 +167,7 @@ fn the_box_needs_a_second_pass_because_b_was_frozen() {
     let test = case.test_modes().unwrap();
     let ranges = model.factor_ranges().unwrap();
     let found = correlate(
-        |f| model.analyze(f),
-        &test,
+        |f| model.analyze(f, &test, None),
         &ranges,
         &case.settings,
         |_, _| {},
@@ -212,8 +206,7 @@ fn of_equal_passes_the_first_is_best() {
         ..Settings::default()
     };
     let found = correlate(
-        |_| Ok(model.clone()),
-        &test,
+        |_| model.analyze(&test, None),
         &[None; 3],
         &settings,
         |_, _| {},

@@ -6,8 +6,8 @@ use crate::common::pairings::{
 use crate::common::strategies::orthogonal;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain, pencil};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::pairing::{Pairing, cross_orthogonality, matched, modal_assurance, pair_modes};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::pairing::{Pairing, cross_orthogonality, modal_assurance, pair_modes, paired};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -83,25 +83,25 @@ proptest! {
     }
 
     #[test]
-    fn matched_modes_do_not_depend_on_order_or_sign(
+    fn paired_modes_do_not_depend_on_order_or_sign(
         (chain, change, other) in (chain(5), rearrangement(5), rearrangement(5)),
     ) {
         let factors = [1.0; 5];
         let test = chain.modes(&[1.1, 0.9, 1.2, 1.0, 0.8]);
         let analysis = chain.modes(&factors);
-        let paired = |analysis: &Modes, test: &Modes| {
+        let paired = |analysis: &ModeSet, test: &ModeSet| {
             let cross = cross_orthogonality(analysis, test, &chain.mass()).unwrap();
-            matched(analysis, &pair_modes(&cross).unwrap())
+            paired(analysis, &pair_modes(&cross).unwrap())
         };
         let expected = paired(&analysis, &test);
         prop_assert_eq!(expected.shapes.shape(), (5, 5));
-        let rearranged = Modes {
+        let rearranged = ModeSet {
             omega_squared: analysis.omega_squared.select_rows(&change.order),
             shapes: change.columns(&analysis.shapes),
         };
         prop_assert_eq!(paired(&rearranged, &test), expected.clone());
         // Test modes in another order and sign take their partners with them.
-        let test = Modes {
+        let test = ModeSet {
             omega_squared: test.omega_squared.select_rows(&other.order),
             shapes: other.columns(&test.shapes),
         };
@@ -178,7 +178,7 @@ fn a_shape_without_a_sign_keeps_its_own() {
 
 #[test]
 fn cross_orthogonality_by_hand() {
-    let modes = |shapes: DMatrix<f64>| Modes {
+    let modes = |shapes: DMatrix<f64>| ModeSet {
         omega_squared: DVector::from_element(shapes.ncols(), 1.0),
         shapes,
     };
@@ -191,8 +191,8 @@ fn cross_orthogonality_by_hand() {
 }
 
 #[test]
-fn matched_by_hand() {
-    let analysis = Modes {
+fn paired_by_hand() {
+    let analysis = ModeSet {
         omega_squared: dvector![1.0, 4.0, 9.0],
         shapes: dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0],
     };
@@ -200,7 +200,7 @@ fn matched_by_hand() {
         analysis_mode: vec![2, 0],
         sign: vec![-1.0, 1.0],
     };
-    let paired = matched(&analysis, &pairing);
+    let paired = paired(&analysis, &pairing);
     assert_eq!(paired.omega_squared, dvector![9.0, 1.0]);
     assert_eq!(paired.shapes, dmatrix![-3.0, 1.0; -6.0, 4.0]);
 }

@@ -1,7 +1,7 @@
 //! What mode sorting refuses.
 
 use corfem::method::error::Error;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
@@ -29,7 +29,7 @@ fn no_test_modes_too_many_or_nan_are_refused() {
 
 #[test]
 fn shapes_and_mass_must_fit() {
-    let modes = |dof: usize, count: usize| Modes {
+    let modes = |dof: usize, count: usize| ModeSet {
         omega_squared: DVector::from_element(count, 1.0),
         shapes: DMatrix::from_element(dof, count, 1.0),
     };

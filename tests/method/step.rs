@@ -1,24 +1,23 @@
-//! The step (13): factors from derivatives by three rules, and the bounds that hold them.
+//! The step (13): factors from derivatives by three rules, and the bounds that limit them.
 
 use crate::common::tolerances::ROUND_OFF;
-use corfem::method::derivatives::{DERIVATIVE_STEP, Derivatives};
+use crate::common::vibrations::{Chain, chain_and_truth};
+use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::error::Error;
-use corfem::method::step::{Limit, Range, StepRule, limited_factor, unlimited_factors};
+use corfem::method::model::{ModalModel, Range};
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::{Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
-/// Changes of the error sum and stiffness of up to six parameters on three test modes, the parameters' stiffness
-/// within a factor of a hundred of each other.
-fn derivatives() -> impl Strategy<Value = Derivatives> {
+/// Changes of the error sum and stiffness of up to six parameters, the parameters' stiffness within a factor of a hundred of
+/// each other.
+fn changes() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
     (1..=6_usize).prop_flat_map(|count| {
         (
             prop::collection::vec(-1e-3..1e-3_f64, count),
-            prop::collection::vec(1e-5..1e-3_f64, 3 * count),
+            prop::collection::vec(1e-5..1e-3_f64, count),
         )
-            .prop_map(move |(error_change, stiffness)| Derivatives {
-                error_change,
-                share_change: DMatrix::from_vec(3, count, stiffness),
-            })
     })
 }
 
@@ -32,54 +31,71 @@ proptest! {
 
     #[test]
     fn steps_are_in_proportion_to_relaxation_and_error_sum(
-        derivatives in derivatives(),
+        (errors, stiffnesses) in changes(),
         error_sum in 0.01..1.0_f64,
         relaxation in 0.1..2.0_f64,
     ) {
-        for rule in [StepRule::RootSumOfSquares, StepRule::SumOverModes, StepRule::SteepestDescent] {
-            let unit = unlimited_factors(&derivatives, 1.0, 1.0, rule);
-            let found = unlimited_factors(&derivatives, error_sum, relaxation, rule);
-            prop_assert_eq!(found.len(), derivatives.error_change.len());
-            for (c, unit) in found.iter().zip(&unit) {
-                let expected = relaxation * error_sum * (unit - 1.0);
-                prop_assert!((c - 1.0 - expected).abs() <= ROUND_OFF * (1.0 + expected.abs()));
-            }
+        let unit = unlimited_factors(&errors, &stiffnesses, 1.0, 1.0);
+        let found = unlimited_factors(&errors, &stiffnesses, error_sum, relaxation);
+        prop_assert_eq!(found.len(), errors.len());
+        for (c, unit) in found.iter().zip(&unit) {
+            let expected = relaxation * error_sum * (unit - 1.0);
+            prop_assert!((c - 1.0 - expected).abs() <= ROUND_OFF * (1.0 + expected.abs()));
         }
     }
 
     #[test]
-    fn every_rule_goes_downhill(derivatives in derivatives()) {
+    fn every_rule_goes_downhill((chain, truth) in chain_and_truth()) {
+        let count = truth.len();
+        let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
+        let state = ModalState::start(&model);
+        let errors = by_definition(&model, &state).unwrap();
         for rule in [StepRule::RootSumOfSquares, StepRule::SumOverModes, StepRule::SteepestDescent] {
-            let factors = unlimited_factors(&derivatives, 0.3, 1.0, rule);
-            for (factor, change) in factors.iter().zip(&derivatives.error_change) {
+            let stiffnesses = stiffness_changes(&model, &state, &errors, rule);
+            let factors = unlimited_factors(&errors, &stiffnesses, 0.3, 1.0);
+            for (factor, change) in factors.iter().zip(&errors) {
                 prop_assert!((factor - 1.0) * change <= 0.0, "{rule:?} {factor} {change}");
             }
         }
     }
 
     #[test]
-    fn a_sum_over_modes_steps_no_farther_than_a_root_of_squares(derivatives in derivatives()) {
-        let long = unlimited_factors(&derivatives, 0.3, 1.0, StepRule::RootSumOfSquares);
-        let short = unlimited_factors(&derivatives, 0.3, 1.0, StepRule::SumOverModes);
-        for (long, short) in long.iter().zip(&short) {
-            // Between one and √3 for three modes.
-            prop_assert!((short - 1.0).abs() <= (long - 1.0).abs() * (1.0 + ROUND_OFF));
-            prop_assert!((long - 1.0).abs() <= 3_f64.sqrt() * (short - 1.0).abs() + ROUND_OFF);
+    fn stiffness_changes_are_a_thousandth_of_the_present_shares_on_the_test_modes(
+        (chain, truth) in chain_and_truth(),
+        factors in prop::collection::vec(0.9..1.1_f64, 5),
+    ) {
+        let (count, test) = (truth.len(), chain.modes(&truth));
+        let model = chain.model(&vec![1.0; count]).analyze(&test, None).unwrap();
+        let state = ModalState::at(&model, factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
+        let by = |rule| stiffness_changes(&model, &state, &[], rule);
+        let (root, sum) = (by(StepRule::RootSumOfSquares), by(StepRule::SumOverModes));
+        for (e, share) in chain.model(&factors[..count]).shares.iter().enumerate() {
+            let own: Vec<f64> = (0..count)
+                .map(|i| {
+                    let shape = test.shapes.column(i);
+                    DERIVATIVE_STEP * shape.dot(&(share.matrix() * shape)) / test.omega_squared[i]
+                })
+                .collect();
+            let squares: f64 = own.iter().map(|own| own * own).sum();
+            prop_assert!((root[e] - squares.sqrt()).abs() <= ROUND_OFF);
+            prop_assert!((sum[e] - own.iter().sum::<f64>()).abs() <= ROUND_OFF);
+            // A sum is no smaller than the root of the sum of squares, and no larger than the square root of n times it.
+            prop_assert!(root[e] <= sum[e] * (1.0 + ROUND_OFF));
+            prop_assert!(sum[e] <= (count as f64).sqrt() * root[e] * (1.0 + ROUND_OFF));
         }
     }
 
     #[test]
     fn steepest_descent_brings_the_linearized_error_sum_to_zero(
-        derivatives in derivatives(),
+        (errors, _) in changes(),
         error_sum in 0.01..1.0_f64,
     ) {
-        prop_assume!(derivatives.error_change.iter().any(|change| change.abs() > 1e-6));
-        let factors = unlimited_factors(&derivatives, error_sum, 1.0, StepRule::SteepestDescent);
-        let change: f64 = factors
-            .iter()
-            .zip(&derivatives.error_change)
-            .map(|(factor, change)| (factor - 1.0) * change / DERIVATIVE_STEP)
-            .sum();
+        prop_assume!(errors.iter().any(|change| change.abs() > 1e-6));
+        let model = bare(errors.len());
+        let stiffnesses = stiffness_changes(&model, &ModalState::start(&model), &errors, StepRule::SteepestDescent);
+        let factors = unlimited_factors(&errors, &stiffnesses, error_sum, 1.0);
+        let slopes = errors.iter().map(|change| change / DERIVATIVE_STEP);
+        let change: f64 = factors.iter().zip(slopes).map(|(factor, slope)| (factor - 1.0) * slope).sum();
         prop_assert!((change + error_sum).abs() <= ROUND_OFF * 10.0, "{change}");
     }
 
@@ -116,12 +132,30 @@ proptest! {
     }
 }
 
-/// Three parameters on two test modes: stiffnesses (0.003, 0.004), (0.006, 0.008) and none.
-fn by_hand() -> Derivatives {
-    Derivatives {
-        error_change: vec![0.002, -0.001, 0.0],
-        share_change: dmatrix![0.003, 0.006, 0.0; 0.004, 0.008, 0.0],
-    }
+/// A chain of as many springs as parameters are wanted, where their stiffness does not matter.
+fn bare(count: usize) -> ModalModel {
+    let chain = Chain::uniform(count);
+    chain
+        .model(&vec![1.0; count])
+        .analyze(&chain.modes(&vec![1.1; count]), None)
+        .unwrap()
+}
+
+/// Three parameters on two test modes: relative stiffnesses (3, 4), (6, 8) with a coupling, and none.
+fn by_hand() -> (ModalModel, Vec<f64>) {
+    let mut model = bare(3);
+    model.test_shares = vec![
+        dmatrix![3.0, 1.0; 1.0, 4.0],
+        dmatrix![6.0, 2.0; 2.0, 8.0],
+        DMatrix::zeros(2, 2),
+    ];
+    (model, vec![0.002, -0.001, 0.0])
+}
+
+fn factors_by_hand(error_sum: f64, relaxation: f64, rule: StepRule) -> Vec<f64> {
+    let (model, errors) = by_hand();
+    let stiffnesses = stiffness_changes(&model, &ModalState::start(&model), &errors, rule);
+    unlimited_factors(&errors, &stiffnesses, error_sum, relaxation)
 }
 
 fn assert_close(found: &[f64], expected: [f64; 3]) {
@@ -134,43 +168,46 @@ fn assert_close(found: &[f64], expected: [f64; 3]) {
 #[test]
 fn root_sum_of_squares_by_hand() {
     // Δk is 0.005 and 0.010: 1 - 0.8 · 0.5 · 0.002/0.005 and 1 + 0.8 · 0.5 · 0.001/0.010.
-    let found = unlimited_factors(&by_hand(), 0.5, 0.8, StepRule::RootSumOfSquares);
-    assert_close(&found, [0.84, 1.04, 1.0]);
+    assert_close(
+        &factors_by_hand(0.5, 0.8, StepRule::RootSumOfSquares),
+        [0.84, 1.04, 1.0],
+    );
     assert_eq!(StepRule::default(), StepRule::RootSumOfSquares);
 }
 
 #[test]
 fn sum_over_modes_by_hand() {
     // Δk is 0.007 and 0.014.
-    let found = unlimited_factors(&by_hand(), 0.7, 1.0, StepRule::SumOverModes);
-    assert_close(&found, [0.8, 1.05, 1.0]);
+    assert_close(
+        &factors_by_hand(0.7, 1.0, StepRule::SumOverModes),
+        [0.8, 1.05, 1.0],
+    );
 }
 
 #[test]
 fn steepest_descent_by_hand() {
-    // d is 2, -1 and 0, and the sum of squares 5: 1 - 0.5 · 2/5 and 1 + 0.5 · 1/5.
-    let found = unlimited_factors(&by_hand(), 0.5, 1.0, StepRule::SteepestDescent);
-    assert_close(&found, [0.8, 1.1, 1.0]);
+    // The slopes are 2, -1 and 0, and the sum of their squares 5: 1 - 0.5 · 2/5 and 1 + 0.5 · 1/5.
+    assert_close(
+        &factors_by_hand(0.5, 1.0, StepRule::SteepestDescent),
+        [0.8, 1.1, 1.0],
+    );
 }
 
 #[test]
 fn a_parameter_without_stiffness_keeps_one() {
     // Also when round-off gives it a derivative.
-    let derivatives = Derivatives {
-        error_change: vec![1e-18, 0.0],
-        share_change: DMatrix::zeros(2, 2),
-    };
-    for rule in [StepRule::RootSumOfSquares, StepRule::SumOverModes] {
-        assert_eq!(unlimited_factors(&derivatives, 0.5, 1.0, rule), [1.0, 1.0]);
-    }
-    let flat = Derivatives {
-        error_change: vec![0.0, 0.0],
-        ..by_hand()
-    };
     assert_eq!(
-        unlimited_factors(&flat, 0.5, 1.0, StepRule::SteepestDescent),
+        unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0),
         [1.0, 1.0]
     );
+    let model = bare(2);
+    let flat = stiffness_changes(
+        &model,
+        &ModalState::start(&model),
+        &[0.0, 0.0],
+        StepRule::SteepestDescent,
+    );
+    assert_eq!(unlimited_factors(&[0.0, 0.0], &flat, 0.5, 1.0), [1.0, 1.0]);
 }
 
 #[test]

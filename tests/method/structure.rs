@@ -12,11 +12,11 @@ fn aluminum() -> Material {
     Material::isotropic(1e7, 0.3).unwrap()
 }
 
-fn grid(label: usize, position: [f64; 3], held: [bool; 3]) -> Grid {
+fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
     Grid {
         label,
         position: position.into(),
-        held,
+        constrained,
     }
 }
 
@@ -30,7 +30,7 @@ fn element(label: usize, kind: ElementKind, grids: &[usize]) -> Element {
     }
 }
 
-/// A square of four grids out of numerical order, its base held in part, with one element of each kind.
+/// A square of four grids out of numerical order, its base constrained in part, with one element of each kind.
 fn square() -> (Vec<Grid>, Vec<Element>) {
     (
         vec![

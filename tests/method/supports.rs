@@ -9,9 +9,9 @@
 
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::{Modes, solve};
+use corfem::method::model::Parameter;
+use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::parameters::Parameter;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -31,7 +31,7 @@ enum Support {
 /// Rods between joints 1 to 6 along x, joint 1 and 6 supported as asked.
 fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error> {
     let material = Material::isotropic(1.0e7, 0.3)?;
-    let held = |label| match support {
+    let constrained = |label| match support {
         Support::FixedFree => label == 1,
         Support::FixedFixed => label == 1 || label == 6,
         Support::SoftSuspension => false,
@@ -40,7 +40,7 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         .map(|label| Grid {
             label,
             position: Vector3::new(10.0 * label as f64, 0.0, 0.0),
-            held: [held(label), true, true],
+            constrained: [constrained(label), true, true],
         })
         .collect();
     let rod = |label: usize, ends: [usize; 2], size| Element {
@@ -60,7 +60,7 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
             grids.push(Grid {
                 label,
                 position: Vector3::new(x, 0.0, 0.0),
-                held: [true; 3],
+                constrained: [true; 3],
             });
             elements.push(rod(label, [joint, label], SOFT_AREA));
         }
@@ -79,14 +79,14 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
 }
 
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
-fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
+fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
     let truth = chain(TRUE_AREAS, support)
         .expect("a chain")
-        .analyze(&[1.0; 5])
+        .matrices(&[1.0; 5])
         .expect("held");
     let count = truth.mass.nrows();
     let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
-    let test = Modes {
+    let test = ModeSet {
         omega_squared: all.omega_squared.rows(rigid, count - rigid).into_owned(),
         shapes: all.shapes.columns(rigid, count - rigid).into_owned(),
     };
@@ -100,14 +100,13 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     settings.later_inner_tolerance = 0.002;
     let ranges = model.factor_ranges().expect("no bounds");
     let result = correlate(
-        |factors| model.analyze(factors),
-        &test,
+        |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
         |_, _| {},
     )
     .expect("it runs");
-    (result, all)
+    (result, all.into())
 }
 
 fn assert_areas_found(result: &Correlation) {
@@ -159,7 +158,7 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
 fn chain_that_nothing_holds_is_refused() {
     let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
     let grids = model.structure().grids().iter().map(|grid| Grid {
-        held: [false, true, true],
+        constrained: [false, true, true],
         ..grid.clone()
     });
     let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
@@ -168,7 +167,7 @@ fn chain_that_nothing_holds_is_refused() {
     let parameters = vec![Parameter::element(1, None)];
     let model =
         FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
-    let error = model.analyze(&[1.0]).expect_err("it moves as a whole");
+    let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
     assert!(
         matches!(error, Error::SingularStiffness { direction: 'x', .. }),
         "{error}"

@@ -5,7 +5,7 @@ use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_
 use approx::assert_relative_eq;
 use assert_cmd::Command;
 use corfem::method::inner_loop::Stop;
-use corfem::method::outer_loop::Check;
+use corfem::method::model::Check;
 use corfem::present::render::{csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::delta_wing::delta_wing_tables;

@@ -228,12 +228,12 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
         assert_eq!((frequency.shape(), error_sum.shape()), ((15, 9), (15, 1)));
         let model = result.case.model().expect("a model");
         let start = &result.correlation.initial;
-        let shares = model.analyze(&[1.0; 15]).expect("analyzed").shares;
+        let shares = model.matrices(&[1.0; 15]).expect("analyzed").shares;
         for e in 0..15 {
             let frequencies = |step: f64| {
                 let mut factors = [1.0; 15];
                 factors[e] += step;
-                let dynamic = model.analyze(&factors).expect("analyzed");
+                let dynamic = model.matrices(&factors).expect("analyzed");
                 corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9)
                     .expect("solved")
                     .frequencies_hz()

@@ -16,6 +16,7 @@
 
 use crate::common::tolerances::ROUND_OFF;
 use approx::assert_relative_eq;
+use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::studies::delta_wing::DeltaWing;
@@ -109,7 +110,7 @@ fn grids_lie_behind_the_leading_edge_at_half_the_depth() {
             _ if z == 0.0 => [true, true, false],
             _ => [false; 3],
         };
-        assert_eq!(grid.held, expected, "grid {}", grid.label);
+        assert_eq!(grid.constrained, expected, "grid {}", grid.label);
     }
 }
 
@@ -221,7 +222,7 @@ fn data_say_what_the_wing_is_made_of() {
 fn data_of_another_form_are_refused() {
     let error = DeltaWing::parse("other", &format!("{DATA}\nspan = 90.0\n"));
     let error = error.expect_err("an unknown key");
-    let Error::Toml { name, expected, .. } = &error else {
+    let CaseError::Toml { name, expected, .. } = &error else {
         panic!("{error}")
     };
     assert_eq!(
@@ -248,13 +249,13 @@ fn data_of_another_form_are_refused() {
         let text = DATA.replacen(whole, cut, 1);
         assert_ne!(text, DATA, "{whole}");
         let error = DeltaWing::parse("cut", &text).expect_err("it does not fit");
-        let Error::WrongShape {
+        let CaseError::Method(Error::WrongShape {
             what: named,
             expected_rows,
             expected_columns,
             rows,
             columns,
-        } = error
+        }) = error
         else {
             panic!("{whole}: {error}")
         };

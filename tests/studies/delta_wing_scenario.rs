@@ -132,7 +132,7 @@ fn load_distribution_selects_z_of_19_upper_grids() {
 #[test]
 fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
     let dynamic = first_model(&wing())
-        .and_then(|model| model.analyze(&true_factors()))
+        .and_then(|model| model.matrices(&true_factors()))
         .expect("an analysis");
     assert_eq!(dynamic.mass.shape(), (19, 19));
     let condensed = solve(&dynamic.stiffness, &dynamic.mass, 12).expect("modes");
@@ -150,8 +150,10 @@ fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
 #[test]
 fn test_modes_are_ten_of_the_whole_wing_sampled() {
     let model = first_model(&wing()).expect("a model");
-    let mass = model.analyze(&[1.0; 21]).expect("an analysis").mass;
-    let test = test_modes(&wing(), &mass).expect("test modes");
+    let mass = model.matrices(&[1.0; 21]).expect("an analysis").mass;
+    let test = test_modes(&wing())
+        .and_then(|test| test.scaled_with(&mass))
+        .expect("test modes");
     assert_eq!((test.len(), test.shapes.shape()), (10, (19, 10)));
     let whole = wing().modes().expect("modes");
     let grids = measured_grids(model.structure());
@@ -193,11 +195,11 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     assert!((1..12).all(|mode| mode == 8 || separation(mode) > 0.06));
     // The wrong gages exchange them: what answers mode 8 is above what answers mode 9.
     let first = first_model(&wing())
-        .and_then(|model| model.analyze(&[1.0; 21]))
+        .and_then(|model| model.matrices(&[1.0; 21]))
         .expect("an analysis");
     let modes = solve(&first.stiffness, &first.mass, 19).expect("modes");
     let right = first_model(&wing())
-        .and_then(|model| model.analyze(&true_factors()))
+        .and_then(|model| model.matrices(&true_factors()))
         .expect("an analysis");
     let truth = solve(&right.stiffness, &right.mass, 12).expect("modes");
     let cross = cross_orthogonality(&modes, &truth, &first.mass).expect("they fit");

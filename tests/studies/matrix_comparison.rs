@@ -2,8 +2,9 @@
 
 use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
+use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
-use corfem::method::modal::DynamicModel;
+use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::studies::matrix_comparison::{
     COVER_DOUBLER, COVERS, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
@@ -20,7 +21,7 @@ pub fn model(case: usize, gages: &[f64]) -> DynamicModel {
     let case = Case::new(case).expect("a case");
     case.model_with(gages)
         .expect("a model")
-        .analyze(&[1.0; 15])
+        .matrices(&[1.0; 15])
         .expect("analyzed")
 }
 
@@ -241,14 +242,14 @@ fn numbers_of_test_modes_out_of_range_are_errors() {
     let case = Case::new(2).unwrap();
     assert!(matches!(
         compare_matrices(&case, 0),
-        Err(Error::Empty { what: "modes" })
+        Err(CaseError::Method(Error::Empty { what: "modes" }))
     ));
     assert!(matches!(
         compare_matrices(&case, 10),
-        Err(Error::TooMany {
+        Err(CaseError::Method(Error::TooMany {
             what: "modes",
             available: 9,
             requested: 10
-        })
+        }))
     ));
 }

@@ -3,7 +3,7 @@
 use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
+use corfem::method::modes::{ModeSet, Modes, solve};
 use corfem::studies::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, weighted_norm,
 };
@@ -153,7 +153,7 @@ proptest! {
             weighted_norm(&beside, &problem.mass).unwrap().powi(2),
         ];
         prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
-        let measured = Modes { shapes, ..problem.test.clone() };
+        let measured = ModeSet { shapes, ..problem.test.clone().into() };
         let stiffness = berman_nagy_stiffness(&problem.stiffness, &mass, &measured).unwrap();
         let inertia = &mass * &measured.shapes * DMatrix::from_diagonal(&measured.omega_squared);
         let scale = problem.stiffness.amax().max(problem.true_stiffness.amax()) * measured.shapes.amax();
@@ -161,8 +161,8 @@ proptest! {
     }
 }
 
-fn one_mode(shape: DVector<f64>, omega_squared: f64) -> Modes {
-    Modes {
+fn one_mode(shape: DVector<f64>, omega_squared: f64) -> ModeSet {
+    ModeSet {
         omega_squared: dvector![omega_squared],
         shapes: DMatrix::from_columns(&[shape]),
     }
@@ -201,11 +201,11 @@ fn shapes_that_are_not_orthonormal_are_named() {
     let mass = DMatrix::identity(3, 3);
     let stiffness = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
     let mut shapes = DMatrix::identity(3, 2);
-    let modes = |shapes: DMatrix<f64>| Modes {
+    let modes = |shapes: DMatrix<f64>| ModeSet {
         omega_squared: dvector![1.0, 2.0],
         shapes,
     };
-    type Correction = fn(&DMatrix<f64>, &DMatrix<f64>, &Modes) -> Result<DMatrix<f64>, Error>;
+    type Correction = fn(&DMatrix<f64>, &DMatrix<f64>, &ModeSet) -> Result<DMatrix<f64>, Error>;
     let corrections: [Correction; 2] = [baruch_stiffness, berman_nagy_stiffness];
     for correct in corrections {
         // Within round-off of a test's processing is orthonormal enough.

@@ -1,6 +1,7 @@
 //! One bulk data card: a name and its fields, with where they came from.
 
 use super::number::{LARGE_FIELD, SMALL_FIELD, exact_real, large_real, parse_real};
+use crate::files::error::FileError;
 use crate::method::error::Error;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -52,12 +53,12 @@ impl Card {
     }
 
     /// An error about a field.
-    pub fn error(&self, field: usize, expected: impl Into<String>) -> Error {
+    pub fn error(&self, field: usize, expected: impl Into<String>) -> FileError {
         let found = match self.text(field) {
             "" => "a blank".to_owned(),
             text => text.to_owned(),
         };
-        Error::DeckField {
+        FileError::DeckField {
             file: self.file.to_string(),
             line: self.fields.get(index(field)).map_or(self.line, |f| f.line),
             card: self.name.clone(),
@@ -70,8 +71,8 @@ impl Card {
     /// A positive integer of at most eight digits.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for anything else.
-    pub fn label(&self, field: usize) -> Result<usize, Error> {
+    /// [`FileError::DeckField`] for anything else.
+    pub fn label(&self, field: usize) -> Result<usize, FileError> {
         match self.text(field).parse() {
             Ok(label) if (1..=LARGEST_LABEL).contains(&label) => Ok(label),
             _ => Err(self.error(field, "a positive integer of at most eight digits")),
@@ -81,8 +82,8 @@ impl Card {
     /// A real number; `None` for a blank.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for anything else.
-    pub fn optional_real(&self, field: usize) -> Result<Option<f64>, Error> {
+    /// [`FileError::DeckField`] for anything else.
+    pub fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
         match self.text(field) {
             "" => Ok(None),
             text => parse_real(text)
@@ -95,15 +96,15 @@ impl Card {
     ///
     /// # Errors
     /// As [`Self::optional_real`].
-    pub fn real(&self, field: usize) -> Result<f64, Error> {
+    pub fn real(&self, field: usize) -> Result<f64, FileError> {
         Ok(self.optional_real(field)?.unwrap_or(0.0))
     }
 
     /// A positive real number.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for anything else.
-    pub fn positive(&self, field: usize) -> Result<f64, Error> {
+    /// [`FileError::DeckField`] for anything else.
+    pub fn positive(&self, field: usize) -> Result<f64, FileError> {
         match self.optional_real(field)? {
             Some(value) if value > 0.0 => Ok(value),
             _ => Err(self.error(field, "a positive real number")),
@@ -113,8 +114,8 @@ impl Card {
     /// Refuses what the crate's elements do not have: the field must be blank or zero.
     ///
     /// # Errors
-    /// [`Error::DeckField`] saying what `meaning` is not supported.
-    pub fn absent(&self, field: usize, meaning: &str) -> Result<(), Error> {
+    /// [`FileError::DeckField`] saying what `meaning` is not supported.
+    pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
         if text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
             return Ok(());
@@ -129,8 +130,8 @@ impl Card {
     /// in the result.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for other characters.
-    pub fn directions(&self, field: usize) -> Result<[bool; 3], Error> {
+    /// [`FileError::DeckField`] for other characters.
+    pub fn directions(&self, field: usize) -> Result<[bool; 3], FileError> {
         let mut named = [false; 3];
         for component in self.text(field).chars() {
             match component {
@@ -147,8 +148,8 @@ impl Card {
     /// The one direction, 0 to 2, of a component 1, 2 or 3.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for anything else.
-    pub fn direction(&self, field: usize) -> Result<usize, Error> {
+    /// [`FileError::DeckField`] for anything else.
+    pub fn direction(&self, field: usize) -> Result<usize, FileError> {
         match self.text(field) {
             "1" => Ok(0),
             "2" => Ok(1),
@@ -186,7 +187,7 @@ pub fn write_card(
     entries: &[Entry],
     large: bool,
     tag: &mut usize,
-) -> Result<String, Error> {
+) -> Result<String, FileError> {
     let exact = |entry: &Entry| match entry {
         Entry::Real(value) => exact_real(*value, SMALL_FIELD).is_some(),
         _ => true,
@@ -206,7 +207,8 @@ pub fn write_card(
                     what: "number of a grid or element in a deck",
                     available: LARGEST_LABEL,
                     requested: *label,
-                });
+                }
+                .into());
             }
             Entry::Label(label) => label.to_string(),
             Entry::Word(word) => word.clone(),

@@ -3,7 +3,7 @@
 use super::card::Card;
 use super::lines::Selected;
 use super::model::Tie;
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use crate::method::structure::{Grid, StructuralDof};
 use std::collections::BTreeMap;
 
@@ -34,8 +34,8 @@ impl Constraints {
     /// Takes an SPC1 or MPC card if its set counts; whether it does.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a second set where there is no case control to select one.
-    pub fn take(&mut self, card: Card) -> Result<bool, Error> {
+    /// [`FileError::DeckField`] for a second set where there is no case control to select one.
+    pub fn take(&mut self, card: Card) -> Result<bool, FileError> {
         let set = card.label(2)?;
         let (chosen, cards) = if card.name == "SPC1" {
             (&mut self.selected.spc, &mut self.holds)
@@ -56,11 +56,11 @@ impl Constraints {
         Ok(true)
     }
 
-    /// Marks what is held.
+    /// Marks what is constrained.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a grid that does not exist.
-    pub fn hold(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), Error> {
+    /// [`FileError::DeckField`] for a grid that does not exist.
+    pub fn hold(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
         for card in &self.holds {
             let directions = card.directions(3)?;
             if card.text(3).is_empty() {
@@ -92,8 +92,8 @@ impl Constraints {
                 let mut is_known = false;
                 for (_, grid) in grids.range_mut(first..=last) {
                     is_known = true;
-                    for (held, direction) in grid.held.iter_mut().zip(directions) {
-                        *held |= direction;
+                    for (constrained, direction) in grid.constrained.iter_mut().zip(directions) {
+                        *constrained |= direction;
                     }
                 }
                 if !is_known {
@@ -107,9 +107,9 @@ impl Constraints {
     /// The equations, by dependent DOF; `grid` checks the grid named in a field of a card.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a DOF that does not exist, a dependent DOF that is held, has another equation or stands in one
+    /// [`FileError::DeckField`] for a DOF that does not exist, a dependent DOF that is constrained, has another equation or stands in one
     /// as a term, and a zero coefficient of a dependent DOF.
-    pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, Error> {
+    pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
         for card in &self.equations {
             let mut terms = terms(card, grids)?.into_iter();
@@ -120,8 +120,11 @@ impl Constraints {
                 return Err(card.error(5, "a coefficient that is not zero"));
             }
             let key = (dependent.grid, dependent.direction);
-            if grids.get(&key.0).is_some_and(|grid| grid.held[key.1]) {
-                return Err(card.error(3, "a degree of freedom that no SPC1 card holds"));
+            if grids
+                .get(&key.0)
+                .is_some_and(|grid| grid.constrained[key.1])
+            {
+                return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
             }
             let tie = Tie {
                 dependent,
@@ -147,7 +150,10 @@ impl Constraints {
 }
 
 /// The terms of an equation, the dependent DOF first.
-fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDof, f64)>, Error> {
+fn terms(
+    card: &Card,
+    grids: &BTreeMap<usize, Grid>,
+) -> Result<Vec<(StructuralDof, f64)>, FileError> {
     let mut terms = Vec::new();
     while term_field(terms.len()) <= card.last_field() {
         let field = term_field(terms.len());

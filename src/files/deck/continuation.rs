@@ -2,7 +2,7 @@
 
 use super::card::{Card, FIELDS_PER_LINE, Field};
 use super::lines::{Line, Selected, sections};
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -22,9 +22,9 @@ pub struct Cards {
 /// that ends with its tag, wherever it stands; without a tag, to the line before it.
 ///
 /// # Errors
-/// [`Error::DeckLine`] for a line that is none of these, a continuation without a card and two cards or two
+/// [`FileError::DeckLine`] for a line that is none of these, a continuation without a card and two cards or two
 /// continuations with one tag.
-pub fn cut(file: &str, text: &str) -> Result<Cards, Error> {
+pub fn cut(file: &str, text: &str) -> Result<Cards, FileError> {
     let file: Arc<str> = file.into();
     let (selected, lines) = sections(&file, text)?;
     let mut cards: Vec<Card> = Vec::new();
@@ -55,7 +55,7 @@ pub fn cut(file: &str, text: &str) -> Result<Cards, Error> {
             let tag = line.own_tag().to_owned();
             let number = line.number;
             if let Some(first) = waiting.insert(tag.clone(), line) {
-                return Err(Error::DeckLine {
+                return Err(FileError::DeckLine {
                     file: file.to_string(),
                     line: number,
                     expected: "a continuation with a tag of its own",
@@ -73,7 +73,7 @@ pub fn cut(file: &str, text: &str) -> Result<Cards, Error> {
             tag = line.tag;
         }
         if let Some(first) = taken.get(&tag) {
-            return Err(Error::DeckLine {
+            return Err(FileError::DeckLine {
                 file: file.to_string(),
                 line: card.line,
                 expected: "a card with continuations of its own",
@@ -87,8 +87,8 @@ pub fn cut(file: &str, text: &str) -> Result<Cards, Error> {
     }
 }
 
-fn no_parent(file: &str, line: &Line) -> Error {
-    Error::DeckLine {
+fn no_parent(file: &str, line: &Line) -> FileError {
+    FileError::DeckLine {
         file: file.to_owned(),
         line: line.number,
         expected: "a card that this line continues",

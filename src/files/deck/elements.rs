@@ -2,8 +2,9 @@
 
 use super::card::Card;
 use super::model::PointMass;
-use super::number::held_by_field;
+use super::number::nearest_in_field;
 use super::numbered::{Kept, Numbered};
+use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Material};
 
@@ -47,8 +48,8 @@ impl ElementCards {
     /// Takes a card if it is one of an element, a property or a material; whether it was.
     ///
     /// # Errors
-    /// [`Error::DeckField`].
-    pub fn take(&mut self, card: &Card) -> Result<bool, Error> {
+    /// [`FileError::DeckField`].
+    pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
         let starts: &[usize] =
             if TWO_TO_A_CARD.contains(&card.name.as_str()) && card.last_field() > 5 {
                 &[2, 6]
@@ -95,11 +96,11 @@ impl ElementCards {
     /// The elements by number; `grid` checks the grid named in a field of a card.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a property, a material or a grid that does not exist.
+    /// [`FileError::DeckField`] for a property, a material or a grid that does not exist.
     pub fn elements(
         &self,
-        grid: impl Fn(&Card, usize) -> Result<usize, Error>,
-    ) -> Result<Vec<Element>, Error> {
+        grid: impl Fn(&Card, usize) -> Result<usize, FileError>,
+    ) -> Result<Vec<Element>, FileError> {
         let put_together = |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
             let Kept { card, start, .. } = kept;
             let (kind, size) = &kept.value;
@@ -122,7 +123,7 @@ impl ElementCards {
                 kind: *kind,
                 grids: (first_grid..first_grid + kind.corner_count())
                     .map(|field| grid(card, field))
-                    .collect::<Result<_, Error>>()?,
+                    .collect::<Result<_, FileError>>()?,
                 size,
                 material,
             })
@@ -132,7 +133,7 @@ impl ElementCards {
 }
 
 /// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are.
-fn material(card: &Card) -> Result<Material, Error> {
+fn material(card: &Card) -> Result<Material, FileError> {
     let (e, g, nu) = (
         card.optional_real(3)?,
         card.optional_real(4)?,
@@ -141,8 +142,8 @@ fn material(card: &Card) -> Result<Material, Error> {
     // A number that is worked out is rounded to what a deck can hold, so that writing it loses nothing.
     let (e, nu) = match (e, g, nu) {
         (Some(e), _, Some(nu)) => (e, nu),
-        (Some(e), Some(g), None) => (e, held_by_field(e / (2.0 * g) - 1.0)),
-        (None, Some(g), Some(nu)) => (held_by_field(2.0 * g * (1.0 + nu)), nu),
+        (Some(e), Some(g), None) => (e, nearest_in_field(e / (2.0 * g) - 1.0)),
+        (None, Some(g), Some(nu)) => (nearest_in_field(2.0 * g * (1.0 + nu)), nu),
         _ => return Err(card.error(3, "two of E, G and NU")),
     };
     let derived = Material::isotropic(e, nu).map_err(|error| match error {
@@ -165,7 +166,7 @@ fn material(card: &Card) -> Result<Material, Error> {
 }
 
 /// CMASS2 on one direction of a grid, or CONM2 on all three.
-pub(super) fn point_mass(card: &Card) -> Result<PointMass, Error> {
+pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
     let label = card.label(2)?;
     if card.name == "CMASS2" {
         card.absent(6, "masses between two degrees of freedom")?;

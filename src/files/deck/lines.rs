@@ -2,7 +2,7 @@
 
 use super::card::{FIELDS_PER_LINE, Field, LARGE_FIELDS_PER_LINE};
 use super::number::{LARGE_FIELD, SMALL_FIELD};
-use crate::method::error::Error;
+use crate::files::error::FileError;
 
 /// Columns of a line that count.
 const LINE_WIDTH: usize = 80;
@@ -43,7 +43,7 @@ impl Line {
 }
 
 /// Case control's selection and the lines of bulk data.
-pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), Error> {
+pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let lines: Vec<(usize, String)> = text
         .lines()
         .enumerate()
@@ -73,7 +73,7 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
 }
 
 /// Takes notice of `SPC = n` and `MPC = n`.
-fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Result<(), Error> {
+fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Result<(), FileError> {
     let Some((name, set)) = text.split_once('=') else {
         return Ok(());
     };
@@ -87,7 +87,7 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
             *slot = Some(set);
             Ok(())
         }
-        _ => Err(Error::DeckLine {
+        _ => Err(FileError::DeckLine {
             file: file.to_owned(),
             line,
             expected: "one set of constraints, by its number",
@@ -97,8 +97,8 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
 }
 
 /// Cuts a line into its fields.
-fn fields(file: &str, number: usize, text: &str) -> Result<Line, Error> {
-    let wrong = |expected, found: &str| Error::DeckLine {
+fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
+    let wrong = |expected, found: &str| FileError::DeckLine {
         file: file.to_owned(),
         line: number,
         expected,

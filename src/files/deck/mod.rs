@@ -23,13 +23,11 @@ pub mod continuation;
 mod elements;
 pub mod lines;
 pub mod model;
-pub mod modes;
 pub mod number;
 mod numbered;
 pub mod read;
 pub mod write;
 
-pub use model::{BulkData, DynamicDof, PointMass, Tie};
-pub use modes::{DeckModes, modes};
+pub use model::{BulkData, PointMass, Tie, modes};
 pub use read::{Deck, Reason, Unread, read};
 pub use write::{Task, write};

@@ -1,10 +1,14 @@
 //! What a deck says: grids, elements, ties and masses, whatever the order and the format of its cards.
 
+use crate::files::error::FileError;
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
-use crate::method::structure::{Element, Grid, StructuralDof, Structure};
+use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
+use crate::method::whole_modes::{MassDof, WholeModes, lumped_mass, whole_modes};
 use nalgebra::{DMatrix, DVector, Vector3};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
 /// Direction of the DOF that stands for a dynamic point: z.
 const DYNAMIC_DIRECTION: usize = 2;
@@ -51,22 +55,25 @@ pub struct BulkData {
     pub masses: Vec<PointMass>,
 }
 
-/// The DOF that move with mass.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DynamicDof {
-    /// Which they are, grid by grid.
-    pub dof: Vec<StructuralDof>,
-    /// $T$ (free SDOF × d): $q_D = T^t q_S$.
-    pub load_distribution: DMatrix<f64>,
-    /// The mass on each, lbf·s²/in.
-    pub mass: DVector<f64>,
-}
-
 impl BulkData {
-    /// A finite element model as a deck can hold it, its parameters scaled by `factors`.
+    /// A structure alone, without ties and point masses.
+    pub fn of_structure(structure: &Structure) -> Self {
+        Self {
+            grids: structure.grids().to_vec(),
+            elements: structure.elements().to_vec(),
+            ties: Vec::new(),
+            masses: Vec::new(),
+        }
+    }
+
+    /// A finite element model as a deck can express it, its parameters scaled by `factors`.
+    ///
+    /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it, as
+    /// the law of [`FiniteElementModel`] demands.
     ///
     /// Every dynamic DOF becomes the z of a grid of its own at the position given in `points` (in), numbered after the
-    /// next multiple of a hundred above every grid and element, with the other directions held. Its MPC equation is its column of $T$:
+    /// next multiple of a hundred above every grid and element, with the other directions constrained, and with a point mass
+    /// unless its mass is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm}\, u_s = 0 $$
     ///
@@ -79,37 +86,32 @@ impl BulkData {
         model: &FiniteElementModel,
         factors: &[f64],
         points: &[Vector3<f64>],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FileError> {
         let structure = model.structure();
-        let (t, mass) = (model.load_distribution(), model.mass());
-        crate::method::linear_algebra::check_length(
-            "positions of dynamic points",
-            points.len(),
-            t.ncols(),
-        )?;
-        let mut grids = structure.grids().to_vec();
-        let mut elements = structure.elements().to_vec();
-        for (element, size) in elements.iter_mut().zip(model.sizes(factors)?) {
+        let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
+        check_length("positions of dynamic points", points.len(), t.ncols())?;
+        let mut all = Self::of_structure(structure);
+        let sizes = model.sizes(factors)?.into_iter();
+        let both = sizes.zip(model.mass_sizes(factors)?);
+        for (element, (size, mass_size)) in all.elements.iter_mut().zip(both) {
             element.size = size;
+            element.material.density *= mass_size / size;
         }
-        let labels = grids.iter().map(|grid| grid.label);
-        let largest = labels.chain(elements.iter().map(|element| element.label));
-        let base = first_free_label(largest.max().unwrap_or(0));
-        let (mut ties, mut masses) = (Vec::new(), Vec::new());
+        let base = all.first_free_label();
         for (column, &position) in points.iter().enumerate() {
             if (0..mass.nrows()).any(|row| row != column && mass[(row, column)] != 0.0) {
-                return Err(Error::CoupledMass { dof: column });
+                return Err(Error::CoupledMass { dof: column }.into());
             }
             let label = base + column;
-            let mut held = [true; 3];
-            held[DYNAMIC_DIRECTION] = false;
-            grids.push(Grid {
+            let mut constrained = [true; 3];
+            constrained[DYNAMIC_DIRECTION] = false;
+            all.grids.push(Grid {
                 label,
                 position,
-                held,
+                constrained,
             });
             let free = structure.free_dof().iter().copied();
-            ties.push(Tie {
+            all.ties.push(Tie {
                 dependent: StructuralDof {
                     grid: label,
                     direction: DYNAMIC_DIRECTION,
@@ -120,40 +122,42 @@ impl BulkData {
                     .filter(|(_, coefficient)| *coefficient != 0.0)
                     .collect(),
             });
-            masses.push(PointMass {
-                label,
-                grid: label,
-                direction: Some(DYNAMIC_DIRECTION),
-                mass: mass[(column, column)],
-            });
+            if mass[(column, column)] != 0.0 {
+                all.masses.push(PointMass {
+                    label,
+                    grid: label,
+                    direction: Some(DYNAMIC_DIRECTION),
+                    mass: mass[(column, column)],
+                });
+            }
         }
-        grids.sort_by_key(|grid| grid.label);
-        elements.sort_by_key(|element| element.label);
-        Ok(Self {
-            grids,
-            elements,
-            ties,
-            masses,
-        })
+        all.grids.sort_by_key(|grid| grid.label);
+        all.elements.sort_by_key(|element| element.label);
+        Ok(all)
     }
 
-    /// The structure: its free DOF are those that neither an SPC1 card holds nor an MPC equation makes dependent.
+    /// The first number after the next multiple of a hundred above every grid, element and mass.
+    pub(crate) fn first_free_label(&self) -> usize {
+        let grids = self.grids.iter().map(|grid| grid.label);
+        let elements = self.elements.iter().map(|element| element.label);
+        let masses = self.masses.iter().map(|mass| mass.label);
+        let largest = grids.chain(elements).chain(masses).max().unwrap_or(0);
+        LABEL_STEP * (largest / LABEL_STEP + 1) + 1
+    }
+
+    /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent.
     ///
     /// # Errors
-    /// [`Error::TiedElement`] for an element at a dependent DOF; those of [`Structure::new`].
-    pub fn structure(&self) -> Result<Structure, Error> {
-        let tied: HashSet<(usize, usize)> = self
-            .ties
-            .iter()
-            .map(|tie| (tie.dependent.grid, tie.dependent.direction))
-            .collect();
+    /// [`FileError::TiedElement`] for an element at a dependent DOF; those of [`Structure::new`].
+    pub fn structure(&self) -> Result<Structure, FileError> {
+        let tied = self.tie_of();
         for element in &self.elements {
             for &grid in &element.grids {
-                if let Some(direction) = (0..3).find(|&d| tied.contains(&(grid, d))) {
-                    return Err(Error::TiedElement {
+                if let Some(direction) = (0..3).find(|&d| tied.contains_key(&(grid, d))) {
+                    return Err(FileError::TiedElement {
                         element: element.label,
                         grid,
-                        direction: crate::method::structure::DIRECTIONS[direction],
+                        direction: DIRECTIONS[direction],
                     });
                 }
             }
@@ -161,56 +165,60 @@ impl BulkData {
         let mut grids = self.grids.clone();
         for grid in &mut grids {
             for direction in 0..3 {
-                grid.held[direction] |= tied.contains(&(grid.label, direction));
+                grid.constrained[direction] |= tied.contains_key(&(grid.label, direction));
             }
         }
-        Structure::new(grids, self.elements.clone())
+        Ok(Structure::new(grids, self.elements.clone())?)
     }
 
-    /// The DOF with mass, free or dependent: masses of CMASS2 and CONM2 cards and the lumped ones of elements with a density.
+    /// The equation of every dependent DOF, by grid and direction.
+    fn tie_of(&self) -> HashMap<(usize, usize), &Tie> {
+        let ties = self.ties.iter();
+        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie))
+            .collect()
+    }
+
+    /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of elements with
+    /// a density, given by their matrices.
     ///
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
-    /// Masses on held DOF do not move.
+    /// Masses on constrained DOF do not move.
     ///
     /// # Errors
-    /// The geometry errors of elements with a density.
-    pub fn dynamic_dof(&self, structure: &Structure) -> Result<DynamicDof, Error> {
+    /// [`Error::Empty`] when no mass can move.
+    pub fn mass_dof(
+        &self,
+        structure: &Structure,
+        elements: &[ElementMatrix],
+    ) -> Result<MassDof, FileError> {
+        let free = structure.free_dof();
+        let lumped = lumped_mass(elements, &self.sizes(), free.len());
         let mut mass: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        for (dof, &lumped) in free.iter().zip(&lumped) {
+            mass.insert((dof.grid, dof.direction), lumped);
+        }
         for point in &self.masses {
-            for direction in 0..3 {
-                if point.direction.is_none_or(|own| own == direction) {
-                    *mass.entry((point.grid, direction)).or_default() += point.mass;
-                }
+            for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
+                *mass.entry((point.grid, direction)).or_default() += point.mass;
             }
         }
-        for element in self.elements.iter().filter(|e| e.material.density > 0.0) {
-            let corners = structure.corners(element);
-            let volumes = crate::method::elements::mass::corner_volumes(element.kind, &corners)
-                .map_err(|error| error.in_element(element.label))?;
-            for (&grid, volume) in element.grids.iter().zip(volumes) {
-                for direction in 0..3 {
-                    *mass.entry((grid, direction)).or_default() +=
-                        element.material.density * element.size * volume;
-                }
-            }
-        }
-        let tie_of: HashMap<(usize, usize), &Tie> = self
-            .ties
-            .iter()
-            .map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie))
-            .collect();
+        let tie_of = self.tie_of();
         let (mut dof, mut columns, mut masses) = (Vec::new(), Vec::new(), Vec::new());
-        for ((grid, direction), mass) in mass {
-            let mut column = DVector::zeros(structure.free_dof().len());
-            if let Some(tie) = tie_of.get(&(grid, direction)) {
-                for (term, coefficient) in &tie.terms {
-                    // A held DOF does not move and adds nothing.
-                    if let Some(row) = structure.free_dof_index(term.grid, term.direction) {
-                        column[row] -= coefficient / tie.coefficient;
+        for ((grid, direction), mass) in mass.into_iter().filter(|(_, mass)| *mass > 0.0) {
+            let mut column = DVector::zeros(free.len());
+            let mut add = |grid, direction, coefficient| {
+                // A constrained DOF does not move and adds nothing.
+                if let Some(row) = structure.free_dof_index(grid, direction) {
+                    column[row] += coefficient;
+                }
+            };
+            match tie_of.get(&(grid, direction)) {
+                Some(tie) => {
+                    for (term, coefficient) in &tie.terms {
+                        add(term.grid, term.direction, -coefficient / tie.coefficient);
                     }
                 }
-            } else if let Some(row) = structure.free_dof_index(grid, direction) {
-                column[row] = 1.0;
+                None => add(grid, direction, 1.0),
             }
             if column.amax() > 0.0 {
                 dof.push(StructuralDof { grid, direction });
@@ -219,19 +227,29 @@ impl BulkData {
             }
         }
         if columns.is_empty() {
-            return Err(Error::Empty {
-                what: "degrees of freedom with mass",
-            });
+            let what = "degrees of freedom with mass";
+            return Err(Error::Empty { what }.into());
         }
-        Ok(DynamicDof {
+        Ok(MassDof {
             dof,
             load_distribution: DMatrix::from_columns(&columns),
             mass: DVector::from_vec(masses),
         })
     }
+
+    fn sizes(&self) -> Vec<f64> {
+        self.elements.iter().map(|element| element.size).collect()
+    }
 }
 
-/// The first number after the next multiple of a hundred above `largest`.
-pub(crate) fn first_free_label(largest: usize) -> usize {
-    LABEL_STEP * (largest / LABEL_STEP + 1) + 1
+/// All modes of finite frequency of the model that a deck describes, at its DOF with mass ([`BulkData::mass_dof`]).
+///
+/// # Errors
+/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements and the factorization of $K_S$.
+pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
+    let structure = model.structure()?;
+    let elements = element_matrices(&structure)?;
+    let at = model.mass_dof(&structure, &elements)?;
+    let stiffness = FactorizedStiffness::new(&elements, &model.sizes(), structure.free_dof())?;
+    Ok(whole_modes(&stiffness, at)?)
 }

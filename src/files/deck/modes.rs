@@ -4,7 +4,7 @@ use super::model::BulkData;
 use crate::method::assembly::{FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::modes::{Modes, apply_sign_rule};
+use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use nalgebra::{DMatrix, DVector};
 
@@ -55,16 +55,10 @@ pub fn modes(model: &BulkData) -> Result<DeckModes, Error> {
     for (mut row, root_mass) in shapes.row_iter_mut().zip(root_mass.iter()) {
         row /= *root_mass;
     }
-    apply_sign_rule(&mut shapes);
+    let omega_squared = roots.select_rows(&finite).map(f64::recip);
     Ok(DeckModes {
         dof: dynamic.dof,
-        modes: Modes {
-            omega_squared: DVector::from_iterator(
-                finite.len(),
-                finite.iter().map(|&mode| roots[mode].recip()),
-            ),
-            shapes,
-        },
+        modes: Modes::ascending(omega_squared, shapes),
     })
 }
 

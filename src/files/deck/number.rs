@@ -52,7 +52,7 @@ pub fn large_real(value: f64) -> Option<String> {
 }
 
 /// The nearest number that a 16-character field can hold; `value` itself if there is none.
-pub fn held_by_field(value: f64) -> f64 {
+pub fn nearest_in_field(value: f64) -> f64 {
     large_real(value)
         .and_then(|text| parse_real(&text))
         .unwrap_or(value)

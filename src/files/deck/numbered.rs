@@ -1,7 +1,7 @@
 //! Cards by the number they give a grid, an element, a property or a material.
 
 use super::card::Card;
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use std::collections::BTreeMap;
 
 /// What a card says, with the card for messages.
@@ -28,8 +28,8 @@ impl<T> Numbered<T> {
     /// Adds the entry whose number stands in field `start`.
     ///
     /// # Errors
-    /// [`Error::DeckField`] for a bad number or one that another card has.
-    pub fn insert(&mut self, card: &Card, start: usize, value: T) -> Result<(), Error> {
+    /// [`FileError::DeckField`] for a bad number or one that another card has.
+    pub fn insert(&mut self, card: &Card, start: usize, value: T) -> Result<(), FileError> {
         let label = card.label(start)?;
         if let Some(first) = self.0.get(&label) {
             let line = first.card.line;
@@ -46,8 +46,8 @@ impl<T> Numbered<T> {
     /// The entry that a field of another card refers to.
     ///
     /// # Errors
-    /// [`Error::DeckField`] about that field when there is none; `what` is the card looked for.
-    pub fn referred(&self, card: &Card, field: usize, what: &str) -> Result<&Kept<T>, Error> {
+    /// [`FileError::DeckField`] about that field when there is none; `what` is the card looked for.
+    pub fn referred(&self, card: &Card, field: usize, what: &str) -> Result<&Kept<T>, FileError> {
         self.0
             .get(&card.label(field)?)
             .ok_or_else(|| card.error(field, format!("the number of a {what} card")))

@@ -6,7 +6,7 @@ use super::continuation::{Cards, cut};
 use super::elements::{ElementCards, point_mass};
 use super::model::{BulkData, PointMass};
 use super::numbered::Numbered;
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use crate::method::structure::Grid;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -48,8 +48,8 @@ pub enum Reason {
 /// what the structure is.
 ///
 /// # Errors
-/// [`Error::DeckLine`] and [`Error::DeckField`] name file, line, card and field.
-pub fn read(file: &str, text: &str) -> Result<Deck, Error> {
+/// [`FileError::DeckLine`] and [`FileError::DeckField`] name file, line, card and field.
+pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
     let Cards { cards, selected } = cut(file, text)?;
     let mut unread = Vec::new();
     let mut default: Option<Card> = None;
@@ -65,7 +65,7 @@ pub fn read(file: &str, text: &str) -> Result<Deck, Error> {
                 continue;
             }
             "GRDSET" if default.is_some() => {
-                return Err(Error::DeckLine {
+                return Err(FileError::DeckLine {
                     file: file.to_owned(),
                     line,
                     expected: "one GRDSET card at most",
@@ -92,7 +92,7 @@ pub fn read(file: &str, text: &str) -> Result<Deck, Error> {
     let mut grids: BTreeMap<usize, Grid> = grids
         .iter()
         .map(|(label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)))
-        .collect::<Result<_, Error>>()?;
+        .collect::<Result<_, FileError>>()?;
     constraints.hold(&mut grids)?;
     let known = |card: &Card, field: usize| {
         let label = card.label(field)?;
@@ -107,7 +107,7 @@ pub fn read(file: &str, text: &str) -> Result<Deck, Error> {
             known(&kept.card, if kept.card.name == "CMASS2" { 4 } else { 3 })?;
             Ok(kept.value.clone())
         })
-        .collect::<Result<Vec<PointMass>, Error>>()?;
+        .collect::<Result<Vec<PointMass>, FileError>>()?;
     let model = BulkData {
         elements: elements.elements(known)?,
         ties: constraints.ties(&grids)?,
@@ -118,7 +118,7 @@ pub fn read(file: &str, text: &str) -> Result<Deck, Error> {
 }
 
 /// A grid; what GRDSET says counts where its own card has blanks.
-fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, Error> {
+fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
     let chosen = |field: usize| match default {
         Some(default) if card.text(field).is_empty() => default,
         _ => card,
@@ -129,6 +129,6 @@ fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, Error
     Ok(Grid {
         label,
         position: Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?),
-        held: chosen(8).directions(8)?,
+        constrained: chosen(8).directions(8)?,
     })
 }

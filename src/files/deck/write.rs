@@ -3,7 +3,7 @@
 use super::card::{Entry, write_card};
 use super::elements::ELEMENT_CARDS;
 use super::model::{BulkData, PointMass};
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use crate::method::structure::{Grid, Material};
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
@@ -31,7 +31,7 @@ pub enum Task {
 ///
 /// # Errors
 /// Those of [`bulk_data`].
-pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, Error> {
+pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
     let mut text = String::from(
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n",
     );
@@ -81,9 +81,9 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, Error
 ///
 /// # Errors
 /// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
-pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
+pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, FileError> {
     let mut text = String::new();
-    let mut put = |name: &str, entries: &[Entry], large: bool| -> Result<(), Error> {
+    let mut put = |name: &str, entries: &[Entry], large: bool| -> Result<(), FileError> {
         text.push_str(&write_card(name, entries, large, tag)?);
         Ok(())
     };
@@ -176,21 +176,21 @@ pub fn bulk_data(model: &BulkData, tag: &mut usize) -> Result<String, Error> {
         }
         put("MPC", &entries, false)?;
     }
-    for entries in held_cards(&model.grids) {
+    for entries in constraint_cards(&model.grids) {
         put("SPC1", &entries, false)?;
     }
     Ok(text)
 }
 
-/// Fields of the SPC1 cards, one for every run of grids that are held alike. The rotations of every grid are held, for
+/// Fields of the SPC1 cards, one for every run of grids that are constrained alike. The rotations of every grid are constrained, for
 /// nothing here resists them.
-fn held_cards(grids: &[Grid]) -> Vec<Vec<Entry>> {
+fn constraint_cards(grids: &[Grid]) -> Vec<Vec<Entry>> {
     grids
-        .chunk_by(|a, b| a.held == b.held && a.label + 1 == b.label)
+        .chunk_by(|a, b| a.constrained == b.constrained && a.label + 1 == b.label)
         .map(|run| {
             let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
-            let held = (0..3).filter(|&direction| first.held[direction]);
-            let mut components: String = held
+            let constrained = (0..3).filter(|&direction| first.constrained[direction]);
+            let mut components: String = constrained
                 .map(|direction| (b'1' + direction as u8) as char)
                 .collect();
             components.push_str("456");

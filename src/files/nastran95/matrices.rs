@@ -2,11 +2,12 @@
 
 use super::Matrices;
 use crate::files::deck::BulkData;
-use crate::files::deck::model::first_free_label;
+use crate::files::error::FileError;
 use crate::method::assembly::dense_stiffness;
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{Element, Grid, Structure};
+use crate::method::whole_modes::lumped_mass;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
@@ -20,10 +21,7 @@ const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
 /// The model with every element a second time, alone, on fixed grids of its own after all others.
 pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
     let mut all = bulk.clone();
-    let labels = bulk.grids.iter().map(|grid| grid.label);
-    let labels = labels.chain(bulk.elements.iter().map(|element| element.label));
-    let labels = labels.chain(bulk.masses.iter().map(|mass| mass.label));
-    let base = first_free_label(labels.max().unwrap_or(0));
+    let base = bulk.first_free_label();
     let position: HashMap<usize, _> = bulk
         .grids
         .iter()
@@ -37,7 +35,7 @@ pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
             all.grids.push(Grid {
                 label,
                 position: *corner,
-                held: [true; 3],
+                constrained: [true; 3],
             });
         }
         all.elements.push(Element {
@@ -52,12 +50,12 @@ pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
 /// Unit stiffness of every element at its free DOF, in the order of the model's structure, from the blocks of KGG.
 ///
 /// # Errors
-/// [`Error::SolverAnswer`] for a KGG that does not fit the deck.
+/// [`FileError::SolverAnswer`] for a KGG that does not fit the deck.
 pub(super) fn unit_stiffness(
     model: &FiniteElementModel,
     bulk: &BulkData,
     answer: &Matrices,
-) -> Result<Vec<DMatrix<f64>>, Error> {
+) -> Result<Vec<DMatrix<f64>>, FileError> {
     let corners: usize = bulk
         .elements
         .iter()
@@ -104,22 +102,22 @@ fn free_rows(structure: &Structure, element: &Element, start: usize) -> Vec<usiz
 /// Elements are told apart by their place in KGG alone; this check is what makes that safe.
 ///
 /// # Errors
-/// [`Error::SolverAnswer`].
+/// [`FileError::SolverAnswer`].
 pub(super) fn check_assembled(
     model: &FiniteElementModel,
     factors: &[f64],
     answer: &Matrices,
-) -> Result<(), Error> {
+) -> Result<(), FileError> {
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
     let t = model.load_distribution();
-    let mut mass = t * model.mass() * t.transpose();
-    for (element, size) in model.element_matrices().iter().zip(&sizes) {
-        for (&row, unit) in element.dof.iter().zip(element.unit_mass.iter()) {
-            mass[(row, row)] += size * unit;
-        }
-    }
+    let lumped = lumped_mass(
+        model.element_matrices(),
+        &model.mass_sizes(factors)?,
+        free.len(),
+    );
+    let mass = t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
@@ -141,7 +139,7 @@ pub(super) fn check_assembled(
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
         if difference.is_nan() || difference > limit {
-            return Err(Error::SolverAnswer {
+            return Err(FileError::SolverAnswer {
                 expected: format!(
                     "{name} to be {expected} within {limit:.0e} of its largest entry"
                 ),
@@ -152,15 +150,19 @@ pub(super) fn check_assembled(
     Ok(())
 }
 
-fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, Error> {
+fn matrix<'a>(
+    answer: &'a Matrices,
+    name: &str,
+    size: usize,
+) -> Result<&'a DMatrix<f64>, FileError> {
     let expected = || format!("a matrix {name} of {size} rows and columns");
     match answer.get(name) {
         Some(matrix) if matrix.shape() == (size, size) => Ok(matrix),
-        Some(matrix) => Err(Error::SolverAnswer {
+        Some(matrix) => Err(FileError::SolverAnswer {
             expected: expected(),
             found: format!("{} x {}", matrix.nrows(), matrix.ncols()),
         }),
-        None => Err(Error::SolverAnswer {
+        None => Err(FileError::SolverAnswer {
             expected: expected(),
             found: "none".into(),
         }),

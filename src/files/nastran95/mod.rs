@@ -19,8 +19,7 @@ mod output5;
 mod process;
 
 use crate::files::deck::{BulkData, Task, write};
-use crate::method::error::Error;
-use crate::method::modal::DynamicModel;
+use crate::files::error::FileError;
 use crate::method::model::FiniteElementModel;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -65,9 +64,9 @@ impl Nastran95 {
     /// The program in a folder that holds `bin/nastrn` and `rf/`, the rigid formats.
     ///
     /// # Errors
-    /// [`Error::SolverMissing`] if the folder does not hold them.
-    pub fn in_folder(home: &Path) -> Result<Self, Error> {
-        let missing = || Error::SolverMissing {
+    /// [`FileError::SolverMissing`] if the folder does not hold them.
+    pub fn in_folder(home: &Path) -> Result<Self, FileError> {
+        let missing = || FileError::SolverMissing {
             path: home.to_owned(),
         };
         // A relative path would mean another folder once the program runs in its scratch folder.
@@ -87,21 +86,21 @@ impl Nastran95 {
     /// All files of the run are in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
-    /// [`Error::SolverTimeLimit`], [`Error::SolverInterrupted`], [`Error::SolverCrashed`], [`Error::SolverFatal`] with
-    /// NASTRAN's own message; [`Error::File`].
-    pub fn run(&self, deck: &str) -> Result<Answer, Error> {
+    /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`], [`FileError::SolverFatal`] with
+    /// NASTRAN's own message; [`FileError::File`].
+    pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         process::run(self, &self.home, deck)
     }
 
     /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15.
     ///
     /// # Errors
-    /// Those of [`Self::run`]; [`Error::SolverAnswer`] when it writes nothing or something else.
-    pub fn matrices(&self, deck: &str) -> Result<Matrices, Error> {
+    /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
+    pub fn matrices(&self, deck: &str) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
         match answer.unit_15 {
             Some(text) => read_output5(&text),
-            None => Err(Error::SolverAnswer {
+            None => Err(FileError::SolverAnswer {
                 expected: "matrices on Fortran unit 15".into(),
                 found: format!(
                     "none; printed last: {}",
@@ -111,16 +110,16 @@ impl Nastran95 {
         }
     }
 
-    /// The finite element analysis at the given parameter factors, as [`FiniteElementModel::analyze`] with NASTRAN's elements.
+    /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`], [`BulkData::of`] and [`FiniteElementModel::analyze`]; [`Error::SolverAnswer`] when
+    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when
     /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
-    pub fn analyze(
+    pub fn elements(
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
-    ) -> Result<DynamicModel, Error> {
+    ) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
@@ -133,6 +132,6 @@ impl Nastran95 {
         let units = matrices::unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;
         matrices::check_assembled(&model, factors, &answer)?;
-        model.analyze(factors)
+        Ok(model)
     }
 }

@@ -1,6 +1,6 @@
 //! The formatted file of NASTRAN's module OUTPUT5.
 
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
@@ -26,17 +26,17 @@ const LARGEST: usize = 20_000;
 /// a column of number zero begins the next matrix.
 ///
 /// # Errors
-/// [`Error::SolverAnswer`] naming the line for anything else.
-pub fn read_output5(text: &str) -> Result<Matrices, Error> {
+/// [`FileError::SolverAnswer`] naming the line for anything else.
+pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
-    let wrong = |line: usize, expected: &str| Error::SolverAnswer {
+    let wrong = |line: usize, expected: &str| FileError::SolverAnswer {
         expected: format!("{expected} in line {} of the OUTPUT5 file", line + 1),
         found: lines
             .get(line)
             .map_or("its end", |line| line.trim())
             .to_owned(),
     };
-    let integer = |line: usize, start: usize| -> Result<usize, Error> {
+    let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         lines
             .get(line)
             .and_then(|text| text.get(start..start + INTEGER))

@@ -1,7 +1,7 @@
 //! One run of the program: its files in a temporary folder, its time limited.
 
 use super::{Answer, Nastran95};
-use crate::method::error::Error;
+use crate::files::error::FileError;
 use std::fs::File;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -23,14 +23,14 @@ const ANSWER: &str = "ftn15";
 const MESSAGE_LINES: usize = 3;
 
 /// Runs a deck in a folder of its own.
-pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer, Error> {
+pub(super) fn run(solver: &Nastran95, home: &Path, deck: &str) -> Result<Answer, FileError> {
     let scratch = tempfile::Builder::new()
         .prefix("corfem-nastran95-")
         .tempdir()
-        .map_err(failed(&std::env::temp_dir(), "write"))?;
+        .map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
     let answer = in_scratch(solver, home, deck, scratch.path());
     let path = scratch.path().to_owned();
-    let removed = scratch.close().map_err(failed(&path, "remove"));
+    let removed = scratch.close().map_err(FileError::of_file(&path, "remove"));
     // What went wrong with the run matters more than what went wrong in tidying up.
     let answer = answer?;
     removed?;
@@ -42,11 +42,12 @@ fn in_scratch(
     home: &Path,
     deck: &str,
     scratch: &Path,
-) -> Result<Answer, Error> {
+) -> Result<Answer, FileError> {
     let path = |name: &str| scratch.join(name);
-    std::fs::write(path("deck"), deck).map_err(failed(&path("deck"), "write"))?;
-    let open = |name: &str| File::open(path(name)).map_err(failed(&path(name), "read"));
-    let create = |name: &str| File::create(path(name)).map_err(failed(&path(name), "write"));
+    std::fs::write(path("deck"), deck).map_err(FileError::of_file(&path("deck"), "write"))?;
+    let open = |name: &str| File::open(path(name)).map_err(FileError::of_file(&path(name), "read"));
+    let create =
+        |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
     let program = home.join(PROGRAM);
     let mut command = Command::new(&program);
     command
@@ -74,15 +75,17 @@ fn in_scratch(
         command.env(format!("FTN{unit}"), path(&format!("ftn{unit}")));
     }
     own_group(&mut command);
-    let child = command.spawn().map_err(failed(&program, "run"))?;
+    let child = command
+        .spawn()
+        .map_err(FileError::of_file(&program, "run"))?;
     let status = wait(solver, child, &program)?;
     let printed = read(&path("printed"))?;
     if let Some(message) = fatal_message(&printed) {
-        return Err(Error::SolverFatal { message });
+        return Err(FileError::SolverFatal { message });
     }
     if !status.success() {
         let errors = read(&path("errors"))?;
-        return Err(Error::SolverCrashed {
+        return Err(FileError::SolverCrashed {
             status: status.to_string(),
             message: last_lines(&format!("{printed}\n{errors}")),
         });
@@ -95,20 +98,23 @@ fn in_scratch(
 }
 
 /// Waits for the end of the program, but not for ever.
-fn wait(solver: &Nastran95, child: Child, program: &Path) -> Result<ExitStatus, Error> {
+fn wait(solver: &Nastran95, child: Child, program: &Path) -> Result<ExitStatus, FileError> {
     let mut running = Running(child);
     let start = Instant::now();
     loop {
-        let status = running.0.try_wait().map_err(failed(program, "run"))?;
+        let status = running
+            .0
+            .try_wait()
+            .map_err(FileError::of_file(program, "run"))?;
         if let Some(status) = status {
             return Ok(status);
         }
         if solver.stop.load(Ordering::Relaxed) {
-            return Err(Error::SolverInterrupted);
+            return Err(FileError::SolverInterrupted);
         }
         if start.elapsed() >= solver.time_limit {
             let seconds = solver.time_limit.as_secs_f64();
-            return Err(Error::SolverTimeLimit { seconds });
+            return Err(FileError::SolverTimeLimit { seconds });
         }
         std::thread::sleep(POLL);
     }
@@ -182,16 +188,7 @@ pub(super) fn last_lines(text: &str) -> String {
 }
 
 /// A file's text; NASTRAN prints bytes that are no text.
-fn read(path: &Path) -> Result<String, Error> {
-    let bytes = std::fs::read(path).map_err(failed(path, "read"))?;
+fn read(path: &Path) -> Result<String, FileError> {
+    let bytes = std::fs::read(path).map_err(FileError::of_file(path, "read"))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-fn failed(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> Error {
-    let path = path.to_owned();
-    move |source| Error::File {
-        path,
-        action,
-        source,
-    }
 }

@@ -6,7 +6,7 @@ use crate::method::linear_algebra::{
     check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
     symmetric_eigen, symmetric_part,
 };
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
 /// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported.
@@ -56,7 +56,7 @@ pub struct Balanced {
 /// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode
 /// on the suspension and no test mode.
 pub fn balance(
-    raw: &Modes,
+    raw: &ModeSet,
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     rigid_body: &DMatrix<f64>,

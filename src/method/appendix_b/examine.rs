@@ -4,12 +4,12 @@ use super::balance::balance;
 use super::checked_generalized_masses;
 use super::orthogonalize::{Movement, Orthogonalized, orthogonalize};
 use crate::method::error::Error;
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
 /// How far a mode may move before it is deleted. All are fractions, and a matter of engineering judgment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct MovementLimits {
     /// Change of shape by balancing, [`super::Balanced::change`]; between 0 and 1.
     pub balance: f64,
     /// Change of frequency by orthogonalization, up or down, [`Movement::frequency`].
@@ -18,7 +18,7 @@ pub struct Limits {
     pub shape: f64,
 }
 
-impl Default for Limits {
+impl Default for MovementLimits {
     /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 % of
     /// frequency, several times what a resonance is measured to.
     fn default() -> Self {
@@ -30,7 +30,7 @@ impl Default for Limits {
     }
 }
 
-impl Limits {
+impl MovementLimits {
     fn check(&self) -> Result<(), Error> {
         let positive = "a positive finite number";
         for (name, found, upper, expected) in [
@@ -99,7 +99,7 @@ pub struct ModeReport {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Examination {
     /// The modes kept, balanced and orthonormal, in the order of the raw ones.
-    pub modes: Modes,
+    pub modes: ModeSet,
     /// Which raw modes they are, from zero.
     pub kept: Vec<usize>,
     /// One report for every raw mode.
@@ -123,10 +123,10 @@ pub struct Examination {
 /// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and [`orthogonalize`],
 /// with modes numbered as they came.
 pub fn examine(
-    raw: &Modes,
+    raw: &ModeSet,
     mass: &DMatrix<f64>,
     supports: Supports,
-    limits: &Limits,
+    limits: &MovementLimits,
 ) -> Result<Examination, Error> {
     limits.check()?;
     checked_generalized_masses(raw, mass)?;
@@ -137,7 +137,7 @@ pub fn examine(
             rigid_body,
         } => {
             let balanced = balance(raw, stiffness, mass, rigid_body)?;
-            let modes = Modes {
+            let modes = ModeSet {
                 omega_squared: raw.omega_squared.clone(),
                 shapes: balanced.shapes,
             };
@@ -183,15 +183,11 @@ pub fn examine(
 
 /// Orthogonalizes the modes kept; an error names a mode by its place among all.
 fn orthogonalize_kept(
-    balanced: &Modes,
+    balanced: &ModeSet,
     kept: &[usize],
     mass: &DMatrix<f64>,
 ) -> Result<Orthogonalized, Error> {
-    let chosen = Modes {
-        omega_squared: balanced.omega_squared.select_rows(kept),
-        shapes: balanced.shapes.select_columns(kept),
-    };
-    orthogonalize(&chosen, mass).map_err(|error| match error {
+    orthogonalize(&balanced.select(kept), mass).map_err(|error| match error {
         Error::DependentTestShape { mode } => Error::DependentTestShape { mode: kept[mode] },
         other => other,
     })
@@ -199,7 +195,7 @@ fn orthogonalize_kept(
 
 /// The place of the mode with the largest root sum of squares of its overlaps with the others; of equal ones, that
 /// which moved farthest.
-fn most_overlapping(result: &Orthogonalized, limits: &Limits) -> usize {
+fn most_overlapping(result: &Orthogonalized, limits: &MovementLimits) -> usize {
     let count = result.movement.len();
     let total = |place: usize| -> f64 {
         let others = (0..count).filter(|&other| other != place);

@@ -16,18 +16,18 @@ mod orthogonalize;
 mod rigid_body;
 
 pub use balance::{Balanced, LARGEST_SUSPENSION_RATIO, balance};
-pub use examine::{Examination, Limits, ModeReport, Supports, Verdict, examine};
+pub use examine::{Examination, ModeReport, MovementLimits, Supports, Verdict, examine};
 pub use orthogonalize::{Movement, Orthogonalized, generalized_mass, orthogonalize};
-pub use rigid_body::{ANTISYMMETRIC, DynamicDof, Motion, SYMMETRIC, rigid_body_vectors};
+pub use rigid_body::{ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors};
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape, cholesky};
-use crate::method::modes::Modes;
+use crate::method::modes::ModeSet;
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 
 /// Refuses test modes and masses that no step can work with; returns every shape's generalized mass $v_i^t M v_i$.
-fn checked_generalized_masses(raw: &Modes, mass: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
+fn checked_generalized_masses(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
     if raw.is_empty() {
         return Err(Error::Empty { what: "test modes" });
     }

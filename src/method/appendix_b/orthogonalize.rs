@@ -3,8 +3,8 @@
 use super::checked_generalized_masses;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{cholesky, symmetric_part};
-use crate::method::modes::{Modes, solve};
-use crate::method::pairing::{matched, pair_modes};
+use crate::method::modes::{ModeSet, solve};
+use crate::method::pairing::{pair_modes, paired};
 use nalgebra::DMatrix;
 
 /// Part of a unit shape that is independent of those before it, squared, below which it counts as dependent: an
@@ -32,7 +32,7 @@ pub struct Movement {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orthogonalized {
     /// The modes, $V^t M V = I$, in the order and with the signs of the raw ones.
-    pub modes: Modes,
+    pub modes: ModeSet,
     /// Overlaps of the raw shapes: $m_1$ (B.6) with every shape scaled to unit generalized mass (n × n).
     pub overlap: DMatrix<f64>,
     /// Each mode's movement.
@@ -64,7 +64,7 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
 /// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::DependentTestShape`] for a shape that
 /// is a combination of those before it.
-pub fn orthogonalize(raw: &Modes, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
+pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     let generalized_masses = checked_generalized_masses(raw, mass)?;
     let mut unit = raw.shapes.clone();
     for (mut shape, generalized_mass) in unit.column_iter_mut().zip(generalized_masses.iter()) {
@@ -93,8 +93,8 @@ pub fn orthogonalize(raw: &Modes, mass: &DMatrix<f64>) -> Result<Orthogonalized,
         raw.len(),
     )?;
     let pairing = pair_modes(&combined.shapes.tr_mul(&overlap))?;
-    let combined = matched(&combined, &pairing);
-    let modes = Modes {
+    let combined = paired(&combined, &pairing);
+    let modes = ModeSet {
         shapes: &unit * combined.shapes,
         omega_squared: combined.omega_squared,
     };

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Unit, Vector3};
 
 /// A dynamic degree of freedom: a measuring point and the direction measured there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DynamicDof {
+pub struct MeasuringPoint {
     /// Position, in: x aft, y outboard, z up, from the reference axes.
     pub position: Vector3<f64>,
     /// Direction of motion.
@@ -66,7 +66,10 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
-pub fn rigid_body_vectors(motions: &[Motion], dofs: &[DynamicDof]) -> Result<DMatrix<f64>, Error> {
+pub fn rigid_body_vectors(
+    motions: &[Motion],
+    dofs: &[MeasuringPoint],
+) -> Result<DMatrix<f64>, Error> {
     for (what, count) in [
         ("rigid-body motions", motions.len()),
         ("dynamic degrees of freedom", dofs.len()),

@@ -1,6 +1,6 @@
 //! Blocks of close modes: which modes form them, and the basis in which each block is diagonal.
 
-use super::ModalChange;
+use super::general::ModalChange;
 use super::recursive::check_root;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_symmetric, cholesky};

@@ -12,17 +12,17 @@
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
 use super::blocks::{BlockPencil, block_modes};
+use super::general::ModalChange;
 use super::general::QUIET_ORDERS;
 use super::recursive::{check_order, check_root};
-use super::{ModalChange, Perturbed, SMALLEST_SEPARATION};
+use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, symmetric_part};
 use crate::method::modes::apply_sign_rule;
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
 
 /// How [`close_roots`] tells close modes and when it stops.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloseRootsSettings {
     /// Two first-order roots are close when they differ by less than this fraction of the larger one, between 0
     /// and 1. A fraction of the place in the spectrum and not of its width: spectra span decades, and the width
@@ -48,10 +48,10 @@ impl Default for CloseRootsSettings {
 /// Roots and shapes after a change, and the modes that were too close for the recursion alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolvedInBlocks {
-    /// Roots and generalized shapes. Every shape has unit generalized mass, $p_j^t (k\Lambda + \alpha) p_j = 1$, and the
+    /// Roots and generalized shapes, and how far the recursion went. Every shape has unit generalized mass, $p_j^t (k\Lambda + \alpha) p_j = 1$, and the
     /// first of its largest components is positive. Within a block the modes stand in ascending order of
     /// frequency; any other mode $j$ continues mode $j$.
-    pub perturbed: Perturbed,
+    pub settled: Settled,
     /// The blocks of two or more close modes, each ascending; empty when all roots were apart.
     pub blocks: Vec<Vec<usize>>,
 }
@@ -66,7 +66,7 @@ pub struct SolvedInBlocks {
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::LostStiffness`] for bad
 /// input; [`Error::Setting`] for a separation outside 0 to 1 or no orders; [`Error::NotPositiveDefinite`] when the
-/// changed mass is not; [`Error::LostRoot`] when a root loses its sign; [`Error::CoalescingModes`] when the
+/// changed mass is not; [`Error::UnsettledRoots`]; [`Error::LostRoot`] when a root loses its sign; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
 pub fn close_roots(
     change: &ModalChange<f64>,
@@ -106,12 +106,12 @@ pub fn close_roots(
     check_finite("perturbed generalized shapes", &shapes)?;
     apply_sign_rule(&mut shapes);
     Ok(SolvedInBlocks {
-        perturbed: Perturbed {
-            roots,
-            shapes,
+        settled: Settled {
+            perturbed: Perturbed { roots, shapes },
             order,
             last_change,
-        },
+        }
+        .check(settings.orders)?,
         blocks: pencil
             .blocks
             .into_iter()
@@ -146,7 +146,7 @@ fn recursion(pencil: &BlockPencil, settings: CloseRootsSettings) -> Result<Recur
             })
             .collect(),
         order: 0,
-        last_change: f64::INFINITY,
+        last_change: 1.0,
     };
     let mut quiet_orders = 0;
     // The first round makes the first-order shapes and leaves the roots alone: its sums hold nothing yet.

@@ -3,7 +3,7 @@
 //!
 //! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$; both are given in rad²/s².
 
-use super::{Perturbed, SMALLEST_SEPARATION};
+use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
@@ -13,11 +13,12 @@ use nalgebra::{DMatrix, DVector};
 /// $$ \Delta\lambda_i = -\frac{\lambda_i \beta_{ii}}{k_{ii} + \beta_{ii}}, \qquad
 ///    p_{ij} = -\frac{\beta_{ij}}{k_{ii} + \beta_{ii} - 1/\gamma_j} $$
 ///
-/// so that $\gamma_i = \lambda_i + \Delta\lambda_i = 1/(k_{ii} + \beta_{ii})$: Rayleigh's quotient on the old shape.
+/// so that $\gamma_i = \lambda_i + \Delta\lambda_i = 1/(k_{ii} + \beta_{ii})$: Rayleigh's quotient on the old shape. Modes that
+/// the change does not couple, $\beta_{ij} = 0$, may have equal roots.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
-/// [`Error::CoalescingModes`] when a denominator vanishes.
+/// [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
 pub fn first_order(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
@@ -25,26 +26,17 @@ pub fn first_order(
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
     let k = generalized_stiffness;
-    let (mut roots, mut shapes) = (DVector::zeros(size), DMatrix::zeros(size, size));
+    let (mut roots, mut shapes) = (DVector::zeros(size), DMatrix::identity(size, size));
     for i in 0..size {
         roots[i] = 1.0 / (k[i] + beta[(i, i)]);
         check_root(i, roots[i])?;
     }
     for j in 0..size {
-        for i in 0..size {
-            shapes[(i, j)] = if i == j {
-                1.0
-            } else {
-                -beta[(i, j)] / denominator(k, beta, roots[j], i, j)?
-            };
+        for i in (0..size).filter(|&i| i != j) {
+            shapes[(i, j)] = quotient(-beta[(i, j)], k, beta, roots[j], (i, j))?;
         }
     }
-    Ok(Perturbed {
-        roots,
-        shapes,
-        order: 1,
-        last_change: f64::INFINITY,
-    })
+    Ok(Perturbed { roots, shapes })
 }
 
 /// Recursive 1 (7, 8, C.22) to a given order, from first order on; with $\rho = r - 1$:
@@ -63,55 +55,70 @@ pub fn recursive_1(
     order: usize,
 ) -> Result<Perturbed, Error> {
     check_order(order)?;
-    // No change is below a negative tolerance, so every order asked for is carried out.
-    recursive_1_converged(generalized_stiffness, beta, -1.0, order)
+    let mut now = first_order(generalized_stiffness, beta)?;
+    let coupling = without_diagonal(beta);
+    for _ in 2..=order {
+        next_order(generalized_stiffness, beta, &coupling, &mut now)?;
+    }
+    Ok(now)
 }
 
 /// [`recursive_1`] until no root changes by more than `tolerance` (relative), at most to order `orders`.
 ///
-/// Whether it converged is seen by comparing `last_change` with `tolerance`.
-///
 /// # Errors
-/// As [`recursive_1`].
+/// As [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
+/// [`super::LARGEST_UNSETTLED_CHANGE`], as happens where roots are close.
 pub fn recursive_1_converged(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
     tolerance: f64,
     orders: usize,
-) -> Result<Perturbed, Error> {
+) -> Result<Settled, Error> {
     check_order(orders)?;
-    let k = generalized_stiffness;
-    let mut now = first_order(k, beta)?;
-    let size = k.len();
+    let mut now = first_order(generalized_stiffness, beta)?;
+    let coupling = without_diagonal(beta);
+    let (mut order, mut last_change) = (1, 1.0);
+    while order < orders && last_change >= tolerance {
+        last_change = next_order(generalized_stiffness, beta, &coupling, &mut now)?;
+        order += 1;
+    }
+    Settled {
+        perturbed: now,
+        order,
+        last_change,
+    }
+    .check(orders)
+}
+
+fn without_diagonal(beta: &DMatrix<f64>) -> DMatrix<f64> {
     let mut coupling = beta.clone();
     coupling.fill_diagonal(0.0);
-    let mut sums = DMatrix::zeros(size, size);
-    for order in 2..=orders {
-        // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
-        // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
-        coupling.mul_to(&now.shapes, &mut sums);
-        let mut change = 0.0_f64;
-        for j in 0..size {
-            let gamma = now.roots[j];
-            for i in 0..size {
-                if i != j {
-                    now.shapes[(i, j)] = -sums[(i, j)] / denominator(k, beta, gamma, i, j)?;
-                }
-            }
-            let lambda = 1.0 / k[j];
-            let root =
-                lambda - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
-            check_root(j, root)?;
-            change = change.max((root / gamma - 1.0).abs());
-            now.roots[j] = root;
+    coupling
+}
+
+/// One order of Recursive 1 in place; returns the largest relative change of a root.
+fn next_order(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    coupling: &DMatrix<f64>,
+    now: &mut Perturbed,
+) -> Result<f64, Error> {
+    // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
+    // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
+    let sums = coupling * &now.shapes;
+    let mut largest_change = 0.0_f64;
+    for j in 0..k.len() {
+        let gamma = now.roots[j];
+        for i in (0..k.len()).filter(|&i| i != j) {
+            now.shapes[(i, j)] = quotient(-sums[(i, j)], k, beta, gamma, (i, j))?;
         }
-        now.order = order;
-        now.last_change = change;
-        if change < tolerance {
-            break;
-        }
+        let lambda = 1.0 / k[j];
+        let root = lambda - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+        check_root(j, root)?;
+        largest_change = largest_change.max((root / gamma - 1.0).abs());
+        now.roots[j] = root;
     }
-    Ok(now)
+    Ok(largest_change)
 }
 
 /// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.
@@ -132,12 +139,9 @@ pub fn recursive_2(
     check_order(order)?;
     let k = generalized_stiffness;
     let mut now = first_order(k, beta)?;
-    for order in 2..=order {
-        let roots = explicit_roots(k, beta, &now.shapes)?;
-        now.last_change = largest_change(&roots, &now.roots);
-        now.shapes = shapes_by_linear_solution(k, beta, &roots)?;
-        now.roots = roots;
-        now.order = order;
+    for _ in 2..=order {
+        now.roots = explicit_roots(k, beta, &now.shapes)?;
+        now.shapes = shapes_by_linear_solution(k, beta, &now.roots)?;
     }
     Ok(now)
 }
@@ -152,20 +156,11 @@ pub fn original(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
 ) -> Result<Perturbed, Error> {
-    let mut now = first_order(generalized_stiffness, beta)?;
-    let roots = explicit_roots(generalized_stiffness, beta, &now.shapes)?;
-    now.last_change = largest_change(&roots, &now.roots);
-    now.roots = roots;
-    now.order = 2;
-    Ok(now)
-}
-
-/// Largest relative change from one order's roots to the next.
-fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
-    new.iter()
-        .zip(old.iter())
-        .map(|(new, old)| (new / old - 1.0).abs())
-        .fold(0.0, f64::max)
+    let Perturbed { shapes, .. } = first_order(generalized_stiffness, beta)?;
+    Ok(Perturbed {
+        roots: explicit_roots(generalized_stiffness, beta, &shapes)?,
+        shapes,
+    })
 }
 
 /// Roots from given shapes, $\gamma_i = \lambda_i - \lambda_i S_i/(k_{ii}+S_i)$ (C.24).
@@ -197,13 +192,14 @@ fn shapes_by_linear_solution(
         return Ok(shapes);
     }
     for j in 0..size {
-        let others: Vec<usize> = (0..size).filter(|&i| i != j).collect();
-        let mut system = beta.select_rows(&others).select_columns(&others);
-        for (row, &i) in others.iter().enumerate() {
-            system[(row, row)] += k[i] - 1.0 / roots[j];
+        let mut rows = beta.clone();
+        for i in 0..size {
+            rows[(i, i)] += k[i] - 1.0 / roots[j];
         }
-        let right = -beta.column(j).select_rows(&others);
-        let solution = system
+        let right = -rows.column(j).remove_row(j);
+        let solution = rows
+            .remove_row(j)
+            .remove_column(j)
             .lu()
             .solve(&right)
             .filter(|solution| solution.iter().all(|value| value.is_finite()))
@@ -212,32 +208,34 @@ fn shapes_by_linear_solution(
                 second: j,
                 separation: 0.0,
             })?;
-        for (&i, &value) in others.iter().zip(solution.iter()) {
-            shapes[(i, j)] = value;
-        }
+        shapes.set_column(j, &solution.insert_row(j, 1.0));
     }
     Ok(shapes)
 }
 
-/// $k_{ii} + \beta_{ii} - 1/\gamma_j$, refused when it vanishes.
-fn denominator(
+/// A shape's component, `numerator` over $k_{ii} + \beta_{ii} - 1/\gamma_j$: zero where nothing couples the modes, refused
+/// where something does and the denominator vanishes.
+fn quotient(
+    numerator: f64,
     k: &DVector<f64>,
     beta: &DMatrix<f64>,
-    root: f64,
-    i: usize,
-    j: usize,
+    gamma: f64,
+    (i, j): (usize, usize),
 ) -> Result<f64, Error> {
-    let own = k[i] + beta[(i, i)];
-    let difference = own - 1.0 / root;
-    if difference.abs() > SMALLEST_SEPARATION * own {
-        Ok(difference)
-    } else {
-        Err(Error::CoalescingModes {
-            first: i,
-            second: j,
-            separation: (difference / own).abs(),
-        })
+    if numerator == 0.0 {
+        return Ok(0.0);
     }
+    let own = k[i] + beta[(i, i)];
+    let difference = own - 1.0 / gamma;
+    if difference.abs() > SMALLEST_SEPARATION * own {
+        return Ok(numerator / difference);
+    }
+    let separation = (difference / own).abs();
+    Err(Error::CoalescingModes {
+        first: i,
+        second: j,
+        separation,
+    })
 }
 
 /// Refuses a perturbed root that is not positive and finite.

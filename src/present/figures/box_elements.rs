@@ -4,7 +4,6 @@ use super::box_points::axes;
 use super::canvas::*;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
-use crate::method::error::Error;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use nalgebra::Vector3;
@@ -38,7 +37,7 @@ pub struct DrawnElement {
 ///
 /// # Errors
 /// Those of [`Case::model`].
-pub fn box_elements(case: &Case) -> Result<Vec<DrawnElement>, Error> {
+pub fn box_elements(case: &Case) -> Result<Vec<DrawnElement>, PresentError> {
     let model = case.model()?;
     let structure = model.structure();
     let drawn = structure.elements().iter().map(|element| {

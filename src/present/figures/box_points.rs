@@ -4,7 +4,6 @@ use super::canvas::*;
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
-use crate::method::error::Error;
 use crate::present::PresentError;
 use nalgebra::Vector3;
 use plotters::style::WHITE;
@@ -16,7 +15,7 @@ pub struct StructuralPoint {
     pub grid: usize,
     /// Position, in: x aft, y outboard, z up.
     pub position: Vector3<f64>,
-    /// Whether it is held in all directions.
+    /// Whether it is constrained in all directions.
     pub fixed: bool,
 }
 
@@ -35,7 +34,7 @@ pub struct BoxPoints {
 ///
 /// # Errors
 /// Those of [`Case::model`].
-pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
+pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
     let model = case.model()?;
     let structural: Vec<StructuralPoint> = model
         .structure()
@@ -44,7 +43,7 @@ pub fn box_points(case: &Case) -> Result<BoxPoints, Error> {
         .map(|grid| StructuralPoint {
             grid: grid.label,
             position: grid.position,
-            fixed: grid.held == [true; 3],
+            fixed: grid.constrained == [true; 3],
         })
         .collect();
     let dynamic = Planform::of(&case.reconstruction)

@@ -5,12 +5,11 @@ use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
 use super::planform::Planform;
 use super::{Figure, box_elements, box_points, cover_gages, error_history, factors, node_lines};
 use crate::cases::{CASES, Case, CaseResult};
-use crate::method::derivatives::{DERIVATIVE_STEP, error_derivatives};
-use crate::method::error::Error;
-use crate::method::modal::ModalProblem;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::Check;
+use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
+use crate::method::model::Check;
+use crate::method::modes::ModeSet;
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
+use crate::method::state::ModalState;
 use crate::present::PresentError;
 use crate::present::tables::cases::{gage_errors, unlimited_factors};
 use crate::present::tables::correlation::last_check;
@@ -134,7 +133,7 @@ fn figures_of(result: &CaseResult) -> Result<Vec<Figure>, PresentError> {
 ///
 /// # Errors
 /// Those of [`gage_errors`].
-pub fn gage_bars(result: &CaseResult) -> Result<BarFigure, Error> {
+pub fn gage_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
     let panels = result.case.panels.iter();
     let mut series: Vec<Series> = gage_errors(result)?
         .into_iter()
@@ -176,12 +175,12 @@ pub(super) fn numbers(count: usize) -> Vec<String> {
 /// modes by test modes.
 ///
 /// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit.
+/// [`WrongShape`](crate::method::error::Error::WrongShape) when shapes and mass do not fit.
 pub fn mode_agreement(
     ends: [&Check; 2],
-    test: &Modes,
+    test: &ModeSet,
     mass: &DMatrix<f64>,
-) -> Result<[HeatMap; 4], Error> {
+) -> Result<[HeatMap; 4], PresentError> {
     let map = |title: &str, values: DMatrix<f64>| HeatMap {
         title: title.to_owned(),
         rows: ("analysis mode".to_owned(), numbers(values.nrows())),
@@ -191,8 +190,8 @@ pub fn mode_agreement(
         written: (100.0, 0),
     };
     let [before, after] = ends.map(|check| &check.modes);
-    let cross = |modes: &Modes| cross_orthogonality(modes, test, mass);
-    let assurance = |modes: &Modes| modal_assurance(&modes.shapes, &test.shapes);
+    let cross = |modes: &ModeSet| cross_orthogonality(modes, test, mass);
+    let assurance = |modes: &ModeSet| modal_assurance(&modes.shapes, &test.shapes);
     Ok([
         map("Cross-orthogonality before", cross(before)?),
         map("Cross-orthogonality after", cross(after)?),
@@ -209,22 +208,18 @@ pub fn mode_agreement(
 /// in the first iteration (parameters × 1).
 ///
 /// # Errors
-/// Those of the model, its analysis and [`error_derivatives`].
-pub fn derivatives(result: &CaseResult) -> Result<[HeatMap; 2], Error> {
+/// Those of the model, its analysis and [`by_definition`].
+pub fn derivatives(result: &CaseResult) -> Result<[HeatMap; 2], PresentError> {
     let model = result.case.model()?;
-    let dynamic = model.analyze(&vec![1.0; result.parameter_names.len()])?;
-    let problem = ModalProblem::new(&dynamic, &result.test, dynamic.mass.nrows())?;
-    let start = problem.start_state()?;
-    let derivatives = error_derivatives(&problem, &start)?;
-    let count = problem.parameter_count();
-    let frequency = DMatrix::from_fn(count, result.test.len(), |e, j| {
-        let i = start.pairing.analysis_mode[j];
-        let share = problem.generalized_shares[e].matrix();
-        share[(i, i)] / (2.0 * problem.start.omega_squared[i])
+    let factors = vec![1.0; result.parameter_names.len()];
+    let first = model.analyze(&factors, &result.test, None)?;
+    let error_changes = by_definition(&first, &ModalState::start(&first))?;
+    let exact = &first.exact;
+    let frequency = DMatrix::from_fn(factors.len(), result.test.len(), |e, j| {
+        let i = exact.pairing.analysis_mode[j];
+        first.shares[e].matrix()[(i, i)] / (2.0 * exact.modes.omega_squared[i])
     });
-    let error_sum = DMatrix::from_fn(count, 1, |e, _| {
-        derivatives.error_change[e] / DERIVATIVE_STEP
-    });
+    let error_sum = DMatrix::from_fn(factors.len(), 1, |e, _| error_changes[e] / DERIVATIVE_STEP);
     let map = |title: &str, rows: &str, columns: &str, labels, values: DMatrix<f64>| HeatMap {
         title: title.to_owned(),
         rows: (rows.to_owned(), result.parameter_names.clone()),

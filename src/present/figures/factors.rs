@@ -1,7 +1,7 @@
 //! Unlimited stiffness change factors of a first iteration with the limits drawn.
 
 use super::canvas::*;
-use crate::method::step::Range;
+use crate::method::model::Range;
 use crate::present::PresentError;
 use crate::present::table::Digits;
 use crate::present::tables::correlation::{JudgedFactor, Verdict};

@@ -3,11 +3,11 @@
 use super::canvas::*;
 use super::planform::{PlanPoint, Planform, RibShape};
 use super::view::{Plan, View};
-use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
-use crate::method::modes::Modes;
-use crate::method::outer_loop::{Check, Correlation};
-use crate::method::pairing::matched;
+use crate::method::model::Check;
+use crate::method::modes::ModeSet;
+use crate::method::outer_loop::Correlation;
+use crate::method::pairing;
 use crate::present::PresentError;
 use crate::present::table::Digits;
 use crate::present::tables::correlation::last_check;
@@ -37,17 +37,17 @@ pub struct NodeLines {
 /// Modes of a correlation on the box, in the order and with the signs of the test modes.
 ///
 /// # Errors
-/// [`Error::WrongShape`] unless the modes have nine DOF.
+/// [`WrongShape`](crate::method::error::Error::WrongShape) unless the modes have nine DOF.
 pub fn node_lines(
     planform: Planform,
-    test: &Modes,
+    test: &ModeSet,
     correlation: &Correlation,
-) -> Result<NodeLines, Error> {
-    let paired = |check: &Check| matched(&check.modes, &check.pairing);
+) -> Result<NodeLines, PresentError> {
+    let paired = |check: &Check| pairing::paired(&check.modes, &check.pairing);
     let last = paired(last_check(correlation));
     let states = [test.clone(), paired(&correlation.initial), last];
     check_shape("mode shapes", &test.shapes, 9, test.len())?;
-    let state = |modes: &Modes, mode: usize| {
+    let state = |modes: &ModeSet, mode: usize| {
         let column = modes.shapes.column(mode);
         let largest = column.amax();
         let shape = std::array::from_fn(|dof| column[dof] / largest);

@@ -11,7 +11,7 @@ use super::tables::{fewer_modes, matrices};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
-use crate::method::error::Error;
+use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
 use html::{escaped, figure, section, section_of, table};
 
@@ -38,8 +38,8 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The page.
 ///
 /// # Errors
-/// [`Error::Table`] for damaged published tables.
-pub fn page(contents: &Contents) -> Result<String, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) for damaged published tables.
+pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let mut sections = vec![
         section("summary-section", "Summary", &summary_section(contents)?),
         section("box", "The box", &box_section(contents)),
@@ -121,7 +121,7 @@ fn part(tables: &[Table], figures: &[Figure], prefixes: &[&str]) -> String {
     tables.iter().map(table).chain(figures).collect()
 }
 
-fn summary_section(contents: &Contents) -> Result<String, Error> {
+fn summary_section(contents: &Contents) -> Result<String, PresentError> {
     let results = contents.results;
     let mut body = table(&summary(results)?);
     body +=
@@ -165,7 +165,7 @@ fn box_section(contents: &Contents) -> String {
 }
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
-fn fewer_modes_section(contents: &Contents) -> Result<String, Error> {
+fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     let is_published =
         |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
     let runs: Vec<FewerModesRun> = contents
@@ -180,7 +180,7 @@ fn fewer_modes_section(contents: &Contents) -> Result<String, Error> {
 }
 
 /// What the corrections know and the factors they stand for; entry by entry they are left to their figure.
-fn matrices_section(contents: &Contents) -> Result<String, Error> {
+fn matrices_section(contents: &Contents) -> Result<String, PresentError> {
     let comparison = contents.matrices;
     let mut tables = matrices::knowledge_tables(comparison);
     tables.push(matrices::factor_table(

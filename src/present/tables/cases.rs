@@ -7,18 +7,21 @@ use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{TEST_GAGE, gage_rms};
 use crate::cases::{CASES, CaseResult, Grouping};
-use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::structure::ElementKind;
+use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
 
 /// The one factor the paper quotes: about 60, for the faulty cover of Case 4.
 const QUOTED_FACTOR: (usize, &str, f64) = (4, "8", 60.0);
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
-fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, Error> {
+fn published(
+    numbers: [usize; 3],
+    result: &CaseResult,
+) -> Result<Option<PublishedTable>, PresentError> {
     match (numbers.get(result.case.number - 1), result.case.grouping) {
-        (Some(&number), Grouping::Elements) => PublishedTable::number(number).map(Some),
+        (Some(&number), Grouping::Elements) => Ok(Some(PublishedTable::number(number)?)),
         _ => Ok(None),
     }
 }
@@ -48,8 +51,8 @@ fn named(
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn frequency_table(result: &CaseResult) -> Result<Table, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let paper = published([3, 5, 7], result)?;
     let test = result.test.frequencies_hz();
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
@@ -80,8 +83,8 @@ pub type GageStage = (String, Vec<(f64, Option<f64>)>);
 /// Gage errors of a case at the start and after every pass.
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, PresentError> {
     let paper = published([4, 6, 8], result)?;
     let stage = |(stage, gages): (String, Vec<f64>)| {
         let heading = format!("{stage}_percent");
@@ -99,8 +102,8 @@ pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, Error> {
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn gage_table(result: &CaseResult) -> Result<Table, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let paper = published([4, 6, 8], result)?;
     let panels = &result.case.panels;
     let gages = gage_stages(result);
@@ -156,8 +159,8 @@ pub fn factor_table(result: &CaseResult) -> Table {
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, PresentError> {
     let paper = PublishedTable::number(13)?;
     let is_papers = result.case.grouping == Grouping::Elements;
     let row = result.case.number.to_string();
@@ -171,8 +174,8 @@ pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Err
 /// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
 ///
 /// # Errors
-/// [`Error::Table`] if the published table were damaged.
-pub fn iteration_table(results: &[CaseResult]) -> Result<Table, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let passes = |result: &CaseResult| result.correlation.passes.len();
     let most = results.iter().map(passes).max().unwrap_or(0);
     let title = "Inner loop iterations per pass (Table 13)";
@@ -224,8 +227,8 @@ pub fn fit_table(fit: &Fit) -> Table {
 /// Every table of a run, in the order of the report.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
-pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
+pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
     let mut tables = Vec::new();
     for result in results {
         tables.extend(tables_of(result)?);
@@ -238,8 +241,8 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Error
 /// The tables of one case: frequencies, gages, and in Case 4 what its single iteration asks for.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
-pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
+pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     tables.extend((result.case.number == CASES[3]).then(|| factor_table(result)));
     Ok(tables)
@@ -248,8 +251,8 @@ pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, Error> {
 /// First and last RMS errors and the iterations of every case, with the published ones.
 ///
 /// # Errors
-/// [`Error::Table`] for damaged published tables.
-pub fn summary(results: &[CaseResult]) -> Result<Table, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) for damaged published tables.
+pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     let title = "RMS errors over nine modes, first and last model";
     let mut table = Table::new("summary", title, "Case")
         .columns(

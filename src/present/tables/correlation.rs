@@ -5,8 +5,9 @@ use super::stages::Stages;
 use crate::cases::{BUILT_IN, anomalies};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
-use crate::method::outer_loop::{Check, Correlation};
-use crate::method::step::Range;
+use crate::method::model::Check;
+use crate::method::model::Range;
+use crate::method::outer_loop::Correlation;
 use crate::present::table::{Cell, Digits, Table};
 
 /// Exact solutions with the names of their stages.

@@ -1,7 +1,8 @@
 //! The modes of a deck as tables.
 
-use crate::files::deck::{Deck, DeckModes, Reason, Unread};
+use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
+use crate::method::whole_modes::WholeModes;
 use crate::present::table::{Cell, Digits, Table, counted};
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.
@@ -13,7 +14,7 @@ const SHAPE: Digits = Digits::Fixed(5);
 /// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one.
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
-pub fn deck_tables(deck: &Deck, modes: &DeckModes, count: usize) -> Vec<Table> {
+pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
     let scaled = UnitShapes::new(modes, count);
     let dof = counted(modes.dof.len(), "degree", "degrees");
     let title = format!("Natural frequencies at {dof} of freedom with mass");
@@ -65,7 +66,7 @@ pub(in crate::present) struct UnitShapes {
 }
 
 impl UnitShapes {
-    pub fn new(modes: &DeckModes, count: usize) -> Self {
+    pub fn new(modes: &WholeModes, count: usize) -> Self {
         let mut frequencies_hz = modes.modes.frequencies_hz();
         frequencies_hz.truncate(count);
         // Shapes come with unit generalized mass and a positive largest component.

@@ -3,7 +3,7 @@
 use super::correlation::{frequencies, last_check, pass_table, solver_note};
 use super::{PERCENT, RMS_PERCENT};
 use crate::cases::published::PublishedTable;
-use crate::method::error::Error;
+use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
 use crate::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{
@@ -20,8 +20,11 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 /// All tables: deflections under both loads, frequencies, and the correlation's groups, frequencies and passes.
 ///
 /// # Errors
-/// Those of the wing's analyses; [`Error::Table`] if what others found were damaged.
-pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, Error> {
+/// Those of the wing's analyses; [`CaseError::Table`](crate::cases::error::CaseError::Table) if what others found were damaged.
+pub fn delta_wing_tables(
+    wing: &DeltaWing,
+    run: &WingCorrelation,
+) -> Result<Vec<Table>, PresentError> {
     let passes = "Delta wing with wrong gages: passes";
     Ok(vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
@@ -43,7 +46,7 @@ fn beside_others(
     unit: &'static str,
     rows: impl Iterator<Item = (String, f64)>,
     others: &[Other],
-) -> Result<Table, Error> {
+) -> Result<Table, PresentError> {
     let mut table = table.column("Computed", unit);
     for (who, ..) in others {
         table = table
@@ -62,7 +65,7 @@ fn beside_others(
     Ok(table)
 }
 
-fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, Error> {
+fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentError> {
     let (short, long) = match load {
         TipLoad::TrailingEdge => ("te", "trailing edge"),
         TipLoad::LeadingEdge => ("le", "leading edge"),
@@ -90,7 +93,7 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, Error> {
     beside_others(table, &known_deflections()?, "in", rows, &others)
 }
 
-fn frequency_table(wing: &DeltaWing) -> Result<Table, Error> {
+fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
     let known = known_frequencies()?;
     let others: [Other; 2] = [
         (

@@ -5,7 +5,7 @@ use super::{KINDS, PERCENT, RMS_PERCENT, remarks};
 use crate::cases::Case;
 use crate::cases::fewer_modes::{Agreement, FewerModesRun, ITERATIONS};
 use crate::cases::published::PublishedTable;
-use crate::method::error::Error;
+use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
 
 /// The paper's frequencies with fewer modes are those of five test modes.
@@ -26,12 +26,12 @@ const RMS_ROWS: [RmsRow; 2] = [
 /// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
 pub fn fewer_modes_tables(
     case: &Case,
     published: &[FewerModesRun],
     all: &[FewerModesRun],
-) -> Result<Vec<Table>, Error> {
+) -> Result<Vec<Table>, PresentError> {
     let mut tables = published_tables(case, published)?;
     tables.extend(truncation_tables(all));
     Ok(tables)
@@ -40,8 +40,8 @@ pub fn fewer_modes_tables(
 /// Tables 9 to 12 and the iterations, from the paper's runs.
 ///
 /// # Errors
-/// [`Error::Table`] if published tables were damaged.
-pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, Error> {
+/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
+pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
     let with = |test_modes: usize| -> Vec<&FewerModesRun> {
         runs.iter()
             .filter(|run| run.test_modes == test_modes)
@@ -104,7 +104,7 @@ fn gage_table(
     number: usize,
     test_modes: usize,
     runs: &[&FewerModesRun],
-) -> Result<Table, Error> {
+) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(number)?;
     let first = case.first_gages();
     let found = runs.iter().map(|run| (stage(run), &run.gages_in[..]));
@@ -140,11 +140,11 @@ fn gage_table(
 }
 
 /// Iterations of the paper's runs, as in Tables 10 to 12.
-fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, Error> {
+fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
     let papers = GAGE_TABLES
         .into_iter()
         .map(|(number, test_modes)| Ok((test_modes, PublishedTable::number(number)?)))
-        .collect::<Result<Vec<_>, Error>>()?;
+        .collect::<Result<Vec<_>, PresentError>>()?;
     let cell = |run: &FewerModesRun| {
         let paper = papers.iter().find(|(modes, _)| *modes == run.test_modes);
         let heading = format!("{}_percent", stage(run));

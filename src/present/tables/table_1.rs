@@ -1,8 +1,7 @@
 //! Table 1 for a reader: root errors of the perturbation formulae by order.
 
-use crate::cases::table_1::{problems, table_1};
-use crate::method::appendix_c::UpdateRule;
-use crate::method::error::Error;
+use crate::cases::table_1::{Formula, problems, table_1};
+use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
 
 /// Orders shown.
@@ -14,12 +13,12 @@ const ORDERS: usize = 6;
 ///
 /// # Errors
 /// Those of [`table_1`].
-pub fn root_error_table() -> Result<Table, Error> {
+pub fn root_error_table() -> Result<Table, PresentError> {
     let found = table_1(&problems(), ORDERS)?;
     let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
     let mut table = Table::new("table_1", title, "Problem")
         .columns(["Coupling", "Change"], "")
-        .columns(found.rules.iter().map(|&rule| rule_name(rule)), "%")
+        .columns(found.formulae.iter().map(|&rule| rule_name(rule)), "%")
         .note("Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.");
     for (number, row) in found.rows.iter().enumerate() {
         let problem = [row.problem.coupling, row.problem.change];
@@ -33,12 +32,11 @@ pub fn root_error_table() -> Result<Table, Error> {
     Ok(table)
 }
 
-fn rule_name(rule: UpdateRule) -> String {
+fn rule_name(rule: Formula) -> String {
     match rule {
-        UpdateRule::FirstOrder => "First order".to_owned(),
-        UpdateRule::Original => "Original".to_owned(),
-        UpdateRule::Recursive1 { order } => format!("Recursive 1, order {order}"),
-        UpdateRule::Recursive2 { order } => format!("Recursive 2, order {order}"),
-        other => format!("{other:?}"),
+        Formula::FirstOrder => "First order".to_owned(),
+        Formula::Original => "Original".to_owned(),
+        Formula::Recursive1 { order } => format!("Recursive 1, order {order}"),
+        Formula::Recursive2 { order } => format!("Recursive 2, order {order}"),
     }
 }

@@ -2,10 +2,12 @@
 
 use super::DeltaWing;
 use super::planform::{STATIONS, upper_grid};
+use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
-use crate::files::deck::{self, DeckModes};
-use crate::method::assembly::{FactorizedStiffness, element_matrices};
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
+use crate::method::structure::Structure;
+use crate::method::whole_modes::{MassDof, WholeModes, whole_modes};
 use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.
@@ -40,9 +42,20 @@ impl DeltaWing {
     /// All modes of finite frequency, at every DOF with mass: nothing is condensed.
     ///
     /// # Errors
-    /// Those of [`Self::structure`] and [`deck::modes()`].
-    pub fn modes(&self) -> Result<DeckModes, Error> {
-        deck::modes(&self.bulk_data()?)
+    /// Those of [`Self::structure`], of the factorization and of [`whole_modes`].
+    pub fn modes(&self) -> Result<WholeModes, Error> {
+        let (structure, elements, sizes) = self.parts()?;
+        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
+        let at = MassDof::of_elements(&structure, &elements, &sizes)?;
+        whole_modes(&stiffness, at)
+    }
+
+    /// The structure, its unit element matrices and sizes.
+    fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>), Error> {
+        let structure = self.structure()?;
+        let elements = element_matrices(&structure)?;
+        let sizes = structure.elements().iter().map(|e| e.size).collect();
+        Ok((structure, elements, sizes))
     }
 
     /// Deflections along $z$ at [`MEASURED_GRIDS`] under the tip load, in; downward is negative.
@@ -50,11 +63,9 @@ impl DeltaWing {
     /// # Errors
     /// Those of [`Self::structure`] and of the factorization.
     pub fn deflections(&self, load: TipLoad) -> Result<Vec<f64>, Error> {
-        let structure = self.structure()?;
-        let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
-        let stiffness =
-            FactorizedStiffness::new(&element_matrices(&structure)?, &sizes, structure.free_dof())?;
-        // Of every grid named here z is free, by the rule of the supports.
+        let (structure, elements, sizes) = self.parts()?;
+        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
+        // The z of every grid named here is free, whatever the depths and sizes of the wing are.
         let row = |grid: usize| structure.free_dof_index(grid, Z);
         let mut loads = DMatrix::zeros(structure.free_dof().len(), 1);
         if let Some(row) = row(load.grid()) {
@@ -69,8 +80,8 @@ impl DeltaWing {
 /// What NASTRAN printed in 1995, what was measured, and what the analog computer gave: deflections at [`MEASURED_GRIDS`].
 ///
 /// # Errors
-/// [`Error::Table`] if the table were damaged.
-pub fn known_deflections() -> Result<PublishedTable, Error> {
+/// [`CaseError::Table`] if the table were damaged.
+pub fn known_deflections() -> Result<PublishedTable, CaseError> {
     PublishedTable::parse(
         UNNUMBERED,
         "paper/tables/delta_wing_deflections.csv",
@@ -81,8 +92,8 @@ pub fn known_deflections() -> Result<PublishedTable, Error> {
 /// The same for the lowest three modes.
 ///
 /// # Errors
-/// [`Error::Table`] if the table were damaged.
-pub fn known_frequencies() -> Result<PublishedTable, Error> {
+/// [`CaseError::Table`] if the table were damaged.
+pub fn known_frequencies() -> Result<PublishedTable, CaseError> {
     PublishedTable::parse(
         UNNUMBERED,
         "paper/tables/delta_wing_frequencies.csv",

@@ -17,13 +17,13 @@ mod run;
 pub use run::{Recovered, WingCorrelation, correlate_wing, correlate_wing_with};
 
 use super::DeltaWing;
-use crate::method::appendix_c::{CloseRootsSettings, UpdateRule};
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::model::FiniteElementModel;
-use crate::method::modes::Modes;
+use crate::method::model::Parameter;
+use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
-use crate::method::parameters::Parameter;
+use crate::method::state::UpdateRule;
 use crate::method::structure::{Element, Material, Structure};
 use nalgebra::DMatrix;
 
@@ -79,13 +79,14 @@ const Z: usize = 2;
 
 /// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after, and the same in the exact check.
 ///
-/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves close roots in blocks: the
-/// roots of plain Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one pass more.
+/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in
+/// modal coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
+/// pass more.
 pub fn settings() -> Settings {
     Settings {
         inner: InnerSettings {
             tolerance: 0.01,
-            update: UpdateRule::CloseRoots(CloseRootsSettings::default()),
+            update: UpdateRule::Eigensolution,
             ..InnerSettings::default()
         },
         later_inner_tolerance: 0.005,
@@ -99,7 +100,7 @@ pub fn settings() -> Settings {
 pub fn measured_grids(structure: &Structure) -> Vec<usize> {
     let grids = structure.grids().iter();
     grids
-        .filter(|grid| grid.position.z > 0.0 && !grid.held[Z])
+        .filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z])
         .map(|grid| grid.label)
         .collect()
 }
@@ -139,11 +140,11 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
     )
 }
 
-/// The test modes at the measured grids, scaled with a dynamic mass.
+/// The test modes at the measured grids.
 ///
 /// # Errors
-/// Those of [`DeltaWing::modes`] and [`Modes::from_measured`]; [`Error::TooMany`] for a wing with fewer modes.
-pub fn test_modes(wing: &DeltaWing, mass: &DMatrix<f64>) -> Result<Modes, Error> {
+/// Those of [`DeltaWing::modes`] and [`ModeSet::from_measured`]; [`Error::TooMany`] for a wing with fewer modes.
+pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
     let whole = wing.modes()?;
     let highest = TEST_MODES.into_iter().max().unwrap_or(0);
     let lowest = whole.modes.lowest(highest)?;
@@ -155,9 +156,8 @@ pub fn test_modes(wing: &DeltaWing, mass: &DMatrix<f64>) -> Result<Modes, Error>
     };
     let rows: Vec<usize> = grids.into_iter().filter_map(at).collect();
     let all = lowest.frequencies_hz();
-    Modes::from_measured(
+    ModeSet::from_measured(
         &modes.map(|mode| all[mode]),
         &lowest.shapes.select_rows(&rows).select_columns(&modes),
-        mass,
     )
 }

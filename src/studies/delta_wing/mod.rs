@@ -21,7 +21,7 @@ mod planform;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use crate::files::deck::BulkData;
+use crate::cases::error::CaseError;
 use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::Vector3;
@@ -70,7 +70,7 @@ impl DeltaWing {
     ///
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
-    pub fn embedded() -> Result<Self, Error> {
+    pub fn embedded() -> Result<Self, CaseError> {
         Self::parse(
             "paper/delta_wing.toml",
             include_str!("../../../paper/delta_wing.toml"),
@@ -80,9 +80,9 @@ impl DeltaWing {
     /// Reads a wing of this planform from TOML text; `name` stands in error messages.
     ///
     /// # Errors
-    /// [`Error::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let read: Self = toml::from_str(text).map_err(|source| Error::Toml {
+    /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let read: Self = toml::from_str(text).map_err(|source| CaseError::Toml {
             name: name.to_owned(),
             expected: "a delta wing: material, half depths and sizes",
             source: Box::new(source),
@@ -150,12 +150,12 @@ impl DeltaWing {
                 grids.push(Grid {
                     label: mid_grid(line, station),
                     position: Vector3::new(x, y, 0.0),
-                    held: [true, true, false],
+                    constrained: [true, true, false],
                 });
                 grids.push(Grid {
                     label: upper_grid(line, station),
                     position: Vector3::new(x, y, depth),
-                    held: [station == 0, false, station == SUPPORTED_STATION],
+                    constrained: [station == 0, false, station == SUPPORTED_STATION],
                 });
             }
         }
@@ -230,19 +230,5 @@ impl DeltaWing {
                 (ElementKind::Rod, ends, area)
             })
             .collect()
-    }
-
-    /// The wing as bulk data: what a deck would hold of it.
-    ///
-    /// # Errors
-    /// Those of [`Self::structure`].
-    pub fn bulk_data(&self) -> Result<BulkData, Error> {
-        let structure = self.structure()?;
-        Ok(BulkData {
-            grids: structure.grids().to_vec(),
-            elements: structure.elements().to_vec(),
-            ties: Vec::new(),
-            masses: Vec::new(),
-        })
     }
 }

@@ -5,7 +5,7 @@ use crate::common::tolerances::{FAR_REFERENCE_AXIS, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{LARGEST_SUSPENSION_RATIO, balance};
 use corfem::method::error::Error;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
 /// Three unit masses at −1, 0 and 1, one of the outer moved: {1} takes a third, {x} a half, 1/6 (1, −2, 1) remains.
@@ -157,7 +157,7 @@ fn a_suspension_at_the_limit_is_allowed() {
 fn the_wing_box_on_its_root_is_refused() {
     let case = corfem::cases::Case::new(1).unwrap();
     let model = case.model().unwrap();
-    let dynamic = model.analyze(&[1.0; 15]).unwrap();
+    let dynamic = model.matrices(&[1.0; 15]).unwrap();
     let outcome = balance(
         &case.test_modes().unwrap(),
         &dynamic.stiffness,
@@ -213,7 +213,7 @@ fn bad_input_is_refused() {
     let free = DMatrix::<f64>::zeros(3, 3);
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
     let outcome =
-        |raw: &Modes, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, rigid: &DMatrix<f64>| {
+        |raw: &ModeSet, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, rigid: &DMatrix<f64>| {
             balance(raw, stiffness, mass, rigid).unwrap_err()
         };
     assert!(matches!(

@@ -1,7 +1,7 @@
 //! Which of overlapping test modes is deleted, by hand: unit masses, so overlaps are plain products.
 
 use super::{modes, slight_overlap, unit_shapes};
-use corfem::method::appendix_b::{Limits, Supports, Verdict, examine, orthogonalize};
+use corfem::method::appendix_b::{MovementLimits, Supports, Verdict, examine, orthogonalize};
 use nalgebra::DMatrix;
 
 #[test]
@@ -20,7 +20,7 @@ fn of_two_overlapping_modes_the_higher_is_deleted() {
             &raw,
             &DMatrix::identity(4, 4),
             Supports::Held,
-            &Limits::default(),
+            &MovementLimits::default(),
         )
         .unwrap();
         let expected: Vec<usize> = (0..3).filter(|&mode| mode != higher).collect();
@@ -30,7 +30,7 @@ fn of_two_overlapping_modes_the_higher_is_deleted() {
 
 #[test]
 fn a_third_mode_decides_between_two() {
-    // Modes 0 and 1 overlap by 0.29; mode 0 has something of mode 2 besides, so it is the suspect, though lowest.
+    // ModeSet 0 and 1 overlap by 0.29; mode 0 has something of mode 2 besides, so it is the suspect, though lowest.
     let raw = modes(
         &[100.0, 400.0, 1600.0],
         unit_shapes(&[
@@ -43,7 +43,7 @@ fn a_third_mode_decides_between_two() {
         &raw,
         &DMatrix::identity(4, 4),
         Supports::Held,
-        &Limits::default(),
+        &MovementLimits::default(),
     )
     .unwrap();
     assert_eq!(found.kept, [1, 2]);
@@ -64,8 +64,11 @@ fn a_low_wrong_mode_is_told_by_its_many_overlaps() {
     );
     let mass = DMatrix::identity(4, 4);
     let moved = orthogonalize(&raw, &mass).unwrap().movement;
-    assert!(moved[0].shape < Limits::default().shape && moved[1].shape > Limits::default().shape);
-    let found = examine(&raw, &mass, Supports::Held, &Limits::default()).unwrap();
+    assert!(
+        moved[0].shape < MovementLimits::default().shape
+            && moved[1].shape > MovementLimits::default().shape
+    );
+    let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [1, 2, 3]);
     assert_eq!(found.reports[0].verdict, Verdict::NotOrthogonal);
     assert_eq!(found.modes.shapes.shape(), (4, 3));
@@ -86,7 +89,7 @@ fn two_wrong_modes_are_both_deleted() {
         &raw,
         &DMatrix::identity(4, 4),
         Supports::Held,
-        &Limits::default(),
+        &MovementLimits::default(),
     )
     .unwrap();
     assert_eq!(found.kept, [2, 3]);
@@ -106,7 +109,7 @@ fn two_wrong_modes_are_both_deleted() {
 #[test]
 fn a_movement_at_its_limit_is_allowed_and_past_it_not() {
     let (raw, mass, movement) = slight_overlap();
-    let far = Limits {
+    let far = MovementLimits {
         balance: 0.5,
         frequency: 10.0,
         shape: 10.0,
@@ -117,21 +120,21 @@ fn a_movement_at_its_limit_is_allowed_and_past_it_not() {
     assert!(movement[0].frequency < 0.0 && movement[1].frequency > 0.0);
     for (at, past) in [
         (
-            Limits {
+            MovementLimits {
                 shape: largest_shape,
                 ..far
             },
-            Limits {
+            MovementLimits {
                 shape: largest_shape.next_down(),
                 ..far
             },
         ),
         (
-            Limits {
+            MovementLimits {
                 frequency: largest_frequency,
                 ..far
             },
-            Limits {
+            MovementLimits {
                 frequency: largest_frequency.next_down(),
                 ..far
             },
@@ -163,7 +166,7 @@ fn a_frequency_that_falls_counts_like_one_that_rises() {
     let movement = orthogonalize(&raw, &mass).unwrap().movement;
     let fall = -movement[0].frequency;
     assert!(fall > movement[1].frequency.abs() && fall > movement[2].frequency.abs());
-    let far = Limits {
+    let far = MovementLimits {
         balance: 0.5,
         frequency: fall.next_down(),
         shape: 10.0,

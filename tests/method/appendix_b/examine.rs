@@ -5,16 +5,16 @@ use crate::common::measured::{free_beam, held_chain, mixture, noise};
 use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{
-    Limits, SYMMETRIC, Supports, Verdict, examine, generalized_mass, orthogonalize,
+    MovementLimits, SYMMETRIC, Supports, Verdict, examine, generalized_mass, orthogonalize,
     rigid_body_vectors,
 };
-use corfem::method::modes::{Modes, solve};
+use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 /// The modes without one of them.
-fn without(all: &Modes, mode: usize) -> Modes {
-    Modes {
+fn without(all: &ModeSet, mode: usize) -> ModeSet {
+    ModeSet {
         omega_squared: all.omega_squared.clone().remove_row(mode),
         shapes: all.shapes.clone().remove_column(mode),
     }
@@ -27,7 +27,7 @@ proptest! {
     #[test]
     fn exact_modes_of_a_held_structure_are_kept((stiffness, mass) in held_chain(7)) {
         let exact = solve(&stiffness, &mass, 5).unwrap();
-        let found = examine(&exact, &mass, Supports::Held, &Limits::default()).unwrap();
+        let found = examine(&exact, &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(&found.kept, &vec![0, 1, 2, 3, 4]);
         prop_assert_eq!(found.reports.len(), 5);
         prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
@@ -46,7 +46,7 @@ proptest! {
         let exact = beam.elastic_modes(2);
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
-        let found = examine(&exact, &beam.mass, supports, &Limits::default()).unwrap();
+        let found = examine(&exact, &beam.mass, supports, &MovementLimits::default()).unwrap();
         let spread = exact.omega_squared.max() / exact.omega_squared.min();
         prop_assert_eq!(found.kept, (0..exact.len()).collect::<Vec<_>>());
         prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= EXACT_MODE_RESIDUAL * spread);
@@ -64,7 +64,7 @@ proptest! {
     fn the_wrong_mode_is_the_one_deleted((stiffness, mass) in held_chain(7), wrong in mixture(5)) {
         let exact = solve(&stiffness, &mass, 5).unwrap();
         let mode = wrong.modes[0];
-        let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &Limits::default()).unwrap();
+        let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect::<Vec<_>>());
         for (other, report) in found.reports.iter().enumerate() {
             prop_assert_eq!(report.verdict, if other == mode { Verdict::NotOrthogonal } else { Verdict::Kept });
@@ -89,7 +89,7 @@ proptest! {
         raw.shapes[(energy.imax(), mode)] *= -1.0;
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
-        let found = examine(&raw, &beam.mass, supports, &Limits::default()).unwrap();
+        let found = examine(&raw, &beam.mass, supports, &MovementLimits::default()).unwrap();
         prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect::<Vec<_>>());
         prop_assert_eq!(found.reports.len(), exact.len());
         let report = found.reports[mode];
@@ -115,7 +115,7 @@ proptest! {
         raw.shapes += 0.02 * noise;
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
-        let limits = Limits::default();
+        let limits = MovementLimits::default();
         let found = examine(&raw, &beam.mass, supports, &limits).unwrap();
         let count = found.kept.len();
         prop_assert_eq!(found.modes.shapes.shape(), (beam.dofs.len(), count));
@@ -145,14 +145,14 @@ proptest! {
     /// A deleted mode leaves no trace: the kept ones examined alone come out the same, all of them kept.
     #[test]
     fn deletion_leaves_no_trace((stiffness, mass) in held_chain(7), noise in noise(7, 5)) {
-        let mut raw = solve(&stiffness, &mass, 5).unwrap();
+        let mut raw = ModeSet::from(solve(&stiffness, &mass, 5).unwrap());
         raw.shapes += 0.1 * noise;
-        let found = examine(&raw, &mass, Supports::Held, &Limits::default()).unwrap();
-        let chosen = Modes {
+        let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
+        let chosen = ModeSet {
             omega_squared: DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared[mode])),
             shapes: raw.shapes.select_columns(&found.kept),
         };
-        let again = examine(&chosen, &mass, Supports::Held, &Limits::default()).unwrap();
+        let again = examine(&chosen, &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(again.modes, found.modes);
         prop_assert_eq!(again.kept, (0..found.kept.len()).collect::<Vec<_>>());
     }

@@ -3,9 +3,9 @@
 use super::{modes, relative_difference, slight_overlap, unit_shapes};
 use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::method::appendix_b::{Limits, Supports, balance, examine};
+use corfem::method::appendix_b::{MovementLimits, Supports, balance, examine};
 use corfem::method::error::Error;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, dmatrix};
 
 #[test]
@@ -20,9 +20,9 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
     let change = balance(&raw, &stiffness, &mass, &rigid_body)
         .unwrap()
         .change[0];
-    let at = Limits {
+    let at = MovementLimits {
         balance: change,
-        ..Limits::default()
+        ..MovementLimits::default()
     };
     let found = examine(&raw, &mass, supports, &at).unwrap();
     assert_eq!(found.kept, [0]);
@@ -32,9 +32,9 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
         dmatrix![1.0; -2.0; 1.0] / 6.0_f64.sqrt(),
         max_relative = ROUND_OFF
     );
-    let past = Limits {
+    let past = MovementLimits {
         balance: change.next_down(),
-        ..Limits::default()
+        ..MovementLimits::default()
     };
     let refused = examine(&raw, &mass, supports, &past);
     assert!(
@@ -58,7 +58,7 @@ fn balancing_uses_the_suspension_that_is_given() {
         stiffness: &stiffness,
         rigid_body: &rigid_body,
     };
-    let found = examine(&raw, &mass, supports, &Limits::default()).unwrap();
+    let found = examine(&raw, &mass, supports, &MovementLimits::default()).unwrap();
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
     assert_eq!(found.reports[0].balance, Some(balanced.change[0]));
     let shape = balanced.shapes.column(0).normalize();
@@ -78,7 +78,7 @@ fn a_held_structure_called_free_is_refused() {
         rigid_body: &rigid_body,
     };
     let raw = modes(&[1.0], dmatrix![1.0; 0.0; 0.0]);
-    let outcome = examine(&raw, &mass, supports, &Limits::default());
+    let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
     assert!(
         matches!(outcome, Err(Error::Supported { mode: 0, .. })),
         "{outcome:?}"
@@ -99,7 +99,7 @@ fn dependent_modes_keep_their_numbers_when_one_before_them_is_deleted() {
         &[1.0, 2.0, 3.0, 4.0],
         unit_shapes(&[[1.0, 1.0, 1.0, 0.0], shape, [0.0, 0.0, 1.0, -1.0], shape]),
     );
-    let outcome = examine(&raw, &mass, supports, &Limits::default());
+    let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
     assert!(
         matches!(outcome, Err(Error::DependentTestShape { mode: 3 })),
         "{outcome:?}"
@@ -108,21 +108,21 @@ fn dependent_modes_keep_their_numbers_when_one_before_them_is_deleted() {
 
 #[test]
 fn default_limits_are_the_documented_ones() {
-    let expected = Limits {
+    let expected = MovementLimits {
         balance: 0.1,
         frequency: 0.02,
         shape: 0.1,
     };
-    assert_eq!(Limits::default(), expected);
+    assert_eq!(MovementLimits::default(), expected);
 }
 
 #[test]
 fn limits_out_of_range_are_refused() {
     let (raw, mass, _) = slight_overlap();
-    let good = Limits::default();
+    let good = MovementLimits::default();
     for (limits, setting, value) in [
         (
-            Limits {
+            MovementLimits {
                 balance: 0.0,
                 ..good
             },
@@ -130,7 +130,7 @@ fn limits_out_of_range_are_refused() {
             0.0,
         ),
         (
-            Limits {
+            MovementLimits {
                 balance: 1.0,
                 ..good
             },
@@ -138,7 +138,7 @@ fn limits_out_of_range_are_refused() {
             1.0,
         ),
         (
-            Limits {
+            MovementLimits {
                 frequency: -1.0,
                 ..good
             },
@@ -146,16 +146,16 @@ fn limits_out_of_range_are_refused() {
             -1.0,
         ),
         (
-            Limits {
+            MovementLimits {
                 frequency: f64::INFINITY,
                 ..good
             },
             "frequency",
             f64::INFINITY,
         ),
-        (Limits { shape: 0.0, ..good }, "shape", 0.0),
+        (MovementLimits { shape: 0.0, ..good }, "shape", 0.0),
         (
-            Limits {
+            MovementLimits {
                 shape: f64::NAN,
                 ..good
             },
@@ -176,8 +176,9 @@ fn limits_out_of_range_are_refused() {
 #[test]
 fn bad_modes_are_refused() {
     let mass = DMatrix::<f64>::identity(3, 3);
-    let refused =
-        |raw: &Modes| examine(raw, &mass, Supports::Held, &Limits::default()).unwrap_err();
+    let refused = |raw: &ModeSet| {
+        examine(raw, &mass, Supports::Held, &MovementLimits::default()).unwrap_err()
+    };
     assert!(matches!(
         refused(&modes(&[], DMatrix::zeros(3, 0))),
         Error::Empty { what: "test modes" }
@@ -201,7 +202,7 @@ fn the_wing_box_s_own_test_modes_are_kept() {
         &raw,
         &case.reconstruction.mass(),
         Supports::Held,
-        &Limits::default(),
+        &MovementLimits::default(),
     )
     .unwrap();
     assert_eq!(found.kept, (0..9).collect::<Vec<_>>());

@@ -9,7 +9,7 @@ use crate::common::tolerances::{
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{generalized_mass, orthogonalize};
 use corfem::method::error::Error;
-use corfem::method::modes::Modes;
+use corfem::method::modes::ModeSet;
 use corfem::method::pairing::modal_assurance;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, dmatrix};
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ const MODES: usize = 5;
 const NOISE: f64 = 0.04;
 
 /// Shapes of exact modes with noise in and out of their span.
-fn noisy() -> impl Strategy<Value = (Modes, DMatrix<f64>)> {
+fn noisy() -> impl Strategy<Value = (ModeSet, DMatrix<f64>)> {
     (orthonormal_modes(DOF, MODES), noise(DOF, MODES)).prop_map(|((mut exact, mass), noise)| {
         let inverse = mass.clone().cholesky().unwrap().l().try_inverse().unwrap();
         exact.shapes += NOISE * inverse.tr_mul(&noise);

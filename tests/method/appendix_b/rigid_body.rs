@@ -3,7 +3,7 @@
 use crate::common::measured::free_truss;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::method::appendix_b::{
-    ANTISYMMETRIC, DynamicDof, Motion, SYMMETRIC, rigid_body_vectors,
+    ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors,
 };
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, Unit, Vector3};
@@ -18,8 +18,8 @@ const ALL: [Motion; 6] = [
     Motion::Yaw,
 ];
 
-fn dof(position: [f64; 3], direction: Unit<Vector3<f64>>) -> DynamicDof {
-    DynamicDof {
+fn dof(position: [f64; 3], direction: Unit<Vector3<f64>>) -> MeasuringPoint {
+    MeasuringPoint {
         position: Vector3::from(position),
         direction,
     }

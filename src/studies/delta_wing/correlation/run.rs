@@ -3,9 +3,8 @@
 use super::{GROUPS, Group, first_model, settings, test_modes};
 use crate::cases::BUILT_IN;
 use crate::method::error::Error;
-use crate::method::modal::{DynamicModel, ModalProblem};
-use crate::method::model::FiniteElementModel;
-use crate::method::modes::Modes;
+use crate::method::model::{FiniteElementModel, ModalModel};
+use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::studies::delta_wing::DeltaWing;
 
@@ -44,7 +43,7 @@ pub struct WingCorrelation {
     /// What did the finite element analyses of the model: [`BUILT_IN`] or another program.
     pub solver: &'static str,
     /// The test modes.
-    pub test: Modes,
+    pub test: ModeSet,
     /// The whole history.
     pub correlation: Correlation,
     /// Every group, in the order of [`GROUPS`], with the factors of the best pass.
@@ -59,40 +58,37 @@ pub fn correlate_wing(
     wing: &DeltaWing,
     progress: impl FnMut(usize, &Pass),
 ) -> Result<WingCorrelation, Error> {
-    correlate_wing_with(wing, BUILT_IN, FiniteElementModel::analyze, progress)
+    correlate_wing_with(wing, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
 /// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name for
-/// the report, `analyze` is given the model and the factors on its 21 parameters, and returns the dynamic model of 19 DOF.
+/// the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that program's
+/// element stiffness.
 ///
 /// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a test
-/// knows nothing of the program that analyzes the model. Only the dynamic mass they are scaled with is that of `analyze`.
+/// knows nothing of the program that analyzes the model.
 ///
 /// # Errors
-/// Those of `analyze` and of [`correlate_wing`].
-pub fn correlate_wing_with(
+/// Those of `elements` and of [`correlate_wing`].
+pub fn correlate_wing_with<E: From<Error>>(
     wing: &DeltaWing,
     solver: &'static str,
-    mut analyze: impl FnMut(&FiniteElementModel, &[f64]) -> Result<DynamicModel, Error>,
+    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
-) -> Result<WingCorrelation, Error> {
+) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
-    let start = analyze(&model, &[1.0; GROUPS.len()])?;
-    let test = test_modes(wing, &start.mass)?;
-    let shares = ModalProblem::new(&start, &test, start.mass.nrows())?.test_shares;
-    let correlation = correlate(
-        |factors| analyze(&model, factors),
-        &test,
-        &model.factor_ranges()?,
-        &settings(),
-        progress,
-    )?;
+    let test = test_modes(wing)?;
+    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
+        Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+    };
+    let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
+    let correlation = correlate(analyze, &model.factor_ranges()?, &settings(), progress)?;
     let factors = correlation.best_factors();
-    let found = GROUPS.iter().zip(factors).zip(shares.column_iter());
+    let found = GROUPS.iter().zip(factors).zip(shares);
     let groups = found.map(|((group, factor), share)| Recovered {
         group: *group,
         factor,
-        share: share.max(),
+        share: share.diagonal().max(),
     });
     Ok(WingCorrelation {
         solver,

@@ -1,7 +1,7 @@
 //! What Appendix C works on: a change of stiffness and of $G$, seen through the modes before it.
 
-use super::SMALLEST_SEPARATION;
-use crate::method::appendix_c::complex_modes::LeftRightModes;
+use super::complex_modes::LeftRightModes;
+use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{ComplexField, DMatrix, DVector};
@@ -127,8 +127,8 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         }
         for mode in 0..size {
             let ratio = self.own_stiffness(mode).modulus() / k[mode].modulus();
-            let held = ratio > SMALLEST_SEPARATION;
-            if !held {
+            let stays = ratio > SMALLEST_SEPARATION;
+            if !stays {
                 return Err(Error::LostStiffness { mode, ratio });
             }
         }
@@ -146,20 +146,29 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         lambda + (self.alpha[(i, i)] - self.beta[(i, i)] * lambda) / self.own_stiffness(i)
     }
 
-    /// $k_{ii}(\gamma_j - \lambda_i) + \beta_{ii}\gamma_j - \alpha_{ii}$, refused when it vanishes.
-    pub(crate) fn denominator(&self, gamma: T, i: usize, j: usize) -> Result<T, Error> {
+    /// A shape's component, `numerator` over $k_{ii}(\gamma_j - \lambda_i) + \beta_{ii}\gamma_j - \alpha_{ii}$: zero where nothing
+    /// couples the modes, refused where something does and the denominator vanishes.
+    pub(crate) fn quotient(
+        &self,
+        numerator: T,
+        gamma: T,
+        (i, j): (usize, usize),
+    ) -> Result<T, Error> {
+        if numerator == T::zero() {
+            return Ok(numerator);
+        }
         let difference = self.generalized_stiffness[i] * (gamma - self.roots[i])
             + self.beta[(i, i)] * gamma
             - self.alpha[(i, i)];
         let own = (self.own_stiffness(i) * gamma).modulus();
         if difference.modulus() > SMALLEST_SEPARATION * own {
-            Ok(difference)
-        } else {
-            Err(Error::CoalescingModes {
-                first: i,
-                second: j,
-                separation: difference.modulus() / own,
-            })
+            return Ok(numerator / difference);
         }
+        let separation = difference.modulus() / own;
+        Err(Error::CoalescingModes {
+            first: i,
+            second: j,
+            separation,
+        })
     }
 }

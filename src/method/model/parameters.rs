@@ -1,9 +1,52 @@
 //! What a correlation may change: the stiffness of elements, their mass, or point masses, alone or in groups.
 
 use crate::method::error::Error;
-use crate::method::step::Range;
 use crate::method::structure::Structure;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
+
+/// A closed interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Range {
+    /// Its lower end.
+    pub lower: f64,
+    /// Its upper end.
+    pub upper: f64,
+}
+
+impl Range {
+    /// An interval of positive numbers.
+    ///
+    /// # Errors
+    /// [`Error::Limits`] unless $0 < \text{lower} < \text{upper}$, both finite.
+    pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
+        if lower > 0.0 && upper > lower && upper.is_finite() {
+            Ok(Self { lower, upper })
+        } else {
+            Err(Error::Limits {
+                what: what.to_owned(),
+                lower,
+                upper,
+            })
+        }
+    }
+
+    /// Whether a number lies in the interval.
+    pub fn contains(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
+    }
+
+    /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.
+    pub(crate) fn clamp(&self, value: f64) -> f64 {
+        if value < self.lower {
+            self.lower
+        } else if value > self.upper {
+            self.upper
+        } else {
+            value
+        }
+    }
+}
 
 /// What a parameter scales.
 #[derive(Debug, Clone, PartialEq, Eq)]

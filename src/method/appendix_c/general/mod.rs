@@ -12,9 +12,13 @@
 //! throughout and must give real roots, aerodynamic terms make the same rows complex, and two copies of these
 //! formulae would have to be kept equal by hand. The plain path for stiffness alone stays in [`super::recursive`].
 
-use super::Perturbed;
-use super::modal_change::ModalChange;
+pub mod complex_modes;
+mod modal_change;
+
+pub use modal_change::ModalChange;
+
 use super::recursive::check_order;
+use super::{Perturbed, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_finite;
 use nalgebra::{ComplexField, DMatrix, DVector};
@@ -41,16 +45,11 @@ where
     for j in 0..size {
         let gamma = roots[j];
         for i in (0..size).filter(|&i| i != j) {
-            shapes[(i, j)] = (change.alpha[(i, j)] - change.beta[(i, j)] * gamma)
-                / change.denominator(gamma, i, j)?;
+            let coupled = change.alpha[(i, j)] - change.beta[(i, j)] * gamma;
+            shapes[(i, j)] = change.quotient(coupled, gamma, (i, j))?;
         }
     }
-    finite(Perturbed {
-        roots,
-        shapes,
-        order: 1,
-        last_change: f64::INFINITY,
-    })
+    finite(Perturbed { roots, shapes })
 }
 
 /// Recursive 1 (C.22 with $\alpha$ and a general $k$) to a given order; with $\rho = r - 1$:
@@ -65,8 +64,13 @@ pub fn recursive_1<T>(change: &ModalChange<T>, order: usize) -> Result<Perturbed
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    // No change is below a negative tolerance, so every order asked for is carried out.
-    recursive_1_converged(change, -1.0, order)
+    check_order(order)?;
+    let coupling = Coupling::of(change);
+    let mut now = first_order(change)?;
+    for _ in 2..=order {
+        now = coupling.next_order(change, now)?;
+    }
+    Ok(now)
 }
 
 /// [`recursive_1`] until two orders in a row change no root by more than `tolerance` (relative), at most to order
@@ -76,49 +80,73 @@ where
 /// two modes the roots move in every second order only.
 ///
 /// # Errors
-/// As [`recursive_1`].
+/// As [`recursive_1`]; [`Error::UnsettledRoots`] as [`super::recursive_1_converged`].
 pub fn recursive_1_converged<T>(
     change: &ModalChange<T>,
     tolerance: f64,
     orders: usize,
-) -> Result<Perturbed<T>, Error>
+) -> Result<Settled<T>, Error>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
     check_order(orders)?;
+    let coupling = Coupling::of(change);
     let mut now = first_order(change)?;
-    let (mut beta, mut alpha) = (change.beta.clone(), change.alpha.clone());
-    beta.fill_diagonal(T::zero());
-    alpha.fill_diagonal(T::zero());
-    let mut quiet_orders = 0;
-    for order in 2..=orders {
-        // As in the plain path: with p_jj = 1 and no diagonals, the products hold all the sums of this order.
-        let (stiffness_sums, g_sums) = (&beta * &now.shapes, &alpha * &now.shapes);
-        let mut roots = now.roots.clone();
-        for j in 0..change.len() {
-            let gamma = now.roots[j];
-            let sum = |i: usize| stiffness_sums[(i, j)] * gamma - g_sums[(i, j)];
-            for i in (0..change.len()).filter(|&i| i != j) {
-                now.shapes[(i, j)] = -sum(i) / change.denominator(gamma, i, j)?;
-            }
-            roots[j] = change.first_order_root(j) - sum(j) / change.own_stiffness(j);
-        }
-        now = finite(Perturbed {
-            last_change: largest_change(&now.roots, &roots),
-            roots,
-            order,
-            ..now
-        })?;
-        quiet_orders = if now.last_change < tolerance {
+    let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
+    while order < orders && quiet_orders < QUIET_ORDERS {
+        let before = now.roots.clone();
+        now = coupling.next_order(change, now)?;
+        order += 1;
+        last_change = largest_change(&before, &now.roots);
+        quiet_orders = if last_change < tolerance {
             quiet_orders + 1
         } else {
             0
         };
-        if quiet_orders == QUIET_ORDERS {
-            break;
-        }
     }
-    Ok(now)
+    Settled {
+        perturbed: now,
+        order,
+        last_change,
+    }
+    .check(orders)
+}
+
+/// $\beta$ and $\alpha$ without their diagonals.
+struct Coupling<T> {
+    beta: DMatrix<T>,
+    alpha: DMatrix<T>,
+}
+
+impl<T> Coupling<T>
+where
+    T: ComplexField<RealField = f64> + Copy,
+{
+    fn of(change: &ModalChange<T>) -> Self {
+        let (mut beta, mut alpha) = (change.beta.clone(), change.alpha.clone());
+        beta.fill_diagonal(T::zero());
+        alpha.fill_diagonal(T::zero());
+        Self { beta, alpha }
+    }
+
+    /// One order of Recursive 1.
+    fn next_order(
+        &self,
+        change: &ModalChange<T>,
+        mut now: Perturbed<T>,
+    ) -> Result<Perturbed<T>, Error> {
+        // As for stiffness alone: with p_jj = 1 and no diagonals, the products hold all the sums of this order.
+        let (stiffness_sums, g_sums) = (&self.beta * &now.shapes, &self.alpha * &now.shapes);
+        for j in 0..change.len() {
+            let gamma = now.roots[j];
+            let sum = |i: usize| stiffness_sums[(i, j)] * gamma - g_sums[(i, j)];
+            for i in (0..change.len()).filter(|&i| i != j) {
+                now.shapes[(i, j)] = change.quotient(-sum(i), gamma, (i, j))?;
+            }
+            now.roots[j] = change.first_order_root(j) - sum(j) / change.own_stiffness(j);
+        }
+        finite(now)
+    }
 }
 
 /// Recursive 2 (C.24 with $\alpha$ and a general $k$) to a given order: explicit roots, and shapes from one linear
@@ -138,13 +166,11 @@ where
 {
     check_order(order)?;
     let mut now = first_order(change)?;
-    for order in 2..=order {
+    for _ in 2..=order {
         let roots = explicit_roots(change, &now.shapes)?;
         now = finite(Perturbed {
-            last_change: largest_change(&now.roots, &roots),
             shapes: shapes_by_linear_solution(change, &roots)?,
             roots,
-            order,
         })?;
     }
     Ok(now)
@@ -158,13 +184,10 @@ pub fn original<T>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    let now = first_order(change)?;
-    let roots = explicit_roots(change, &now.shapes)?;
+    let Perturbed { shapes, .. } = first_order(change)?;
     finite(Perturbed {
-        last_change: largest_change(&now.roots, &roots),
-        roots,
-        order: 2,
-        ..now
+        roots: explicit_roots(change, &shapes)?,
+        shapes,
     })
 }
 
@@ -194,6 +217,10 @@ where
 {
     let size = change.len();
     let mut shapes = DMatrix::identity(size, size);
+    if size == 1 {
+        // One mode has no others, and the library's solution of an empty system panics.
+        return Ok(shapes);
+    }
     for (j, &gamma) in roots.iter().enumerate() {
         let mut rows = change.beta.clone() * gamma - &change.alpha;
         for i in 0..size {

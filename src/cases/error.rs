@@ -1,0 +1,46 @@
+//! What can go wrong with the paper's cases and their data, beside the method itself.
+
+use thiserror::Error;
+
+/// An error of a case, of its torque box or of a published table.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CaseError {
+    /// The method refuses its input or cannot go on.
+    #[error(transparent)]
+    Method(#[from] crate::method::error::Error),
+    /// A case that the paper does not have.
+    #[error("case: expected 1, 2, 3 or 4, found {found}")]
+    UnknownCase {
+        /// The number asked for.
+        found: usize,
+    },
+    /// A torque box lacks one of its grid points.
+    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
+    MissingGrid {
+        /// The missing label.
+        grid: usize,
+        /// How many grids a box has.
+        count: usize,
+    },
+    /// Data that does not read as TOML of the expected form.
+    #[error("{name}: expected {expected}, found an error: {source}")]
+    Toml {
+        /// The file or data set.
+        name: String,
+        /// What it should contain.
+        expected: &'static str,
+        /// The reader's own message.
+        source: Box<toml::de::Error>,
+    },
+    /// A table that does not read as CSV of the expected form.
+    #[error("{name}: expected {expected}, found {found}")]
+    Table {
+        /// The table.
+        name: String,
+        /// What it should contain.
+        expected: String,
+        /// What it contains.
+        found: String,
+    },
+}

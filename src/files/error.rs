@@ -1,0 +1,114 @@
+//! What can go wrong with files of other programs and with the programs themselves.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// An error of a deck, of a run of NASTRAN-95 or of a file.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The method refuses its input or cannot go on.
+    #[error(transparent)]
+    Method(#[from] crate::method::error::Error),
+    /// A line of a deck that is not what it must be.
+    #[error("{file}, line {line}: expected {expected}, found {found}")]
+    DeckLine {
+        /// The deck.
+        file: String,
+        /// The line, from one.
+        line: usize,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is.
+        found: String,
+    },
+    /// A field of a bulk data card that is not what it must be.
+    #[error("{file}, line {line}: card {card}, field {field}: expected {expected}, found {found}")]
+    DeckField {
+        /// The deck.
+        file: String,
+        /// The line of the field, from one.
+        line: usize,
+        /// Name of the card.
+        card: String,
+        /// Number of the field: 2 to 9 on the card's first line, 12 to 19 on its first continuation, and so on.
+        field: usize,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// An element at a degree of freedom that an MPC equation makes dependent.
+    #[error(
+        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
+    )]
+    TiedElement {
+        /// The element.
+        element: usize,
+        /// The grid.
+        grid: usize,
+        /// The dependent direction: `x`, `y` or `z`.
+        direction: char,
+    },
+    /// NASTRAN-95 is not in the given folder.
+    #[error(
+        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; name it with --nastran or the environment variable NASTRAN95"
+    )]
+    SolverMissing {
+        /// The folder looked in.
+        path: PathBuf,
+    },
+    /// NASTRAN-95 did not end in time and was stopped.
+    #[error("NASTRAN-95: expected it to end within {seconds} s, found it still running")]
+    SolverTimeLimit {
+        /// The limit.
+        seconds: f64,
+    },
+    /// A request to stop while NASTRAN-95 was running.
+    #[error("NASTRAN-95: expected to wait for its end, found a request to stop")]
+    SolverInterrupted,
+    /// NASTRAN-95 ended with an error status or a signal.
+    #[error("NASTRAN-95: expected it to end well, found {status}: {message}")]
+    SolverCrashed {
+        /// How it ended.
+        status: String,
+        /// The last lines it printed.
+        message: String,
+    },
+    /// NASTRAN-95 refused its input.
+    #[error("NASTRAN-95: expected a run without fatal messages, found: {message}")]
+    SolverFatal {
+        /// Its first fatal message.
+        message: String,
+    },
+    /// Results of NASTRAN-95 that are not what the deck asks for.
+    #[error("NASTRAN-95: expected {expected}, found {found}")]
+    SolverAnswer {
+        /// What the answer must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// A file that the operating system refuses to read, write, run or remove.
+    #[error("{path}: expected to {action} it, found an error: {source}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// `read`, `write`, `run` or `remove`.
+        action: &'static str,
+        /// The operating system's message.
+        source: std::io::Error,
+    },
+}
+
+impl FileError {
+    /// Turns the operating system's error about a file into this one, for `map_err`.
+    pub fn of_file(path: &Path, action: &'static str) -> impl Fn(std::io::Error) -> Self + use<> {
+        let path = path.to_owned();
+        move |source| Self::File {
+            path: path.clone(),
+            action,
+            source,
+        }
+    }
+}

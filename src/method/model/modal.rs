@@ -1,0 +1,168 @@
+//! The modal model: what a finite element analysis hands to the loops.
+//!
+//! It holds modes and not matrices: the exact modes at the compared DOF, already paired with the test modes, and each
+//! parameter's generalized stiffness or mass. Analysis, scaling of the test modes, pairing and comparison all happen in
+//! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
+
+use crate::method::error::Error;
+use crate::method::error_sum::{Errors, errors};
+use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_part};
+use crate::method::modes::{ModeSet, Modes, solve};
+use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired};
+use nalgebra::DMatrix;
+
+/// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Share {
+    /// Of the stiffness, lbf/in, or rad²/s² in mass-orthonormal modes.
+    Stiffness(DMatrix<f64>),
+    /// Of the mass, lbf·s²/in, or a fraction in mass-orthonormal modes.
+    Mass(DMatrix<f64>),
+}
+
+impl Share {
+    /// The matrix, whatever it is a share of.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        match self {
+            Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
+        }
+    }
+
+    /// Another matrix as a share of the same kind.
+    pub(crate) fn with(&self, matrix: DMatrix<f64>) -> Self {
+        match self {
+            Self::Stiffness(_) => Self::Stiffness(matrix),
+            Self::Mass(_) => Self::Mass(matrix),
+        }
+    }
+
+    /// The share seen through shapes $V$ (d × n), $V^t K_e V$.
+    fn through(&self, shapes: &DMatrix<f64>) -> Self {
+        self.with(symmetric_part(&shapes.tr_mul(&(self.matrix() * shapes))))
+    }
+}
+
+/// A model given by its matrices at the dynamic DOF, whatever made them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicModel {
+    /// Dynamic stiffness $K_D$, lbf/in (d × d).
+    pub stiffness: DMatrix<f64>,
+    /// Dynamic mass $M$, lbf·s²/in (d × d).
+    pub mass: DMatrix<f64>,
+    /// Each parameter's present share of either (d × d).
+    pub shares: Vec<Share>,
+}
+
+impl DynamicModel {
+    /// The modal model of the lowest `analysis_modes` modes, of all when none are named.
+    ///
+    /// # Errors
+    /// Those of [`ModalModel::new`]; [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
+    pub fn analyze(
+        &self,
+        test: &ModeSet,
+        analysis_modes: Option<usize>,
+    ) -> Result<ModalModel, Error> {
+        let dof_count = self.stiffness.nrows();
+        for share in &self.shares {
+            check_shape("parameter share", share.matrix(), dof_count, dof_count)?;
+            check_symmetric("parameter share", share.matrix())?;
+        }
+        let through = |shapes: &DMatrix<f64>| {
+            self.shares
+                .iter()
+                .map(|share| share.through(shapes))
+                .collect()
+        };
+        ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, through)
+    }
+}
+
+/// Exact modes compared with the test modes.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// The exact modes, ascending.
+    pub modes: Modes,
+    /// Which of them answers which test mode.
+    pub pairing: Pairing,
+    /// Their frequencies in the order of the test modes, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Their distance from the test modes.
+    pub errors: Errors,
+}
+
+/// A model seen through its exact modes, beside the test modes.
+#[derive(Debug, Clone)]
+pub struct ModalModel {
+    /// The exact modes and how far they are from the test.
+    pub exact: Check,
+    /// The test modes, scaled to unit generalized mass with the model's mass.
+    pub test: ModeSet,
+    /// Cross-orthogonality of the exact modes with the test modes (4), n × g.
+    pub cross: DMatrix<f64>,
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    pub shares: Vec<Share>,
+    /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi}\,\omega_{Gj})$ or
+    /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
+    pub test_shares: Vec<DMatrix<f64>>,
+}
+
+impl ModalModel {
+    /// Solves for the lowest `analysis_modes` modes (all when none are named), compares them with the test modes, and takes
+    /// every parameter's share through both sets of shapes.
+    ///
+    /// `stiffness` (lbf/in) and `mass` (lbf·s²/in) are those of the compared DOF (d × d). The test modes may have any scale.
+    /// `shares` returns $V^t K_e V$ or $V^t M_e V$ of every parameter for given shapes (d × m).
+    ///
+    /// # Errors
+    /// Those of [`solve`], [`ModeSet::scaled_with`] and [`pair_modes`]; [`Error::Empty`] without parameters.
+    pub fn new(
+        stiffness: &DMatrix<f64>,
+        mass: &DMatrix<f64>,
+        test: &ModeSet,
+        analysis_modes: Option<usize>,
+        shares: impl FnOnce(&DMatrix<f64>) -> Vec<Share>,
+    ) -> Result<Self, Error> {
+        let modes = solve(stiffness, mass, analysis_modes.unwrap_or(stiffness.nrows()))?;
+        let test = test.scaled_with(mass)?;
+        let cross = cross_orthogonality(&modes, &test, mass)?;
+        let pairing = pair_modes(&cross)?;
+        // Both sets of shapes go through an element at once; the two diagonal blocks of the result are what is wanted.
+        let (count, test_count) = (modes.len(), test.len());
+        let mut both = modes
+            .shapes
+            .clone()
+            .resize_horizontally(count + test_count, 0.0);
+        both.columns_mut(count, test_count).copy_from(&test.shapes);
+        let through_both = shares(&both);
+        if through_both.is_empty() {
+            return Err(Error::Empty { what: "parameters" });
+        }
+        let omega = test.omega_squared.map(f64::sqrt);
+        let block = |matrix: &DMatrix<f64>, first, size| {
+            matrix.view((first, first), (size, size)).into_owned()
+        };
+        let shares = through_both
+            .iter()
+            .map(|share| share.with(block(share.matrix(), 0, count)));
+        let test_shares = through_both.iter().map(|share| {
+            let on_test = block(share.matrix(), count, test_count);
+            match share {
+                Share::Stiffness(_) => on_test.component_div(&(&omega * omega.transpose())),
+                Share::Mass(_) => on_test,
+            }
+        });
+        Ok(Self {
+            shares: shares.collect(),
+            test_shares: test_shares.collect(),
+            exact: Check {
+                frequencies_hz: paired(&modes, &pairing).frequencies_hz(),
+                errors: errors(&modes, &pairing, &test),
+                modes,
+                pairing,
+            },
+            test,
+            cross,
+        })
+    }
+}

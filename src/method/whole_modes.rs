@@ -1,0 +1,106 @@
+//! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
+
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::modes::Modes;
+use crate::method::structure::{StructuralDof, Structure};
+use nalgebra::{DMatrix, DVector};
+
+/// Eigenvalue of the weighted flexibility relative to the largest below which a root counts as infinite.
+///
+/// It is far above the round-off of the flexibility (1e-15 or so) and below any frequency that means something: the
+/// highest one kept may be three million times the lowest.
+const SMALLEST_ROOT: f64 = 1e-13;
+
+/// The degrees of freedom that move with mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MassDof {
+    /// Which they are.
+    pub dof: Vec<StructuralDof>,
+    /// $T$ (free SDOF × d): $q_D = T^t q_S$.
+    pub load_distribution: DMatrix<f64>,
+    /// The mass on each, lbf·s²/in.
+    pub mass: DVector<f64>,
+}
+
+impl MassDof {
+    /// The free DOF where elements of the given sizes have lumped mass; $T$ selects them.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] when no element has a density.
+    pub fn of_elements(
+        structure: &Structure,
+        elements: &[ElementMatrix],
+        sizes: &[f64],
+    ) -> Result<Self, Error> {
+        let free = structure.free_dof();
+        let lumped = lumped_mass(elements, sizes, free.len());
+        let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
+        if rows.is_empty() {
+            let what = "degrees of freedom with mass";
+            return Err(Error::Empty { what });
+        }
+        Ok(Self {
+            dof: rows.iter().map(|&row| free[row]).collect(),
+            load_distribution: DMatrix::identity(free.len(), free.len()).select_columns(&rows),
+            mass: lumped.select_rows(&rows),
+        })
+    }
+}
+
+/// The lumped mass of elements of the given sizes at every free DOF, lbf·s²/in.
+pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> DVector<f64> {
+    let mut lumped = DVector::zeros(dof_count);
+    for (element, size) in elements.iter().zip(sizes) {
+        for (&row, unit) in element.dof.iter().zip(&element.unit_mass) {
+            lumped[row] += size * unit;
+        }
+    }
+    lumped
+}
+
+/// Modes at the DOF that have mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeModes {
+    /// Rows of the shapes.
+    pub dof: Vec<StructuralDof>,
+    /// Every mode with a finite frequency.
+    pub modes: Modes,
+}
+
+/// All modes of finite frequency at the DOF that have mass.
+///
+/// With $F = T M^{1/2}$ the roots $\lambda = 1/\omega^2$ are the eigenvalues of
+///
+/// $$ F^t K_S^{-1} F\, y = \lambda\, y, \qquad v = M^{-1/2} y, $$
+///
+/// the modes of $(K_D, M)$ without a $K_D$: no root is lost or invented where masses are more than the structure can
+/// tell apart, which would leave the dynamic flexibility $T^t K_S^{-1} T$ without an inverse.
+///
+/// # Errors
+/// [`Error::WrongShape`] for a $T$ that does not fit the stiffness; [`Error::NotFinite`].
+pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<WholeModes, Error> {
+    let root_mass = at.mass.map(f64::sqrt);
+    let mut weighted = at.load_distribution;
+    for (mut column, root_mass) in weighted.column_iter_mut().zip(&root_mass) {
+        column *= *root_mass;
+    }
+    let flexibility = symmetric_part(&weighted.tr_mul(&stiffness.solve(&weighted)?));
+    let (roots, vectors) = symmetric_eigen("weighted dynamic flexibility", &flexibility)?;
+    // Ascending roots are descending frequencies.
+    let largest = roots[roots.len() - 1];
+    let finite: Vec<usize> = (0..roots.len())
+        .rev()
+        .filter(|&mode| roots[mode] > SMALLEST_ROOT * largest)
+        .collect();
+    let mut shapes = vectors.select_columns(&finite);
+    for (mut row, root_mass) in shapes.row_iter_mut().zip(&root_mass) {
+        row /= *root_mass;
+    }
+    let omega_squared = roots.select_rows(&finite).map(f64::recip);
+    Ok(WholeModes {
+        dof: at.dof,
+        modes: Modes::ascending(omega_squared, shapes),
+    })
+}
