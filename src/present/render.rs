@@ -6,6 +6,8 @@ use super::table::{Cell, Row, Table};
 pub const WIDTH: usize = 100;
 /// Blanks between two columns of text.
 const GAP: usize = 2;
+/// Least width of a column whose heading has several words: room for `Pass 1` in one line.
+const LEAST: usize = 6;
 /// Label of a row of published numbers in text.
 const PUBLISHED: &str = "  published";
 
@@ -112,7 +114,11 @@ impl TextColumn {
         let length = |text: &String| text.chars().count();
         let widest = cells.iter().map(length).max().unwrap_or(0);
         let word = name.split(' ').map(|word| word.chars().count()).max();
-        let width = widest.max(word.unwrap_or(0)).max(unit.chars().count());
+        let least = if name.contains(' ') { LEAST } else { 0 };
+        let width = widest
+            .max(word.unwrap_or(0))
+            .max(unit.chars().count())
+            .max(least);
         let mut heading = lines(name, width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
         Self {
