@@ -62,7 +62,8 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     });
     table.notes.extend(solver_note(
         result.solver,
-        ", of the test configuration too,",
+        "",
+        ", of the test configuration too;",
     ));
     table.notes.extend(remarks(paper.as_ref()));
     Ok(table)

@@ -171,10 +171,10 @@ pub fn pass_table(name: &str, title: &str, correlation: &Correlation) -> Table {
 }
 
 /// What did the finite element analyses of a part of the run, when it was not the crate itself.
-pub(super) fn solver_note(solver: &str, of_the_model: &str) -> Option<String> {
+pub(super) fn solver_note(solver: &str, before: &str, after: &str) -> Option<String> {
     (solver != BUILT_IN).then(|| {
         format!(
-            "Finite element analyses{of_the_model} by {solver}; everything else by this program."
+            "Finite element analyses{before} by {solver}{after} everything else by this program."
         )
     })
 }

@@ -155,8 +155,10 @@ fn test_mode_table(run: &WingCorrelation) -> Table {
         stages.labels = TEST_MODES.iter().map(|mode| mode.to_string()).collect();
         (stages.digits, stages.error_digits) = (Digits::Significant(5), RMS_PERCENT);
     });
-    table
-        .notes
-        .extend(solver_note(run.solver, " of the model with wrong gages"));
+    table.notes.extend(solver_note(
+        run.solver,
+        " of the model with wrong gages",
+        "; test modes and",
+    ));
     table
 }
