@@ -22,7 +22,7 @@ const NOT_CONVERGED: u8 = 3;
 /// Without a command it does what `corfem cases` does: it correlates the paper's four cases on its wing torque box
 /// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones.
 #[derive(Debug, Parser)]
-#[command(version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
+#[command(version, max_term_width = 100, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
