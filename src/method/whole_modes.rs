@@ -9,8 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Eigenvalue of the weighted flexibility relative to the largest below which a root counts as infinite.
 ///
-/// It is far above the round-off of the flexibility (1e-15 or so) and below any frequency that means something: the
-/// highest one kept may be three million times the lowest.
+/// It is far above the round-off of the flexibility and keeps frequencies up to three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
 
 /// The degrees of freedom that move with mass.
@@ -34,8 +33,7 @@ impl MassDof {
         let lumped = lumped_mass(elements, sizes, free.len());
         let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
         if rows.is_empty() {
-            let what = "degrees of freedom with mass";
-            return Err(Error::Empty { what });
+            return Err(Error::Empty { what: "degrees of freedom with mass" });
         }
         Ok(Self {
             dof: rows.iter().map(|&row| free[row]).collect(),
@@ -71,8 +69,8 @@ pub struct WholeModes {
 ///
 /// $$ F^t K_S^{-1} F\, y = \lambda\, y, \qquad v = M^{-1/2} y, $$
 ///
-/// the modes of $(K_D, M)$ without a $K_D$: no root is lost or invented where masses are more than the structure can
-/// tell apart, which would leave the dynamic flexibility $T^t K_S^{-1} T$ without an inverse.
+/// They are the modes of $(K_D, M)$, but need no inverse of the dynamic flexibility $T^t K_S^{-1} T$, which is singular
+/// where the structure moves several masses as one.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ that does not fit the stiffness; [`Error::NotFinite`].
@@ -88,8 +86,8 @@ pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<Whole
     let largest = roots[roots.len() - 1];
     let finite: Vec<usize> = (0..roots.len()).rev().filter(|&mode| roots[mode] > SMALLEST_ROOT * largest).collect();
     let mut shapes = vectors.select_columns(&finite);
-    for (mut row, root_mass) in shapes.row_iter_mut().zip(&root_mass) {
-        row /= *root_mass;
+    for mut shape in shapes.column_iter_mut() {
+        shape.component_div_assign(&root_mass);
     }
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
     Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes) })

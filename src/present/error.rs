@@ -16,4 +16,18 @@ pub enum PresentError {
     /// A file or another program fails.
     #[error(transparent)]
     Files(#[from] FileError),
+    /// A figure that cannot be drawn.
+    #[error("figure {figure}: expected to draw it, found {found}")]
+    Drawing {
+        /// The figure's name.
+        figure: String,
+        /// The drawing library's own message.
+        found: String,
+    },
+    /// A page that cannot be put together.
+    #[error("page: expected to fill it, found an error: {source}")]
+    Page {
+        /// The template library's own message.
+        source: askama::Error,
+    },
 }

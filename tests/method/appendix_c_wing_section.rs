@@ -104,7 +104,7 @@ fn changes_that_do_not_fit_their_modes_are_refused() {
     let product = through(&modes.right, &k, &modes.right);
     assert!(matches!(
         ModalChange::new(&k, &same, &none, &none),
-        Err(Error::NotBiorthogonal { left: 1, right: 0, ratio })
+        Err(Error::NotOrthonormal { what: "modes through the stiffness", first: 1, second: 0, found: ratio })
             if (ratio * (product[(0, 0)] * product[(1, 1)]).norm().sqrt() - product[(1, 0)].norm()).abs() < ROUND_OFF
     ));
     for (what, stiffness, stiffness_change, g_change) in [

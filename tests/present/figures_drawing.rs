@@ -3,7 +3,6 @@
 use crate::common::drawings::{size, written};
 use crate::common::golden::Numbers;
 use crate::present::figures::{draw_all, figures};
-use corfem::method::error::Error;
 use corfem::present::error::PresentError;
 use corfem::present::figures::picture;
 
@@ -90,7 +89,7 @@ fn pictures_have_letters_without_a_font_of_the_system() {
     assert_ne!(words, png(""), "the letters show");
     assert_ne!(words, png("Ωλ 2"));
     let wrong = picture::png("broken", "<svg");
-    assert!(matches!(wrong, Err(PresentError::Method(Error::Drawing { figure, .. })) if figure == "broken"));
+    assert!(matches!(wrong, Err(PresentError::Drawing { figure, .. }) if figure == "broken"));
 }
 
 #[test]

@@ -6,10 +6,8 @@ use crate::method::error::Error;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
-/// Points per direction of the quadrature for the panel's energy.
-///
-/// Eight reach round-off on the panels of a wing; twelve agree with the closed forms to 7e-7 on strongly
-/// distorted ones.
+/// Points per direction of the quadrature: eight reach round-off on the panels of a wing; twelve agree with the closed
+/// forms to 7e-7 on strongly distorted ones.
 const QUADRATURE_POINTS: usize = 12;
 
 /// Stiffness of a shear panel of unit thickness, lbf/in per inch of gage (12 × 12).
@@ -26,8 +24,7 @@ const QUADRATURE_POINTS: usize = 12;
 pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
-    let z = energy_coefficient(&plane, material);
-    Ok((0.5 / z) * &a * a.transpose())
+    Ok((0.5 / energy_coefficient(&plane, material)) * &a * a.transpose())
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.

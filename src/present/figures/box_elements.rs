@@ -71,7 +71,7 @@ impl BoxElements {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box taken apart: panels 1 to 15 and rods 16 to 39";
         svg("box_elements", title, (WIDTH, 690.0), |area| self.on(area))

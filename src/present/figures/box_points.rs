@@ -65,7 +65,7 @@ impl BoxPoints {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let title = "The wing torque box: structural and dynamic points";
         svg("box_points", title, (WIDTH, 480.0), |area| self.on(area))

@@ -3,7 +3,6 @@
 //! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
-use crate::method::error::Error;
 use crate::present::error::PresentError;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -151,7 +150,7 @@ pub(super) fn svg(
         area.fill(&WHITE)
             .and_then(|()| draw(&area))
             .and_then(|()| area.present())
-            .map_err(|error| Error::Drawing { figure: name.to_owned(), found: error.to_string() })?;
+            .map_err(|error| PresentError::Drawing { figure: name.to_owned(), found: error.to_string() })?;
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let (across, down) = size;

@@ -80,7 +80,7 @@ impl CoverGages {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let height = HEAD + ROW * self.configurations.len() as f64 + 62.0;
         let title = "Cover gages of the test configuration and of each case's first model";

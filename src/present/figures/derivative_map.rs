@@ -49,7 +49,7 @@ impl DerivativeMap {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_derivatives", self.case);
         let title = format!("Case {}: derivatives of the first model", self.case);

@@ -78,7 +78,7 @@ impl GageErrors {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_gages", self.case);
         let title = format!("Case {}: gage errors by panel", self.case);

@@ -40,7 +40,7 @@ pub struct Figure {
 /// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
 ///
 /// # Errors
-/// [`crate::method::error::Error::Drawing`].
+/// [`PresentError::Drawing`].
 pub fn comparison_figures(
     case: usize,
     runs: &[FewerModesRun],
@@ -77,7 +77,7 @@ pub fn comparison_figures(
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///
 /// # Errors
-/// Those of the figures' data; [`crate::method::error::Error::Drawing`].
+/// Those of the figures' data; [`PresentError::Drawing`].
 pub fn all_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |name: &str, caption: String, svg: String| {

@@ -49,7 +49,7 @@ impl ModeAgreement {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_agreement", self.case);
         let title = format!("Case {}: analysis against test modes before and after", self.case);

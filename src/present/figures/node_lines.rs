@@ -79,7 +79,7 @@ impl NodeLines {
     /// The node lines in plan as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_node_lines", self.case);
         let title = format!("Case {}: node lines", self.case);
@@ -99,7 +99,7 @@ impl NodeLines {
     /// The mode shapes in the quasi-isometric view as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw_shapes(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_mode_shapes", self.case);
         let title = format!("Case {}: mode shapes", self.case);

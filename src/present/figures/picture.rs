@@ -1,6 +1,5 @@
 //! An SVG figure as PNG, with letters that need no font of the system.
 
-use crate::method::error::Error;
 use crate::present::error::PresentError;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
@@ -11,9 +10,9 @@ const DOTS: f32 = 2.0;
 /// A PNG picture of an SVG document, two dots to its pixel; letters are set in Noto Sans, which the program carries.
 ///
 /// # Errors
-/// [`crate::method::error::Error::Drawing`] naming the figure when the document does not read or has no size.
+/// [`PresentError::Drawing`] naming the figure when the document does not read or has no size.
 pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, PresentError> {
-    let failed = |found: String| Error::Drawing { figure: name.to_owned(), found };
+    let failed = |found: String| PresentError::Drawing { figure: name.to_owned(), found };
     let mut options = Options::default();
     let fonts = options.fontdb_mut();
     fonts.load_font_data(notosans::REGULAR_TTF.to_vec());

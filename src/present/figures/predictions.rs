@@ -59,7 +59,7 @@ impl Predictions {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!("Case {}: frequency errors of the corrected models", self.case);
         svg("matrices_frequencies", &title, (WIDTH, HEIGHT), |area| self.on(area))

@@ -47,7 +47,7 @@ impl StiffnessChange {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!("Case {}: change of the dynamic stiffness, entry by entry", self.case);
         svg("matrices_stiffness", &title, (WIDTH, 780.0), |area| self.on(area))

@@ -56,7 +56,7 @@ impl Truncation {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let title = format!("Case {}: errors with fewer modes", self.case);
         svg("truncation", &title, (WIDTH, 760.0), |area| self.on(area))

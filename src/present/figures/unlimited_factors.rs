@@ -61,7 +61,7 @@ impl UnlimitedFactors {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_factors", self.case);
         let title = format!("Case {}: unlimited stiffness change factors", self.case);

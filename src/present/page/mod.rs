@@ -76,7 +76,7 @@ struct Part<'a> {
 /// The page.
 ///
 /// # Errors
-/// [`CaseError::Table`] for damaged published tables; [`crate::method::error::Error::Page`] when the page cannot be put together.
+/// [`CaseError::Table`] for damaged published tables; [`PresentError::Page`] when the page cannot be put together.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let &Contents { results, fit, figures, command, .. } = contents;
     let mut tables = all_tables(results, fit)?;
@@ -119,7 +119,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         fit_rms_percent: Digits::Fixed(3).write(100.0 * fit.rms),
         fit_largest_percent: Digits::Fixed(2).write(100.0 * fit.largest),
     };
-    Ok(page.render().map_err(|source| crate::method::error::Error::Page { source })?)
+    page.render().map_err(|source| PresentError::Page { source })
 }
 
 /// Figures whose names begin alike.

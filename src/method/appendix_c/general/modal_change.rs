@@ -36,7 +36,7 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
     /// d × d, seen through its modes.
     ///
     /// # Errors
-    /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotBiorthogonal`] when
+    /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotOrthonormal`] when
     /// $U^t K V$ is not diagonal (C.10).
     pub fn new(
         stiffness: &DMatrix<T>,
@@ -62,7 +62,8 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
                 let ratio = k[(left, right)].modulus() / own;
                 let apart = ratio <= LARGEST_COUPLING;
                 if !apart {
-                    return Err(Error::NotBiorthogonal { left, right, ratio });
+                    let what = "modes through the stiffness";
+                    return Err(Error::NotOrthonormal { what, first: left, second: right, found: ratio });
                 }
             }
         }

@@ -27,7 +27,7 @@ impl ErrorHistory {
     /// The figure as SVG.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::Drawing`].
+    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         let name = format!("case_{}_errors", self.case);
         let title = format!("Case {}: errors against iteration", self.case);
