@@ -123,18 +123,15 @@ impl FactorizedStiffness {
                 .map_err(|_| Error::NoConvergence("sparse assembly"))
                 .map(|matrix| matrix.sp_cholesky(Side::Lower).ok())
         };
-        if let Some(factor) = factorize(0.0)? {
+        let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
+        // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
+        for shift in [0.0, SINGULAR_SHIFT] {
+            let Some(factor) = factorize(shift)? else { continue };
             let (smallest, motion) = weakest_motion(&factor, count);
-            let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
-            if smallest > round_off {
+            if shift == 0.0 && smallest > round_off {
                 return Ok(Self { scale, factor });
             }
-            return singular(motion.component_mul(&scale).iamax(), smallest);
-        }
-        // Not positive definite to working precision: shift it to find out which motion is free.
-        if let Some(factor) = factorize(SINGULAR_SHIFT)? {
-            let (smallest, motion) = weakest_motion(&factor, count);
-            return singular(motion.component_mul(&scale).iamax(), smallest - SINGULAR_SHIFT);
+            return singular(motion.component_mul(&scale).iamax(), smallest - shift);
         }
         let what = "structural stiffness";
         cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))

@@ -33,10 +33,8 @@ pub fn check_shape<T>(
     expected_columns: usize,
 ) -> Result<(), Error> {
     let (rows, columns) = matrix.shape();
-    if (rows, columns) == (expected_rows, expected_columns) {
-        return Ok(());
-    }
-    Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns })
+    let fits = (rows, columns) == (expected_rows, expected_columns);
+    if fits { Ok(()) } else { Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) }
 }
 
 /// Refuses lists of another length.
@@ -87,10 +85,8 @@ pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) 
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };
-    match (0..matrix.nrows()).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]) {
-        Some(dof) => Err(Error::NotPositiveDefinite { what, dof }),
-        None => Ok(lower),
-    }
+    let bad = (0..matrix.nrows()).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]);
+    bad.map_or(Ok(lower), |dof| Err(Error::NotPositiveDefinite { what, dof }))
 }
 
 /// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.

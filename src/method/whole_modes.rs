@@ -7,9 +7,8 @@ use crate::method::modes::Modes;
 use crate::method::structure::{StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 
-/// Eigenvalue of the weighted flexibility relative to the largest below which a root counts as infinite.
-///
-/// It is far above the round-off of the flexibility and keeps frequencies up to three million times the lowest.
+/// Eigenvalue of the weighted flexibility relative to the largest below which a frequency counts as infinite: far above
+/// round-off, yet it keeps frequencies up to three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
 
 /// The degrees of freedom that move with mass.
@@ -77,18 +76,14 @@ pub struct WholeModes {
 pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<WholeModes, Error> {
     let root_mass = at.mass.map(f64::sqrt);
     let mut weighted = at.load_distribution;
-    for (mut column, root_mass) in weighted.column_iter_mut().zip(&root_mass) {
-        column *= *root_mass;
-    }
+    weighted.column_iter_mut().zip(&root_mass).for_each(|(mut column, root_mass)| column *= *root_mass);
     let flexibility = symmetric_part(&weighted.tr_mul(&stiffness.solve(&weighted)?));
     let (roots, vectors) = symmetric_eigen("weighted dynamic flexibility", &flexibility)?;
     // Ascending roots are descending frequencies.
     let largest = roots[roots.len() - 1];
     let finite: Vec<usize> = (0..roots.len()).rev().filter(|&mode| roots[mode] > SMALLEST_ROOT * largest).collect();
     let mut shapes = vectors.select_columns(&finite);
-    for mut shape in shapes.column_iter_mut() {
-        shape.component_div_assign(&root_mass);
-    }
+    shapes.column_iter_mut().for_each(|mut shape| shape.component_div_assign(&root_mass));
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
     Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes) })
 }

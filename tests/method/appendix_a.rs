@@ -128,8 +128,10 @@ proptest! {
         }
         t.set_column(dof, &combination);
         let refused = condensed(&stiffness, &t);
-        let named = matches!(refused, Err(Error::Dependent { what: "dynamic degree of freedom", index }) if index == dof);
-        prop_assert!(named, "{refused:?}, not {dof}");
+        let Err(Error::Dependent { what: "dynamic degree of freedom", index }) = refused else {
+            return Err(TestCaseError::fail(format!("{refused:?}, not {dof}")));
+        };
+        prop_assert_eq!(index, dof);
     }
 }
 

@@ -10,9 +10,8 @@ use nalgebra::Vector3;
 ///
 /// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
 ///
-/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$, by the
-/// diagonals, the quadrilateral's area in its mean plane. Those of a warped panel sum to slightly more than $A$, as
-/// NASTRAN's do.
+/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ the
+/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$.
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind.

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 ///
 /// $$ K = \frac{E}{L}\, b\, b^t, \qquad b = (-n,\; n), \qquad n = (x_2 - x_1)/L $$
 ///
-/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists stretching alone.
+/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching.
 ///
 /// # Errors
 /// [`Error::ZeroLength`] when the ends coincide to working precision.

@@ -14,8 +14,8 @@ const QUADRATURE_POINTS: usize = 12;
 ///
 /// $$ K = \frac{a\, a^t}{2 Z}, \qquad U = q_1^2 Z $$
 ///
-/// with $a$ the corner forces of [`corner_forces`] and $Z$ the energy of [`energy_coefficient`], both for a unit
-/// mean shear flow $q_1$ on side 1-2. The panel resists one pattern of motion alone: rank one.
+/// with $a$ the [`corner_forces`] and $Z$ the [`energy_coefficient`] for a unit mean shear flow $q_1$ on side 1-2. The
+/// panel resists a single pattern of motion: rank one.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
@@ -35,7 +35,7 @@ pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<D
 /// $$ f_1 = -\frac{X_2 Y_4}{2\tau}\, d_{13} = -f_3, \qquad
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)}\, d_{24} = -f_4 . $$
 ///
-/// They act along the true diagonals, so force and moment vanish exactly, on a warped panel too.
+/// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
 pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
     let [_, c2, c3, c4] = plane.corners;
     let x2 = c2.x;
@@ -53,8 +53,8 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 ///
 /// $$ Z = \int \Big(\frac{p_1 p_2}{p^2}\Big)^{2} \frac{1}{2G}\Big(1 + \frac{2\cot^2\varphi}{1+\nu}\Big)\, dA . $$
 ///
-/// In homogeneous coordinates $P$, $Q$ and the line between them exist also when sides are parallel, so one
-/// quadrature serves rectangle, parallelogram, trapezoid and general panel.
+/// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
+/// quadrature serves every panel.
 pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     let corners = plane.corners.map(|c| Vector3::new(c.x, c.y, 1.0));
     let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
@@ -83,7 +83,7 @@ fn ray(to: &Vector3<f64>, point: &Vector2<f64>) -> Vector2<f64> {
     to.xy() - to.z * point
 }
 
-/// Point and area ratio of the bilinear map of the square from −1 to 1 on the panel.
+/// Point and area ratio of the bilinear map of the square from −1 to 1 onto the panel.
 fn bilinear(corners: &[Vector2<f64>; 4], s: f64, t: f64) -> (Vector2<f64>, f64) {
     let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut point = Vector2::zeros();

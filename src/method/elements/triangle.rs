@@ -7,11 +7,11 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
 ///
-/// $$ K = A\, B^t D B, \qquad
-///    D = \frac{E}{1-\nu^2}\begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
+/// $$ K = A\, B^t D B, \qquad D = \frac{E}{1-\nu^2}
+///    \begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
 ///
-/// $B$ maps the nine translations (x, y, z of each corner, global axes, inches) to the three strains in the
-/// triangle's own plane; motion out of the plane meets no resistance. Rank three.
+/// $B$ maps the nine translations (x, y, z of each corner, inches) to the three strains in the triangle's plane; motion
+/// out of the plane meets no resistance. Rank three.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.

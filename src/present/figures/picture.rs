@@ -24,5 +24,5 @@ pub fn png(name: &str, svg: &str) -> Result<Vec<u8>, PresentError> {
         .ok_or_else(|| failed(format!("a size of {width} by {height} dots")))?;
     resvg::render(&tree, Transform::from_scale(DOTS, DOTS), &mut pixels.as_mut());
     let png = pixels.encode_png();
-    Ok(png.map_err(|error| failed(error.to_string()))?)
+    png.map_err(|error| failed(error.to_string()))
 }
