@@ -174,15 +174,17 @@ pub enum Error {
         /// The first dependent one.
         index: usize,
     },
-    /// Shapes that must be orthonormal in some measure and are not.
-    #[error("{what} {first} and {second} (from zero): expected a product of 1 with itself or 0, found {found}")]
+    /// Modes that must be orthonormal with the mass, or biorthogonal with the stiffness, and are not.
+    #[error("{what} {first} and {second} (from zero): expected {expected}, found {found}")]
     NotOrthonormal {
-        /// The shapes and their measure.
+        /// The measure and the modes.
         what: &'static str,
-        /// The one shape, or the left one.
+        /// The one mode, or the left one.
         first: usize,
         /// The other or the same, or the right one.
         second: usize,
+        /// The product they must have.
+        expected: f64,
         /// The product found.
         found: f64,
     },

@@ -127,7 +127,8 @@ fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) 
             let found = cross[(first, second)];
             // NaN comes from shapes so large that their products overflow.
             if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
-                return Err(Error::NotOrthonormal { what: "test modes through the mass", first, second, found });
+                let what = "generalized mass of test modes";
+                return Err(Error::NotOrthonormal { what, first, second, expected, found });
             }
         }
     }

@@ -56,7 +56,7 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 /// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
 /// quadrature serves every panel.
 pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
-    let corners = plane.corners.map(|c| Vector3::new(c.x, c.y, 1.0));
+    let corners = plane.corners.map(|corner| corner.push(1.0));
     let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
     let p = side[0].cross(&side[2]);
     let q = side[1].cross(&side[3]);
@@ -67,20 +67,15 @@ pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     for &(s, ws) in &rule {
         for &(t, wt) in &rule {
             let (point, jacobian) = bilinear(&plane.corners, s, t);
-            let at = Vector3::new(point.x, point.y, 1.0);
-            let flow = first_two / line.dot(&at).powi(2);
-            let (to_p, to_q) = (ray(&p, &point), ray(&q, &point));
+            let flow = first_two / line.dot(&point.push(1.0)).powi(2);
+            // Directions to P and Q, which may lie at infinity, unscaled.
+            let [to_p, to_q] = [p, q].map(|end| end.xy() - end.z * point);
             let cotangent = to_p.dot(&to_q) / to_p.perp(&to_q);
             energy += ws * wt * jacobian * flow * flow / (2.0 * material.shear_modulus)
                 * (1.0 + 2.0 * cotangent * cotangent / (1.0 + material.poissons_ratio));
         }
     }
     energy
-}
-
-/// Direction from `point` to a point in homogeneous coordinates (which may lie at infinity), unscaled.
-fn ray(to: &Vector3<f64>, point: &Vector2<f64>) -> Vector2<f64> {
-    to.xy() - to.z * point
 }
 
 /// Point and area ratio of the bilinear map of the square from −1 to 1 onto the panel.

@@ -56,14 +56,14 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         }
         let through_modes = |matrix: &DMatrix<T>| modes.left.tr_mul(&(matrix * &modes.right));
         let k = through_modes(stiffness);
-        for right in 0..count {
-            for left in (0..count).filter(|&left| left != right) {
-                let own = (k[(left, left)] * k[(right, right)]).modulus().sqrt();
-                let ratio = k[(left, right)].modulus() / own;
-                let apart = ratio <= LARGEST_COUPLING;
+        for second in 0..count {
+            for first in (0..count).filter(|&first| first != second) {
+                let own = (k[(first, first)] * k[(second, second)]).modulus().sqrt();
+                let found = k[(first, second)].modulus() / own;
+                let apart = found <= LARGEST_COUPLING;
                 if !apart {
-                    let what = "modes through the stiffness";
-                    return Err(Error::NotOrthonormal { what, first: left, second: right, found: ratio });
+                    let what = "relative generalized stiffness of left and right modes";
+                    return Err(Error::NotOrthonormal { what, first, second, expected: 0.0, found });
                 }
             }
         }
