@@ -224,7 +224,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
 }
 
 fn nonzero(length: f64) -> Result<f64, Error> {
-    if length > 0.0 { Ok(length) } else { Err(Error::ZeroLength { length }) }
+    if length > 0.0 { Ok(length) } else { Err(Error::ZeroLength(length)) }
 }
 
 /// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.

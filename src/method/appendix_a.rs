@@ -2,7 +2,7 @@
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{cholesky, solve_lower};
+use crate::method::linear_algebra::{cholesky, solve_lower, symmetric_part};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -22,46 +22,42 @@ pub struct Condensed {
 /// $$ K_D^{-1} = T^t K_S^{-1} T, \qquad B^t = K_S^{-1} T K_D, \qquad q_S = B^t q_D $$
 ///
 /// $T$ distributes dynamic loads to structural ones, $Q_S = T Q_D$; by equal work $q_D = T^t q_S$. When $T$
-/// only selects DOF this is static (Guyan) condensation. The paper's (1), (2), (A.5), (A.7), (A.8), where the print
-/// of $B$ has $T^t$ for $T$: see `paper/errata.md`.
+/// only selects DOF this is static (Guyan) condensation.
 ///
 /// # Errors
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
-/// [`Error::DependentDynamicDof`] when a dynamic DOF is a combination of those before it.
+/// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
+///
+/// Source: the paper's (1), (2), (A.5), (A.7), (A.8), which print $T^t$ for $T$ in $B$ (`paper/errata.md`).
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let t = load_distribution;
     if t.ncols() == 0 {
         return Err(Error::Empty { what: "dynamic degrees of freedom" });
     }
     let deflections = structural.solve(t)?;
-    let flexibility = crate::method::linear_algebra::symmetric_part(&t.tr_mul(&deflections));
-    let lower =
-        cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT).map_err(|error| match error {
-            Error::NotPositiveDefinite { dof, .. } => Error::DependentDynamicDof { dof },
-            other => other,
-        })?;
+    let flexibility = symmetric_part(&t.tr_mul(&deflections));
+    let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
+        .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
     solve_lower(&lower, &mut inverse_factor);
     let stiffness = inverse_factor.tr_mul(&inverse_factor);
     Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }
 
-/// Generalized stiffness of an element for unit size, $V_e^t K_e V_e$ with $V_e$ the rows of `shapes` (free SDOF × m) at the
-/// element's own DOF, lbf/in per unit size for deflections in inches (m × m).
+/// Generalized stiffness of an element for unit size, $V_e^t K_e V_e$ with $V_e$ the rows of `shapes` (free SDOF × m)
+/// at the element's own DOF, lbf/in per unit size for deflections in inches (m × m).
 ///
-/// For `shapes` $= B^t$ it is the element's share of $K_D$, $B K_e B^t$ (A.9): with one $B$ for all elements the shares,
-/// times the sizes, sum to $K_D$ exactly. For $V_S = B^t V$ it is that share seen through dynamic shapes $V$.
+/// For `shapes` $= B^t$ it is the element's share of $K_D$, $B K_e B^t$ (A.9); the shares, times the sizes, sum to
+/// $K_D$ exactly. For $V_S = B^t V$ it is that share seen through dynamic shapes $V$.
 pub fn generalized_stiffness(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
     let rows = shapes.select_rows(&element.dof);
-    crate::method::linear_algebra::symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
+    symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
 }
 
 /// Generalized mass of an element for unit size in the same way, $V_e^t M_e V_e$ with the lumped $M_e$ (m × m).
 pub fn generalized_mass(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
     let rows = shapes.select_rows(&element.dof);
     let mut weighted = rows.clone();
-    for (mut row, &mass) in weighted.row_iter_mut().zip(element.unit_mass.iter()) {
-        row *= mass;
-    }
-    crate::method::linear_algebra::symmetric_part(&rows.tr_mul(&weighted))
+    weighted.column_iter_mut().for_each(|mut column| column.component_mul_assign(&element.unit_mass));
+    symmetric_part(&rows.tr_mul(&weighted))
 }

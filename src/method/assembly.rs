@@ -3,21 +3,21 @@
 use crate::method::elements::mass::corner_volumes;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_shape, cholesky};
-use crate::method::structure::{DIRECTIONS, StructuralDof, Structure, positive};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, cholesky, from_faer, to_faer};
+use crate::method::structure::{DIRECTIONS, Element, StructuralDof, Structure, positive};
 use faer::Side;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of inverse iteration toward the weakest motion. Each divides what is left of the others by the
-/// ratio of the two smallest eigenvalues; for the verdict "singular" the first already gains ten decades.
+/// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
+/// smallest eigenvalues; when the matrix is singular the first step already gains ten decades.
 const INVERSE_ITERATIONS: usize = 4;
 /// Shift of the unit-diagonal stiffness that makes a singular one factorizable to find its free motion.
 const SINGULAR_SHIFT: f64 = 1e-10;
 
-/// One element's stiffness for unit size at the free structural DOF it touches.
+/// One element's stiffness and mass for unit size at the free structural DOF it touches.
 #[derive(Debug, Clone)]
 pub struct ElementMatrix {
     /// The element's number.
@@ -30,72 +30,53 @@ pub struct ElementMatrix {
     pub unit_mass: DVector<f64>,
 }
 
-/// Unit stiffness of every element, restricted to the free DOF, in the structure's order.
+/// Unit stiffness and mass of every element, restricted to the free DOF, in the structure's order.
 ///
 /// # Errors
 /// [`Error::InElement`] around the geometry error of the first bad element.
 pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Error> {
-    structure
-        .elements()
-        .iter()
-        .map(|element| {
-            let corners = structure.corners(element);
-            let full = unit_stiffness(element.kind, &corners, &element.material)
-                .map_err(|error| error.in_element(element.label))?;
-            let (local, dof): (Vec<usize>, Vec<usize>) = element
-                .grids
-                .iter()
-                .flat_map(|&grid| (0..3).map(move |direction| (grid, direction)))
-                .enumerate()
-                .filter_map(|(local, (grid, direction))| Some((local, structure.free_dof_index(grid, direction)?)))
-                .unzip();
-            let volumes = corner_volumes(element.kind, &corners)?;
-            let unit_mass = local.iter().map(|&row| element.material.density * volumes[row / 3]);
-            Ok(ElementMatrix {
-                label: element.label,
-                unit_mass: DVector::from_iterator(dof.len(), unit_mass),
-                unit: full.select_rows(&local).select_columns(&local),
-                dof,
-            })
-        })
-        .collect()
+    let of_element = |element: &Element| {
+        let &Element { label, kind, ref grids, material, .. } = element;
+        let corners = structure.corners(element);
+        let full = unit_stiffness(kind, &corners, &material).map_err(|error| error.in_element(label))?;
+        let volumes = corner_volumes(kind, &corners)?;
+        let all = grids.iter().flat_map(|&grid| (0..3).map(move |direction| structure.free_dof_index(grid, direction)));
+        let (local, dof): (Vec<usize>, Vec<usize>) =
+            all.enumerate().filter_map(|(local, dof)| Some((local, dof?))).unzip();
+        let unit_mass = local.iter().map(|&row| material.density * volumes[row / 3]);
+        let unit_mass = DVector::from_iterator(local.len(), unit_mass);
+        Ok(ElementMatrix { label, unit_mass, unit: full.select_rows(&local).select_columns(&local), dof })
+    };
+    structure.elements().iter().map(of_element).collect()
 }
 
 /// The structural stiffness $K_S = \sum_e s_e K_e$ at the free DOF as a dense matrix, lbf/in.
 ///
-/// `sizes` are the gages and areas $s_e$, one per element; `dof_count` the number of free DOF.
+/// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless there is one size per element.
 pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
+    check_length("element sizes", sizes.len(), elements.len())?;
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
-    for_each_entry(elements, sizes, |row, column, value| {
+    for (row, column, value) in entries(elements, sizes) {
         stiffness[(row, column)] += value;
-    })?;
+    }
     Ok(stiffness)
 }
 
-fn for_each_entry(
-    elements: &[ElementMatrix],
-    sizes: &[f64],
-    mut add: impl FnMut(usize, usize, f64),
-) -> Result<(), Error> {
-    let given = DMatrix::from_column_slice(sizes.len(), 1, sizes);
-    check_shape("element sizes", &given, elements.len(), 1)?;
-    for (element, &size) in elements.iter().zip(sizes) {
-        for (b, &column) in element.dof.iter().enumerate() {
-            for (a, &row) in element.dof.iter().enumerate() {
-                add(row, column, size * element.unit[(a, b)]);
-            }
-        }
-    }
-    Ok(())
+/// Row, column and value of every entry of every $s_e K_e$.
+fn entries(elements: &[ElementMatrix], sizes: &[f64]) -> impl Iterator<Item = (usize, usize, f64)> {
+    elements.iter().zip(sizes).flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
+        let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
+        (0..dof.len()).flat_map(column)
+    })
 }
 
-/// The factorized structural stiffness: factorized once, solved many times.
+/// The structural stiffness, factorized once and solved many times.
 ///
-/// Held as $K_S = S^{-1} L L^t S^{-1}$, $S$ the diagonal that scales $K_S$ to unit diagonal, with a sparse
-/// Cholesky factor.
+/// Held as $K_S = S^{-1} L L^t S^{-1}$ with a sparse Cholesky factor $L$, where the diagonal $S$ scales $K_S$ to unit
+/// diagonal.
 #[derive(Debug)]
 pub struct FactorizedStiffness {
     scale: DVector<f64>,
@@ -108,49 +89,52 @@ impl FactorizedStiffness {
     /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a size that
-    /// is not;
-    /// [`Error::SingularStiffness`] naming the grid and direction that nothing constrains, when the smallest
-    /// eigenvalue of the unit-diagonal stiffness is within round-off of zero; [`Error::NotPositiveDefinite`] for
-    /// element matrices that are not semidefinite.
+    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a bad size;
+    /// [`Error::Empty`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
+    /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
+    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite.
     pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
         for (element, &size) in elements.iter().zip(sizes) {
             positive("size", || format!("element {}", element.label), size)?;
         }
-        if free.is_empty() {
+        let count = free.len();
+        if count == 0 {
             return Err(Error::Empty { what: "free degrees of freedom" });
         }
-        let mut diagonal = DVector::<f64>::zeros(free.len());
-        for_each_entry(elements, sizes, |row, column, value| {
-            if row == column {
-                diagonal[row] += value;
-            }
-        })?;
+        check_length("element sizes", sizes.len(), elements.len())?;
+        let mut diagonal = DVector::<f64>::zeros(count);
+        for (row, _, value) in entries(elements, sizes).filter(|(row, column, _)| row == column) {
+            diagonal[row] += value;
+        }
+        let singular = |dof: usize, ratio| {
+            let StructuralDof { grid, direction } = free[dof];
+            Err(Error::SingularStiffness { grid, direction: DIRECTIONS[direction], ratio })
+        };
         if let Some(dof) = diagonal.iter().position(|&entry| entry <= 0.0) {
-            return Err(singular(free[dof], 0.0));
+            return singular(dof, 0.0);
         }
         let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
-        let factorize = |shift| factorize_scaled(elements, sizes, &scale, shift);
-        let round_off = 32.0 * f64::EPSILON * (free.len() as f64).sqrt();
-        if let Some(factor) = factorize(0.0)? {
-            let (smallest, motion) = weakest_motion(&factor, free.len());
-            if smallest > round_off {
+        let factorize = |shift: f64| {
+            let shifts = (0..count).map(|i| Triplet::new(i, i, shift));
+            let lower = entries(elements, sizes).filter(|(row, column, _)| row >= column);
+            let scaled =
+                lower.map(|(row, column, value)| Triplet::new(row, column, value * scale[row] * scale[column]));
+            SparseColMat::try_new_from_triplets(count, count, &shifts.chain(scaled).collect::<Vec<_>>())
+                .map_err(|_| Error::NoConvergence("sparse assembly"))
+                .map(|matrix| matrix.sp_cholesky(Side::Lower).ok())
+        };
+        let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
+        // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
+        for shift in [0.0, SINGULAR_SHIFT] {
+            let Some(factor) = factorize(shift)? else { continue };
+            let (smallest, motion) = weakest_motion(&factor, count);
+            if shift == 0.0 && smallest > round_off {
                 return Ok(Self { scale, factor });
             }
-            return Err(singular(free[most_moved(&motion, &scale)], smallest));
+            return singular(motion.component_mul(&scale).iamax(), smallest - shift);
         }
-        // Not positive definite to working precision: shift it to find out which motion is free.
-        match factorize(SINGULAR_SHIFT)? {
-            Some(factor) => {
-                let (smallest, motion) = weakest_motion(&factor, free.len());
-                Err(singular(free[most_moved(&motion, &scale)], smallest - SINGULAR_SHIFT))
-            }
-            None => {
-                let what = "structural stiffness";
-                let dense = dense_stiffness(elements, sizes, free.len())?;
-                cholesky(what, &dense, 0.0).and(Err(Error::NoConvergence { what }))
-            }
-        }
+        let what = "structural stiffness";
+        cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))
     }
 
     /// Deflections $q_S = K_S^{-1} Q_S$ (A.2) for every column of `loads` (lbf); inches.
@@ -159,57 +143,28 @@ impl FactorizedStiffness {
     /// [`Error::WrongShape`] unless `loads` has one row per free DOF; [`Error::NotFinite`].
     pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", loads, self.scale.len(), loads.ncols())?;
-        crate::method::linear_algebra::check_finite("loads", loads)?;
-        let mut right =
-            faer::Mat::from_fn(loads.nrows(), loads.ncols(), |row, column| self.scale[row] * loads[(row, column)]);
-        self.factor.solve_in_place(&mut right);
-        Ok(DMatrix::from_fn(loads.nrows(), loads.ncols(), |row, column| self.scale[row] * right[(row, column)]))
+        check_finite("loads", loads)?;
+        let scaled = |mut matrix: DMatrix<f64>| {
+            matrix.column_iter_mut().for_each(|mut column| column.component_mul_assign(&self.scale));
+            matrix
+        };
+        let mut solved = to_faer(&scaled(loads.clone()));
+        self.factor.solve_in_place(&mut solved);
+        Ok(scaled(from_faer(solved.as_ref())))
     }
-}
-
-/// Sparse Cholesky factor of the stiffness scaled to unit diagonal, plus `shift` on the diagonal;
-/// `None` when it is not positive definite.
-fn factorize_scaled(
-    elements: &[ElementMatrix],
-    sizes: &[f64],
-    scale: &DVector<f64>,
-    shift: f64,
-) -> Result<Option<Llt<usize, f64>>, Error> {
-    let size = scale.len();
-    let mut triplets: Vec<_> = (0..size).map(|i| Triplet::new(i, i, shift)).collect();
-    for_each_entry(elements, sizes, |row, column, value| {
-        if row >= column {
-            triplets.push(Triplet::new(row, column, value * scale[row] * scale[column]));
-        }
-    })?;
-    let matrix = SparseColMat::try_new_from_triplets(size, size, &triplets)
-        .map_err(|_| Error::NoConvergence { what: "sparse assembly" })?;
-    Ok(matrix.sp_cholesky(Side::Lower).ok())
 }
 
 /// Smallest eigenvalue and its vector of a factorized matrix, by inverse iteration.
 fn weakest_motion(factor: &Llt<usize, f64>, size: usize) -> (f64, DVector<f64>) {
     // A start with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
     let golden = 0.618_033_988_749_894_8;
-    let mut motion = DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract());
-    motion.normalize_mut();
+    let mut motion = DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize();
     let mut smallest = 1.0;
     for _ in 0..INVERSE_ITERATIONS {
         let mut next = faer::Mat::from_fn(size, 1, |i, _| motion[i]);
         factor.solve_in_place(&mut next);
-        let next = DVector::from_fn(size, |i, _| next[(i, 0)]);
-        let growth = next.norm();
-        smallest = 1.0 / growth;
-        motion = next / growth;
+        motion = DVector::from_fn(size, |i, _| next[(i, 0)]);
+        smallest = 1.0 / motion.normalize_mut();
     }
     (smallest, motion)
-}
-
-/// The DOF that moves most in a motion of the scaled stiffness.
-fn most_moved(motion: &DVector<f64>, scale: &DVector<f64>) -> usize {
-    motion.component_mul(scale).iamax()
-}
-
-fn singular(dof: StructuralDof, ratio: f64) -> Error {
-    Error::SingularStiffness { grid: dof.grid, direction: DIRECTIONS[dof.direction], ratio }
 }

@@ -1,10 +1,10 @@
-//! The one error type: every message says what was expected and what was found, and names the offender.
+//! The method's one error type: every message says what was expected and what was found, and names the offender.
 
 use thiserror::Error;
 
 /// Everything that can go wrong between a structure's description and its correlated model.
 ///
-/// The library never panics on input and never prints: it returns one of these.
+/// Indices of modes, degrees of freedom, rows and columns count from zero.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -13,9 +13,9 @@ pub enum Error {
     NotFinite {
         /// The quantity.
         what: &'static str,
-        /// Row of the first offending entry, from zero.
+        /// Row of the first offending entry.
         row: usize,
-        /// Column of the first offending entry, from zero.
+        /// Its column.
         column: usize,
         /// The value found there.
         value: f64,
@@ -35,17 +35,15 @@ pub enum Error {
         columns: usize,
     },
     /// A matrix that must be symmetric is not.
-    #[error(
-        "{what}: expected a symmetric matrix, found entries ({row}, {column}) and ({column}, {row}) apart by {difference:.3e} of the largest entry"
-    )]
+    #[error("{what}: expected symmetry, found ({row}, {column}) off its mirror by {difference:.1e} of the largest")]
     NotSymmetric {
         /// The matrix.
         what: &'static str,
         /// Row of the worst pair.
         row: usize,
-        /// Column of the worst pair.
+        /// Its column.
         column: usize,
-        /// Their difference divided by the largest magnitude in the matrix.
+        /// Difference of the pair over the largest magnitude in the matrix.
         difference: f64,
     },
     /// A quantity that must be positive (gage, area, mass, modulus) is not.
@@ -53,142 +51,30 @@ pub enum Error {
     NotPositive {
         /// The quantity.
         what: &'static str,
-        /// Who has it, for example `element 8`.
+        /// What it belongs to, for example `element 8`.
         owner: String,
         /// The value found.
         value: f64,
     },
-    /// Poisson's ratio outside the range of a stable isotropic material.
-    #[error("Poisson's ratio: expected more than -1 and at most 0.5, found {value}")]
-    PoissonsRatio {
-        /// The value found.
-        value: f64,
+    /// A setting or a constant outside its range.
+    #[error("{name}: expected {expected}, found {found}")]
+    Setting {
+        /// The setting or constant.
+        name: &'static str,
+        /// What it may be.
+        expected: &'static str,
+        /// What it was.
+        found: f64,
     },
-    /// Two grid points carry the same number.
-    #[error("grid {grid}: expected each grid once, found it defined again")]
-    DuplicateGrid {
-        /// The repeated label.
-        grid: usize,
-    },
-    /// Two elements carry the same number.
-    #[error("element {element}: expected each element once, found it defined again")]
-    DuplicateElement {
-        /// The repeated label.
-        element: usize,
-    },
-    /// An element refers to a grid point that does not exist.
-    #[error("element {element}: expected an existing grid, found grid {grid}, which is not defined")]
-    UnknownGrid {
-        /// The element.
-        element: usize,
-        /// The missing grid.
-        grid: usize,
-    },
-    /// A parameter refers to an element that does not exist.
-    #[error("parameter {parameter}: expected an existing element, found element {element}, which is not defined")]
-    UnknownElement {
-        /// The parameter.
-        parameter: String,
-        /// The missing element.
-        element: usize,
-    },
-    /// A parameter refers to a dynamic DOF that does not exist.
-    #[error("parameter {parameter}: expected a dynamic degree of freedom below {count}, found {found}")]
-    UnknownDynamicDof {
-        /// The parameter.
-        parameter: String,
-        /// The missing DOF, from zero.
-        found: usize,
-        /// How many there are.
-        count: usize,
-    },
-    /// A point mass to be scaled is coupled to another degree of freedom.
-    #[error("dynamic mass: expected a point mass at degree of freedom {dof} (from zero), found it coupled to others")]
-    CoupledMass {
-        /// The DOF, from zero.
-        dof: usize,
-    },
-    /// An element stands in two parameters.
-    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
-    SharedElement {
-        /// The element.
-        element: usize,
-        /// The first parameter that has it.
-        first: String,
-        /// The second.
-        second: String,
-    },
-    /// An element has the wrong number of grid points for its kind.
-    #[error("expected {expected} grid points, found {found}")]
-    WrongCornerCount {
-        /// How many its kind needs.
-        expected: usize,
-        /// How many were given.
-        found: usize,
-    },
-    /// A rod whose ends coincide.
-    #[error("expected a rod with length, found length {length:.3e} between its ends")]
-    ZeroLength {
-        /// The distance found, in.
-        length: f64,
-    },
-    /// A triangle or panel without area.
-    #[error("expected a panel with area, found {area:.3e} of the square of its longest diagonal or side")]
-    ZeroArea {
-        /// Area over the square of the longest side or diagonal.
-        area: f64,
-    },
-    /// A quadrilateral with a corner of 180 degrees or more.
-    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {corner}")]
-    NotConvex {
-        /// The corner, 1 to 4 in the order given.
-        corner: usize,
-    },
-    /// An error inside one element.
-    #[error("element {element}: {source}")]
-    InElement {
-        /// The element's number.
-        element: usize,
-        /// What is wrong with it.
-        source: Box<Error>,
-    },
-    /// Nothing constrains some motion of the structure.
-    #[error(
-        "stiffness: expected every motion constrained, found grid {grid} free to move along {direction} (stiffness ratio {ratio:.1e})"
-    )]
-    SingularStiffness {
-        /// The grid that moves most in the motion that nothing constrains.
-        grid: usize,
-        /// Its direction: `x`, `y` or `z`.
-        direction: char,
-        /// Smallest over largest eigenvalue of the stiffness scaled to unit diagonal.
-        ratio: f64,
-    },
-    /// The flexibility at the dynamic DOF cannot be inverted.
-    #[error(
-        "dynamic flexibility: expected independent dynamic degrees of freedom, found number {dof} (from zero) a combination of those before it"
-    )]
-    DependentDynamicDof {
-        /// The first dependent dynamic DOF, from zero.
-        dof: usize,
-    },
-    /// A mass matrix that is not positive definite.
-    #[error(
-        "{what}: expected a positive definite matrix, found a pivot that is not positive at degree of freedom {dof} (from zero)"
-    )]
-    NotPositiveDefinite {
-        /// The matrix.
-        what: &'static str,
-        /// Where the factorization stopped, from zero.
-        dof: usize,
-    },
-    /// A model has a mode that is not a vibration.
-    #[error("mode {mode} (from zero): expected a positive eigenvalue, found {value:.6e} rad^2/s^2")]
-    NotAVibration {
-        /// The mode, from zero in ascending order.
-        mode: usize,
-        /// Its squared circular frequency.
-        value: f64,
+    /// A lower limit above its upper limit, or limits that exclude the start.
+    #[error("{what}: expected a lower limit below the upper one, found {lower} and {upper}")]
+    Limits {
+        /// The limits.
+        what: String,
+        /// Lower limit.
+        lower: f64,
+        /// Upper limit.
+        upper: f64,
     },
     /// No modes, elements or parameters where at least one is needed.
     #[error("{what}: expected at least one, found none")]
@@ -206,28 +92,118 @@ pub enum Error {
         /// How many were asked for.
         requested: usize,
     },
-    /// Test shapes that must be orthonormal with the mass and are not.
-    #[error(
-        "test modes {first} and {second} (from zero): expected a generalized mass of one for each and none between them, found {found:.9}"
-    )]
+    /// Two grids or two elements carry the same number.
+    #[error("{what} {label}: expected each {what} once, found it defined again")]
+    Duplicate {
+        /// `grid` or `element`.
+        what: &'static str,
+        /// The repeated number.
+        label: usize,
+    },
+    /// A reference to a grid, element or dynamic degree of freedom that does not exist.
+    #[error("{owner}: expected an existing {what}, found {what} {label}, which is not defined")]
+    Unknown {
+        /// What refers to it, for example `element 8`.
+        owner: String,
+        /// What does not exist.
+        what: &'static str,
+        /// Its number.
+        label: usize,
+    },
+    /// An element stands in two parameters.
+    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
+    SharedElement {
+        /// The element.
+        element: usize,
+        /// The first parameter that has it.
+        first: String,
+        /// The second.
+        second: String,
+    },
+    /// A point mass to be scaled is coupled to another degree of freedom.
+    #[error("dynamic mass: expected a point mass at degree of freedom {0} (from zero), found it coupled to others")]
+    CoupledMass(usize),
+    /// An error inside one element.
+    #[error("element {element}: {source}")]
+    InElement {
+        /// The element's number.
+        element: usize,
+        /// What is wrong with it.
+        source: Box<Error>,
+    },
+    /// An element has the wrong number of grid points for its kind.
+    #[error("expected {expected} grid points, found {found}")]
+    WrongCornerCount {
+        /// How many its kind needs.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// A rod whose ends coincide: the distance between them, in.
+    #[error("expected a rod with length, found length {0:.3e} between its ends")]
+    ZeroLength(f64),
+    /// A triangle or panel without area: its area over the square of its longest side or diagonal.
+    #[error("expected a panel with area, found {0:.3e} of the square of its longest diagonal or side")]
+    ZeroArea(f64),
+    /// A quadrilateral with an angle of 180 degrees or more at a corner, 1 to 4 in the order given.
+    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {0}")]
+    NotConvex(usize),
+    /// Nothing constrains some motion of the structure.
+    #[error("stiffness: expected no free motion, found grid {grid} free along {direction} (ratio {ratio:.1e})")]
+    SingularStiffness {
+        /// The grid that moves most in the free motion.
+        grid: usize,
+        /// Its direction: `x`, `y` or `z`.
+        direction: char,
+        /// Smallest eigenvalue of the stiffness scaled to unit diagonal.
+        ratio: f64,
+    },
+    /// A matrix that must be positive definite is not.
+    #[error("{what}: expected a positive definite matrix, found a pivot not positive at row {dof} (from zero)")]
+    NotPositiveDefinite {
+        /// The matrix.
+        what: &'static str,
+        /// The row where the factorization stopped.
+        dof: usize,
+    },
+    /// A dynamic degree of freedom, rigid-body vector or test mode that is a combination of those before it.
+    #[error("{what} {index} (from zero): expected it independent of those before it, found a combination of them")]
+    Dependent {
+        /// What depends.
+        what: &'static str,
+        /// The first dependent one.
+        index: usize,
+    },
+    /// Modes that must be orthonormal with the mass, or biorthogonal with the stiffness, and are not.
+    #[error("{what} {first} and {second} (from zero): expected {expected}, found {found}")]
     NotOrthonormal {
-        /// The one mode.
+        /// The measure and the modes.
+        what: &'static str,
+        /// The one mode, or the left one.
         first: usize,
-        /// The other, or the same.
+        /// The other or the same, or the right one.
         second: usize,
-        /// The generalized mass between them.
+        /// The product they must have.
+        expected: f64,
+        /// The product found.
         found: f64,
     },
+    /// A model has a mode that is not a vibration.
+    #[error("mode {mode} (from zero): expected a positive eigenvalue, found {value:.6e} rad^2/s^2")]
+    NotAVibration {
+        /// The mode, in ascending order.
+        mode: usize,
+        /// Its squared circular frequency.
+        value: f64,
+    },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes.
-    #[error(
-        "modes {first} and {second} (from zero): expected separate roots, found a denominator of {separation:.1e} of the generalized stiffness"
-    )]
+    #[error("modes {first} and {second} (from zero): expected separate roots, found them {separation:.1e} apart")]
     CoalescingModes {
         /// The row of the vanishing denominator.
         first: usize,
         /// The mode being perturbed.
         second: usize,
-        /// The denominator relative to the generalized stiffness.
+        /// The denominator over the generalized stiffness.
         separation: f64,
     },
     /// A change so large that a perturbed root loses its sign.
@@ -235,35 +211,19 @@ pub enum Error {
     LostRoot {
         /// The mode.
         mode: usize,
-        /// The root found, s^2.
+        /// The root found, s².
         value: f64,
     },
     /// A change that takes away a mode's generalized stiffness, so that its root has no finite value.
-    #[error(
-        "mode {mode} (from zero): expected a generalized stiffness after the change, found {ratio:.1e} of the one before"
-    )]
+    #[error("mode {mode} (from zero): expected generalized stiffness after the change, found {ratio:.1e} of it left")]
     LostStiffness {
         /// The mode.
         mode: usize,
-        /// Magnitude of the generalized stiffness after the change relative to the one before.
-        ratio: f64,
-    },
-    /// Left and right shapes that do not belong together.
-    #[error(
-        "left mode {left} and right mode {right} (from zero): expected no generalized stiffness between them, found {ratio:.1e} of their own"
-    )]
-    NotBiorthogonal {
-        /// The left mode.
-        left: usize,
-        /// The right mode.
-        right: usize,
-        /// Their generalized stiffness relative to the geometric mean of their own ones.
+        /// Magnitude of the generalized stiffness after the change over the one before.
         ratio: f64,
     },
     /// A pencil without a complete set of modes.
-    #[error(
-        "mode {mode} (from zero): expected as many independent modes as degrees of freedom, found its left and right shapes orthogonal to {cosine:.1e}"
-    )]
+    #[error("mode {mode} (from zero): expected independent modes, found left and right orthogonal to {cosine:.1e}")]
     Defective {
         /// The mode.
         mode: usize,
@@ -271,9 +231,7 @@ pub enum Error {
         cosine: f64,
     },
     /// A recursion that had not reached its tolerance at the most orders allowed.
-    #[error(
-        "perturbation: expected the roots to settle to {largest:.0e} within {orders} orders, found them still changing by {last_change:.1e}"
-    )]
+    #[error("perturbation: expected roots to settle to {largest:.0e} in {orders} orders, found {last_change:.1e}")]
     UnsettledRoots {
         /// Largest relative change allowed.
         largest: f64,
@@ -283,58 +241,20 @@ pub enum Error {
         last_change: f64,
     },
     /// An iterative library routine did not converge.
-    #[error("{what}: expected the eigenvalue iteration to converge, found that it did not")]
-    NoConvergence {
-        /// The decomposition.
-        what: &'static str,
-    },
-    /// A lower limit above its upper limit, or limits that exclude the start.
-    #[error("{what}: expected a lower limit below the upper one, found {lower} and {upper}")]
-    Limits {
-        /// The limits.
-        what: String,
-        /// Lower limit.
-        lower: f64,
-        /// Upper limit.
-        upper: f64,
-    },
-    /// A setting outside its range.
-    #[error("setting {name}: expected {expected}, found {found}")]
-    Setting {
-        /// The setting.
-        name: &'static str,
-        /// What it may be.
-        expected: &'static str,
-        /// What it was.
-        found: f64,
-    },
-    /// A rigid-body vector that is a combination of those before it, so that the balance equations are singular.
-    #[error(
-        "rigid-body vector {vector} (from zero): expected a motion independent of those before it, found a combination of them at the dynamic degrees of freedom"
-    )]
-    DependentRigidBody {
-        /// The first dependent vector, from zero.
-        vector: usize,
-    },
+    #[error("{0}: expected the library's routine to converge, found that it did not")]
+    NoConvergence(&'static str),
     /// A structure on supports, where the reactions balance the forces of a mode.
     #[error(
-        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there, so its modes must not be balanced"
+        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most \
+         {limit} of the mode's inertia, found {ratio:.3e}; modes of a supported structure must not be balanced"
     )]
     Supported {
-        /// The first mode with too large a ratio, from zero.
+        /// The first mode with too large a ratio.
         mode: usize,
         /// Largest squared suspension frequency over the mode's.
         ratio: f64,
         /// The largest ratio allowed.
         limit: f64,
-    },
-    /// A test shape that is a combination of others.
-    #[error(
-        "test mode {mode} (from zero): expected a shape independent of those before it, found a combination of them"
-    )]
-    DependentTestShape {
-        /// The first dependent mode, from zero.
-        mode: usize,
     },
 }
 
@@ -342,5 +262,13 @@ impl Error {
     /// Wraps an error with the number of the element it belongs to.
     pub(crate) fn in_element(self, element: usize) -> Self {
         Self::InElement { element, source: Box::new(self) }
+    }
+
+    /// Says of a bad pivot which of the vectors behind the matrix depends on those before it.
+    pub(crate) fn or_dependent(self, what: &'static str) -> Self {
+        match self {
+            Self::NotPositiveDefinite { dof, .. } => Self::Dependent { what, index: dof },
+            other => other,
+        }
     }
 }

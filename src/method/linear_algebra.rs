@@ -1,12 +1,11 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
 use crate::method::error::Error;
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
-///
-/// Congruence transformations leave asymmetry of about 1e-14; 1e-8 is a mistake in the data.
+/// A congruence transformation leaves about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
 
 /// Refuses matrices, real or complex, with NaN or infinite entries.
@@ -17,18 +16,10 @@ pub fn check_finite<T>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Er
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    match matrix.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(index) => {
-            let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
-            Err(Error::NotFinite {
-                what,
-                row: index % matrix.nrows(),
-                column: index / matrix.nrows(),
-                value: if real.is_finite() { imaginary } else { real },
-            })
-        }
-    }
+    let Some(index) = matrix.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+    let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
+    let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
+    Err(Error::NotFinite { what, row, column, value: if real.is_finite() { imaginary } else { real } })
 }
 
 /// Refuses matrices, real or complex, of another shape.
@@ -42,11 +33,8 @@ pub fn check_shape<T>(
     expected_columns: usize,
 ) -> Result<(), Error> {
     let (rows, columns) = matrix.shape();
-    if (rows, columns) == (expected_rows, expected_columns) {
-        Ok(())
-    } else {
-        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns })
-    }
+    let fits = (rows, columns) == (expected_rows, expected_columns);
+    if fits { Ok(()) } else { Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) }
 }
 
 /// Refuses lists of another length.
@@ -67,20 +55,13 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
+    let apart = (matrix - matrix.transpose()).abs().lower_triangle();
     let largest = matrix.amax();
-    let mut worst = (0, 0, 0.0);
-    for column in 0..matrix.ncols() {
-        for row in column + 1..matrix.nrows() {
-            let difference = (matrix[(row, column)] - matrix[(column, row)]).abs();
-            if difference > worst.2 {
-                worst = (row, column, difference);
-            }
-        }
-    }
-    if worst.2 <= LARGEST_ASYMMETRY * largest {
+    if apart.amax() <= LARGEST_ASYMMETRY * largest {
         return Ok(());
     }
-    Err(Error::NotSymmetric { what, row: worst.0, column: worst.1, difference: worst.2 / largest })
+    let (row, column) = apart.iamax_full();
+    Err(Error::NotSymmetric { what, row, column, difference: apart[(row, column)] / largest })
 }
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation.
@@ -96,19 +77,16 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 /// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
 pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) -> Result<DMatrix<f64>, Error> {
     check_symmetric(what, matrix)?;
-    let size = matrix.nrows();
     let lower = match to_faer(matrix).llt(Side::Lower) {
-        Ok(factor) => DMatrix::from_fn(size, size, |row, column| factor.L()[(row, column)]),
+        Ok(factor) => from_faer(factor.L()),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
             // A pivot before it may have been too small already.
             cholesky(what, &matrix.view((0, 0), (index, index)).into_owned(), smallest_pivot)?;
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };
-    match (0..size).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]) {
-        Some(dof) => Err(Error::NotPositiveDefinite { what, dof }),
-        None => Ok(lower),
-    }
+    let bad = (0..matrix.nrows()).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]);
+    bad.map_or(Ok(lower), |dof| Err(Error::NotPositiveDefinite { what, dof }))
 }
 
 /// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.
@@ -129,14 +107,16 @@ pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
 /// Those of [`check_symmetric`]; [`Error::NoConvergence`].
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
-    let size = matrix.nrows();
-    let eigen = to_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence { what })?;
-    let values = DVector::from_fn(size, |i, _| eigen.S()[i]);
-    let vectors = DMatrix::from_fn(size, size, |row, column| eigen.U()[(row, column)]);
-    Ok((values, vectors))
+    let eigen = to_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
+    Ok((DVector::from_fn(matrix.nrows(), |i, _| eigen.S()[i]), from_faer(eigen.U())))
 }
 
 /// The same matrix, real or complex, for faer.
 pub(crate) fn to_faer<T: Copy>(matrix: &DMatrix<T>) -> Mat<T> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| matrix[(row, column)])
+}
+
+/// The same matrix back from faer.
+pub(crate) fn from_faer(matrix: MatRef<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| matrix[(row, column)])
 }

@@ -33,21 +33,15 @@ pub struct Material {
 }
 
 impl Material {
-    /// An isotropic material without mass, $G = E/\big(2(1+\nu)\big)$.
-    ///
-    /// `youngs_modulus` in lbf/in².
+    /// A material without mass from $E$ (lbf/in²) and $\nu$: $G = E/\big(2(1+\nu)\big)$.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] unless $E > 0$; [`Error::PoissonsRatio`] unless $-1 < \nu \le 1/2$.
+    /// [`Error::NotPositive`] unless $E > 0$; [`Error::Setting`] unless $-1 < \nu \le 1/2$.
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
-        positive("Young's modulus", || "the material".into(), youngs_modulus)?;
-        check_poissons_ratio(poissons_ratio)?;
-        Ok(Self {
-            youngs_modulus,
-            poissons_ratio,
-            shear_modulus: youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
-            density: 0.0,
-        })
+        let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+        let material = Self { youngs_modulus, poissons_ratio, shear_modulus, density: 0.0 };
+        material.check()?;
+        Ok(material)
     }
 
     /// The same material with a mass density, lbf·s²/in⁴.
@@ -55,9 +49,23 @@ impl Material {
     /// # Errors
     /// [`Error::NotPositive`] unless the density is positive.
     pub fn with_density(self, density: f64) -> Result<Self, Error> {
-        positive("density", || "the material".into(), density)?;
+        positive("density", material, density)?;
         Ok(Self { density, ..self })
     }
+
+    fn check(&self) -> Result<(), Error> {
+        positive("Young's modulus", material, self.youngs_modulus)?;
+        let found = self.poissons_ratio;
+        if !(-1.0..=0.5).contains(&found) || found == -1.0 {
+            return Err(Error::Setting { name: "Poisson's ratio", expected: "more than -1 and at most 0.5", found });
+        }
+        positive("shear modulus", material, self.shear_modulus)?;
+        if self.density == 0.0 { Ok(()) } else { positive("density", material, self.density) }
+    }
+}
+
+fn material() -> String {
+    "the material".into()
 }
 
 /// What an element is made of and what it resists.
@@ -85,10 +93,7 @@ impl ElementKind {
 
     /// What its size is called.
     pub fn size_name(self) -> &'static str {
-        match self {
-            Self::Rod => "area",
-            Self::ShearPanel | Self::Membrane | Self::Triangle => "gage",
-        }
+        if self == Self::Rod { "area" } else { "gage" }
     }
 }
 
@@ -99,12 +104,27 @@ pub struct Element {
     pub label: usize,
     /// Its kind.
     pub kind: ElementKind,
-    /// Labels of its grids, round the perimeter for a panel.
+    /// Labels of its grids, in order around the perimeter of a panel.
     pub grids: Vec<usize>,
     /// Gage in inches or area in square inches; stiffness is proportional to it.
     pub size: f64,
     /// What it is made of.
     pub material: Material,
+}
+
+impl Element {
+    fn check(&self, index_of_grid: &HashMap<usize, usize>) -> Result<(), Error> {
+        let (expected, found) = (self.kind.corner_count(), self.grids.len());
+        if found != expected {
+            return Err(Error::WrongCornerCount { expected, found }.in_element(self.label));
+        }
+        let owner = || format!("element {}", self.label);
+        if let Some(&label) = self.grids.iter().find(|grid| !index_of_grid.contains_key(grid)) {
+            return Err(Error::Unknown { owner: owner(), what: "grid", label });
+        }
+        self.material.check().map_err(|error| error.in_element(self.label))?;
+        positive(self.kind.size_name(), owner, self.size)
+    }
 }
 
 /// A structural DOF: one direction of one grid.
@@ -126,46 +146,40 @@ pub struct Structure {
     elements: Vec<Element>,
     index_of_grid: HashMap<usize, usize>,
     free: Vec<StructuralDof>,
-    free_index: Vec<[Option<usize>; 3]>,
+    free_index: HashMap<(usize, usize), usize>,
 }
 
 impl Structure {
     /// Checks grids and elements and numbers the free DOF.
     ///
     /// # Errors
-    /// [`Error::Empty`] without elements; [`Error::DuplicateGrid`], [`Error::DuplicateElement`],
-    /// [`Error::UnknownGrid`], [`Error::WrongCornerCount`], [`Error::NotFinite`] (a coordinate),
-    /// [`Error::NotPositive`] (a size or modulus) and [`Error::PoissonsRatio`] for what their names say.
+    /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
+    /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or number of grids.
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         if elements.is_empty() {
             return Err(Error::Empty { what: "elements" });
         }
-        let mut index_of_grid = HashMap::new();
-        let mut free = Vec::new();
-        let mut free_index = Vec::with_capacity(grids.len());
-        for (row, grid) in grids.iter().enumerate() {
-            if index_of_grid.insert(grid.label, row).is_some() {
-                return Err(Error::DuplicateGrid { grid: grid.label });
+        let (mut index_of_grid, mut free, mut free_index) = (HashMap::new(), Vec::new(), HashMap::new());
+        for (row, &Grid { label, position, constrained }) in grids.iter().enumerate() {
+            if index_of_grid.insert(label, row).is_some() {
+                return Err(Error::Duplicate { what: "grid", label });
             }
-            let mut index = [None; 3];
-            for (direction, index) in index.iter_mut().enumerate() {
-                let value = grid.position[direction];
+            for (direction, (&value, constrained)) in position.iter().zip(constrained).enumerate() {
                 if !value.is_finite() {
                     return Err(Error::NotFinite { what: "grid coordinates", row, column: direction, value });
                 }
-                if !grid.constrained[direction] {
-                    *index = Some(free.len());
-                    free.push(StructuralDof { grid: grid.label, direction });
+                if !constrained {
+                    free_index.insert((label, direction), free.len());
+                    free.push(StructuralDof { grid: label, direction });
                 }
             }
-            free_index.push(index);
         }
         let mut seen = HashSet::new();
         for element in &elements {
             if !seen.insert(element.label) {
-                return Err(Error::DuplicateElement { element: element.label });
+                return Err(Error::Duplicate { what: "element", label: element.label });
             }
-            check_element(element, &index_of_grid)?;
+            element.check(&index_of_grid)?;
         }
         Ok(Self { grids, elements, index_of_grid, free, free_index })
     }
@@ -187,44 +201,14 @@ impl Structure {
 
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
-        let row = *self.index_of_grid.get(&grid)?;
-        *self.free_index[row].get(direction)?
+        self.free_index.get(&(grid, direction)).copied()
     }
 
     /// Positions of an element's grids, in.
     pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
-        element
-            .grids
-            .iter()
-            .filter_map(|grid| self.index_of_grid.get(grid))
-            .map(|&row| self.grids[row].position)
-            .collect()
+        let rows = element.grids.iter().filter_map(|grid| self.index_of_grid.get(grid));
+        rows.map(|&row| self.grids[row].position).collect()
     }
-}
-
-fn check_element(element: &Element, index_of_grid: &HashMap<usize, usize>) -> Result<(), Error> {
-    let expected = element.kind.corner_count();
-    if element.grids.len() != expected {
-        return Err(Error::WrongCornerCount { expected, found: element.grids.len() }.in_element(element.label));
-    }
-    for &grid in &element.grids {
-        if !index_of_grid.contains_key(&grid) {
-            return Err(Error::UnknownGrid { element: element.label, grid });
-        }
-    }
-    let owner = || format!("element {}", element.label);
-    let material = &element.material;
-    positive("Young's modulus", owner, material.youngs_modulus)?;
-    positive("shear modulus", owner, material.shear_modulus)?;
-    if material.density != 0.0 {
-        positive("density", owner, material.density)?;
-    }
-    check_poissons_ratio(material.poissons_ratio).map_err(|error| error.in_element(element.label))?;
-    positive(element.kind.size_name(), owner, element.size)
-}
-
-fn check_poissons_ratio(value: f64) -> Result<(), Error> {
-    if value > -1.0 && value <= 0.5 { Ok(()) } else { Err(Error::PoissonsRatio { value }) }
 }
 
 /// Accepts a positive finite number.

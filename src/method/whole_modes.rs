@@ -7,10 +7,8 @@ use crate::method::modes::Modes;
 use crate::method::structure::{StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 
-/// Eigenvalue of the weighted flexibility relative to the largest below which a root counts as infinite.
-///
-/// It is far above the round-off of the flexibility (1e-15 or so) and below any frequency that means something: the
-/// highest one kept may be three million times the lowest.
+/// Eigenvalue of the weighted flexibility relative to the largest below which a frequency counts as infinite: far above
+/// round-off, yet it keeps frequencies up to three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
 
 /// The degrees of freedom that move with mass.
@@ -34,8 +32,7 @@ impl MassDof {
         let lumped = lumped_mass(elements, sizes, free.len());
         let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
         if rows.is_empty() {
-            let what = "degrees of freedom with mass";
-            return Err(Error::Empty { what });
+            return Err(Error::Empty { what: "degrees of freedom with mass" });
         }
         Ok(Self {
             dof: rows.iter().map(|&row| free[row]).collect(),
@@ -71,26 +68,22 @@ pub struct WholeModes {
 ///
 /// $$ F^t K_S^{-1} F y = \lambda y, \qquad v = M^{-1/2} y, $$
 ///
-/// the modes of $(K_D, M)$ without a $K_D$: no root is lost or invented where masses are more than the structure can
-/// tell apart, which would leave the dynamic flexibility $T^t K_S^{-1} T$ without an inverse.
+/// They are the modes of $(K_D, M)$, but need no inverse of the dynamic flexibility $T^t K_S^{-1} T$, which is singular
+/// where the structure moves several masses as one.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ that does not fit the stiffness; [`Error::NotFinite`].
 pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<WholeModes, Error> {
     let root_mass = at.mass.map(f64::sqrt);
     let mut weighted = at.load_distribution;
-    for (mut column, root_mass) in weighted.column_iter_mut().zip(&root_mass) {
-        column *= *root_mass;
-    }
+    weighted.column_iter_mut().zip(&root_mass).for_each(|(mut column, root_mass)| column *= *root_mass);
     let flexibility = symmetric_part(&weighted.tr_mul(&stiffness.solve(&weighted)?));
     let (roots, vectors) = symmetric_eigen("weighted dynamic flexibility", &flexibility)?;
     // Ascending roots are descending frequencies.
     let largest = roots[roots.len() - 1];
     let finite: Vec<usize> = (0..roots.len()).rev().filter(|&mode| roots[mode] > SMALLEST_ROOT * largest).collect();
     let mut shapes = vectors.select_columns(&finite);
-    for (mut row, root_mass) in shapes.row_iter_mut().zip(&root_mass) {
-        row /= *root_mass;
-    }
+    shapes.column_iter_mut().for_each(|mut shape| shape.component_div_assign(&root_mass));
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
     Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes) })
 }

@@ -222,7 +222,7 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         .clone()
         .svd(true, true)
         .solve(&target, SMALLEST_SINGULAR_VALUE)
-        .map_err(|_| Error::NoConvergence { what: "element shares" })?;
+        .map_err(|_| Error::NoConvergence("element shares"))?;
     let left = (&target - shares * &coefficients).norm();
     let whole = target.norm();
     let factors = coefficients.iter().zip(norms).map(|(c, norm)| c / norm);

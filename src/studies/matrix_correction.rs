@@ -49,17 +49,15 @@ pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Mo
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotPositiveDefinite`] for a
-/// mass that is not; [`Error::DependentTestShape`] naming the first shape that is a combination of those before it.
+/// mass that is not; [`Error::Dependent`] naming the first shape that is a combination of those before it.
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     check_shape("test mode shapes", shapes, mass.nrows(), shapes.ncols())?;
     check_finite("test mode shapes", shapes)?;
     let inertia = mass * shapes;
     let generalized = symmetric_part(&shapes.tr_mul(&inertia));
-    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT).map_err(|error| match error {
-        Error::NotPositiveDefinite { dof: mode, .. } => Error::DependentTestShape { mode },
-        other => other,
-    })?;
+    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT)
+        .map_err(|error| error.or_dependent("test mode"))?;
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
     solve_lower(&lower, &mut solved);
@@ -129,7 +127,8 @@ fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) 
             let found = cross[(first, second)];
             // NaN comes from shapes so large that their products overflow.
             if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
-                return Err(Error::NotOrthonormal { first, second, found });
+                let what = "generalized mass of test modes";
+                return Err(Error::NotOrthonormal { what, first, second, expected, found });
             }
         }
     }

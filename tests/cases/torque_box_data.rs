@@ -90,7 +90,7 @@ fn a_rib_without_chord_or_depth_is_refused() {
         let mut data = Reconstruction::embedded().unwrap();
         change(&mut data);
         match load_distribution(&data) {
-            Err(CaseError::Method(Error::ZeroLength { length })) => length,
+            Err(CaseError::Method(Error::ZeroLength(length))) => length,
             other => panic!("expected a zero length, found {other:?}"),
         }
     };

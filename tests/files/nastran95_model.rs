@@ -62,7 +62,7 @@ fn a_deck_holds_point_masses_alone() {
     )
     .expect("a model");
     let error = BulkData::of(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
-    assert!(matches!(error, Err(FileError::Method(Error::CoupledMass { dof: 0 }))));
+    assert!(matches!(error, Err(FileError::Method(Error::CoupledMass(0)))));
 }
 
 #[test]

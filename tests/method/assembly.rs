@@ -177,13 +177,13 @@ fn bad_geometry_is_refused_by_its_element() {
     };
     let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let inside = [0.25, 0.5, 0.0];
-    assert!(matches!(with(ElementKind::Rod, &[c, c]), Error::ZeroLength { length: 0.0 }));
+    assert!(matches!(with(ElementKind::Rod, &[c, c]), Error::ZeroLength(0.0)));
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
-        assert!(matches!(with(kind, &[a, b, b, a]), Error::ZeroArea { area: 0.0 }));
-        assert!(matches!(with(kind, &[d, a, inside, c]), Error::NotConvex { corner: 3 }));
+        assert!(matches!(with(kind, &[a, b, b, a]), Error::ZeroArea(0.0)));
+        assert!(matches!(with(kind, &[d, a, inside, c]), Error::NotConvex(3)));
         // Corners that do not run round the perimeter.
         let higher = [0.0, 2.0, 0.0];
-        assert!(matches!(with(kind, &[a, c, b, higher]), Error::NotConvex { corner: 2 }));
+        assert!(matches!(with(kind, &[a, c, b, higher]), Error::NotConvex(2)));
     }
     let refused = element_matrices(&{
         let grids = vec![grid(1, a, [true; 3]), grid(2, a, [false; 3])];

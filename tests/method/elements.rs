@@ -127,10 +127,10 @@ fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
     for length in [0.0, 1.5e-12, -1.5e-12, f64::NAN] {
         let refused = along(length);
         assert!(
-            matches!(refused, Err(Error::ZeroLength { length: found }) if found.is_nan() || found <= 2e-12),
+            matches!(refused, Err(Error::ZeroLength(found)) if found.is_nan() || found <= 2e-12),
             "{length:e}: {refused:?}"
         );
     }
     assert!(along(3e-12).is_ok());
-    assert!(matches!(rod([Vector3::zeros(); 2], 1e7), Err(Error::ZeroLength { length: 0.0 })));
+    assert!(matches!(rod([Vector3::zeros(); 2], 1e7), Err(Error::ZeroLength(0.0))));
 }

@@ -39,7 +39,10 @@ fn parameters_that_cannot_be_are_refused_by_name() {
     let nothing = chain(vec![Parameter::element(1, None), group("none", &[], None)]);
     assert!(matches!(nothing, Err(Error::Empty { what: "members of a parameter" })), "{nothing:?}");
     let refused = chain(vec![group("wing", &[1, 4], None)]).unwrap_err();
-    assert!(matches!(&refused, Error::UnknownElement { parameter, element: 4 } if parameter == "wing"), "{refused:?}");
+    assert!(
+        matches!(&refused, Error::Unknown { owner, what: "element", label: 4 } if owner == "parameter wing"),
+        "{refused:?}"
+    );
     assert_eq!(
         refused.to_string(),
         "parameter wing: expected an existing element, found element 4, which is not defined"
@@ -140,7 +143,7 @@ fn what_is_wrong_with_an_element_or_the_structure_comes_through() {
     let one = DMatrix::identity(1, 1);
     let refused = FiniteElementModel::new(structure, one.clone(), one.clone(), vec![Parameter::element(5, None)]);
     let Err(Error::InElement { element: 5, source }) = refused else { panic!("{refused:?}") };
-    assert!(matches!(*source, Error::ZeroLength { length: 0.0 }), "{source:?}");
+    assert!(matches!(*source, Error::ZeroLength(0.0)), "{source:?}");
     let free = spring_chain(&[1.0], [false, false]);
     let t = DMatrix::identity(2, 1);
     let refused = FiniteElementModel::new(free, t, one, vec![Parameter::element(1, None)]).unwrap().matrices(&[1.0]);

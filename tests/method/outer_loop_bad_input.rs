@@ -85,13 +85,13 @@ fn errors_of_the_analysis_are_handed_on() {
         let result = correlate_with(
             |factors| {
                 analyses += 1;
-                if analyses > good { Err(Error::ZeroLength { length: 7.0 }) } else { analyzed(factors) }
+                if analyses > good { Err(Error::ZeroLength(7.0)) } else { analyzed(factors) }
             },
             &[None; 3],
             |_| {},
         );
         match result {
-            Err(Error::ZeroLength { length }) => assert_eq!(length, 7.0),
+            Err(Error::ZeroLength(length)) => assert_eq!(length, 7.0),
             other => panic!("{other:?}"),
         }
         assert_eq!(analyses, good + 1);

@@ -74,7 +74,7 @@ fn a_dof_without_stiffness_is_refused_by_name() {
     assert_eq!(refusal(&free_end([1.0, 1.0, 0.0])), (12, 'x', 0.0));
     assert_eq!(
         factorized(&free_end([0.0, 1.0, 1.0])).unwrap_err().to_string(),
-        "stiffness: expected every motion constrained, found grid 12 free to move along y (stiffness ratio 0.0e0)"
+        "stiffness: expected no free motion, found grid 12 free along y (ratio 0.0e0)"
     );
 }
 

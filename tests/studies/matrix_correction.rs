@@ -190,13 +190,17 @@ fn shapes_that_are_not_orthonormal_are_named() {
         assert!(correct(&stiffness, &mass, &modes(shapes.clone())).is_ok());
         shapes[(1, 1)] = 1.1;
         match correct(&stiffness, &mass, &modes(shapes.clone())) {
-            Err(Error::NotOrthonormal { first: 1, second: 1, found }) => assert_eq!(found, 1.1 * 1.1),
+            Err(Error::NotOrthonormal { what, first: 1, second: 1, expected: 1.0, found }) => {
+                assert_eq!((what, found), ("generalized mass of test modes", 1.1 * 1.1));
+            }
             other => panic!("{other:?}"),
         }
         shapes[(1, 1)] = 1.0;
         shapes[(0, 1)] = 0.5e-3;
         match correct(&stiffness, &mass, &modes(shapes.clone())) {
-            Err(Error::NotOrthonormal { first: 1, second: 0, found }) => assert_eq!(found, 0.5e-3),
+            Err(Error::NotOrthonormal { what, first: 1, second: 0, expected: 0.0, found }) => {
+                assert_eq!((what, found), ("generalized mass of test modes", 0.5e-3));
+            }
             other => panic!("{other:?}"),
         }
         shapes[(0, 1)] = 0.0;
@@ -208,7 +212,7 @@ fn dependent_shapes_are_named() {
     let mass = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
     let shapes = dmatrix![1.0, 0.0, 2.0; 0.0, 1.0, -1.0; 0.0, 0.0, 0.0];
     match berman_nagy_mass(&mass, &shapes) {
-        Err(Error::DependentTestShape { mode }) => assert_eq!(mode, 2),
+        Err(Error::Dependent { what, index }) => assert_eq!((what, index), ("test mode", 2)),
         other => panic!("{other:?}"),
     }
 }

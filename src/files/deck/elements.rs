@@ -129,7 +129,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
         _ => return Err(card.error(3, "two of E, G and NU")),
     };
     let derived = Material::isotropic(e, nu).map_err(|error| match error {
-        Error::PoissonsRatio { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
+        Error::Setting { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
         _ => card.error(3, "a positive Young's modulus"),
     })?;
     let shear_modulus = match g {

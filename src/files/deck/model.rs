@@ -96,7 +96,7 @@ impl BulkData {
         let base = all.first_free_label();
         for (column, &position) in points.iter().enumerate() {
             if (0..mass.nrows()).any(|row| row != column && mass[(row, column)] != 0.0) {
-                return Err(Error::CoupledMass { dof: column }.into());
+                return Err(Error::CoupledMass(column).into());
             }
             let label = base + column;
             all.grids.push(Grid {

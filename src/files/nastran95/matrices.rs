@@ -53,9 +53,11 @@ pub(super) fn unit_stiffness(
         .elements()
         .iter()
         .map(|element| {
-            let &(start, size) = block_of
-                .get(&element.label)
-                .ok_or(Error::UnknownElement { parameter: "the deck".into(), element: element.label })?;
+            let &(start, size) = block_of.get(&element.label).ok_or(Error::Unknown {
+                owner: "the deck".into(),
+                what: "element",
+                label: element.label,
+            })?;
             let rows = free_rows(structure, element, start);
             Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
         })

@@ -51,7 +51,7 @@ pub struct Balanced {
 ///
 /// # Errors
 /// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
-/// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::DependentRigidBody`] when the balance
+/// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::Dependent`] when the balance
 /// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds
 /// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode
 /// on the suspension and no test mode.
@@ -110,10 +110,8 @@ fn suspension_modes(
     check_shape("rigid-body vectors", rigid_body, mass.nrows(), count)?;
     check_finite("rigid-body vectors", rigid_body)?;
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
-    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART).map_err(|error| match error {
-        Error::NotPositiveDefinite { dof, .. } => Error::DependentRigidBody { vector: dof },
-        other => other,
-    })?;
+    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
+        .map_err(|error| error.or_dependent("rigid-body vector"))?;
     let mut reduced = rigid_body.tr_mul(&(stiffness * rigid_body));
     solve_lower(&lower, &mut reduced);
     reduced.transpose_mut();

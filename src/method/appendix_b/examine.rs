@@ -162,7 +162,7 @@ pub fn examine(
 /// Orthogonalizes the modes kept; an error names a mode by its place among all.
 fn orthogonalize_kept(balanced: &ModeSet, kept: &[usize], mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     orthogonalize(&balanced.select(kept), mass).map_err(|error| match error {
-        Error::DependentTestShape { mode } => Error::DependentTestShape { mode: kept[mode] },
+        Error::Dependent { what, index } => Error::Dependent { what, index: kept[index] },
         other => other,
     })
 }

@@ -62,7 +62,7 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
-/// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::DependentTestShape`] for a shape that
+/// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::Dependent`] for a shape that
 /// is a combination of those before it.
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     let generalized_masses = checked_generalized_masses(raw, mass)?;
@@ -72,10 +72,8 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
     }
     let overlap = symmetric_part(&generalized_mass(&unit, mass));
     let overlap = overlap.map(|entry| if entry.abs() < OVERLAP_ROUND_OFF { 0.0 } else { entry });
-    cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART).map_err(|error| match error {
-        Error::NotPositiveDefinite { dof, .. } => Error::DependentTestShape { mode: dof },
-        other => other,
-    })?;
+    cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART)
+        .map_err(|error| error.or_dependent("test mode"))?;
     let combined = solve(&DMatrix::from_diagonal(&raw.omega_squared), &overlap, raw.len())?;
     let pairing = pair_modes(&combined.shapes.tr_mul(&overlap))?;
     let combined = paired(&combined, &pairing);

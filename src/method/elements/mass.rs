@@ -10,16 +10,13 @@ use nalgebra::Vector3;
 ///
 /// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
 ///
-/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ that of the
-/// quadrilateral, by its diagonals. The four of a flat panel sum to its area. Those of a warped one sum to slightly more than
-/// $A$, for $A$ is then the area in the mean plane and the $A_i$ are areas in space: so NASTRAN's lumps are, and taking either
-/// area for both moves the lowest frequency of a delta wing with mildly warped covers by some 4e-5.
+/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ the
+/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$.
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind.
 ///
-/// Source: the lumped masses of NASTRAN's rods, triangles and quadrilaterals, NASA SP-222; the rule for warped quadrilaterals
-/// from its routine EMADTQ.
+/// Source: the lumped masses of NASTRAN, NASA SP-222, and for warped quadrilaterals its routine EMADTQ.
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
     let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
     match (kind, corners) {

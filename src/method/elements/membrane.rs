@@ -13,9 +13,8 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// $$ K = \tfrac12 \big( K_{124} + K_{231} + K_{342} + K_{413} \big) $$
 ///
-/// The two triangulations of the quadrilateral lie over each other, each with half the thickness, so the panel
-/// favors neither diagonal and does not care where its numbering starts. Every triangle keeps its true corners
-/// in space: a warped panel needs no mean plane, and moving it as a rigid body costs nothing.
+/// Two triangulations lie over each other, each with half the thickness, so that neither diagonal is favored. Every
+/// triangle keeps its true corners in space, so that a rigid-body motion costs no energy even when the panel is warped.
 /// Rank 5 when flat, 6 when warped.
 ///
 /// # Errors

@@ -1,8 +1,7 @@
 //! Element stiffness matrices in global axes, for unit gage or area.
 //!
-//! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z
-//! translations of the corners in the order given. Stiffness is proportional to gage or area, so these unit
-//! matrices are formed once and scaled ever after.
+//! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z translations
+//! of the corners in the order given. Stiffness is proportional to gage or area.
 
 pub mod mass;
 pub mod membrane;
@@ -18,7 +17,7 @@ use nalgebra::{DMatrix, Vector3};
 
 /// Unit-size stiffness of an element of any kind, lbf/in per in (gage) or per in² (area).
 ///
-/// `corners` in inches, as many as the kind has; the result is 6 × 6 for a rod, 9 × 9 for a triangle, 12 × 12 for a panel.
+/// `corners` in inches; the result is 6 × 6 for a rod, 9 × 9 for a triangle, 12 × 12 for a panel.
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`], and those of the element's own function.

@@ -3,7 +3,7 @@
 use crate::method::error::Error;
 use nalgebra::{Vector2, Vector3};
 
-/// Area over the square of the longer diagonal below which a panel is degenerate.
+/// Area over the square of the longest side or diagonal below which a triangle or panel is degenerate.
 const SMALLEST_AREA_RATIO: f64 = 1e-10;
 /// Doubled area of a corner's triangle over the panel's doubled area below which the corner is straight.
 const SMALLEST_CORNER_RATIO: f64 = 1e-10;
@@ -26,26 +26,18 @@ pub struct MeanPlane {
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the diagonals are parallel or one has no length;
-/// [`Error::NotConvex`] naming the first corner whose interior angle is 180° or more, or that coincides with a
-/// neighbor.
+/// [`Error::NotConvex`] naming the first corner with an interior angle of 180° or more or at the place of a neighbor.
 ///
 /// Source: geometry of the NASTRAN shear panel, NASA SP-222 and SP-223.
 pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     let d13 = corners[2] - corners[0];
     let d24 = corners[3] - corners[1];
-    let normal = d13.cross(&d24);
-    let area = 0.5 * normal.norm();
-    let longest = d13.norm().max(d24.norm());
-    let ratio = area / (longest * longest);
-    if ratio.is_nan() || ratio <= SMALLEST_AREA_RATIO {
-        return Err(Error::ZeroArea { area: if ratio.is_nan() { 0.0 } else { ratio } });
-    }
-    let k = normal / (2.0 * area);
+    let (k, area) = normal_and_area(d13.cross(&d24), d13.norm().max(d24.norm()))?;
     for corner in 0..4 {
         let forward = corners[(corner + 1) % 4] - corners[corner];
         let back = corners[(corner + 3) % 4] - corners[corner];
         if forward.cross(&back).dot(&k) <= SMALLEST_CORNER_RATIO * 2.0 * area {
-            return Err(Error::NotConvex { corner: corner + 1 });
+            return Err(Error::NotConvex(corner + 1));
         }
     }
     let side = corners[1] - corners[0];
@@ -57,4 +49,18 @@ pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
         Vector2::new(from_first.dot(&i), from_first.dot(&j))
     });
     Ok(MeanPlane { corners: flat, diagonals: [d13, d24], area })
+}
+
+/// Unit normal and area of a triangle or panel from a normal of twice its area's length.
+///
+/// # Errors
+/// [`Error::ZeroArea`] when the area vanishes beside the square of `longest`, its longest side or diagonal.
+pub(crate) fn normal_and_area(normal: Vector3<f64>, longest: f64) -> Result<(Vector3<f64>, f64), Error> {
+    let area = 0.5 * normal.norm();
+    let ratio = area / (longest * longest);
+    if ratio > SMALLEST_AREA_RATIO {
+        return Ok((normal / (2.0 * area), area));
+    }
+    // Not a number when all corners coincide: no area then.
+    Err(Error::ZeroArea(ratio.max(0.0)))
 }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 ///
 /// $$ K = \frac{E}{L} b b^t, \qquad b = (-n, n), \qquad n = (x_2 - x_1)/L $$
 ///
-/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists stretching alone.
+/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching.
 ///
 /// # Errors
 /// [`Error::ZeroLength`] when the ends coincide to working precision.
@@ -18,7 +18,7 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
     let length = along.norm();
     // Ends closer than the round-off of their own coordinates have no direction.
     if length.is_nan() || length <= 1e-12 * (ends[0].norm() + ends[1].norm()) {
-        return Err(Error::ZeroLength { length });
+        return Err(Error::ZeroLength(length));
     }
     let n = along / length;
     let b = DVector::from_iterator(6, (-n).iter().chain(n.iter()).copied());

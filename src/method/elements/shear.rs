@@ -6,18 +6,16 @@ use crate::method::error::Error;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
-/// Points per direction of the quadrature for the panel's energy.
-///
-/// Eight reach round-off on the panels of a wing; twelve agree with the closed forms to 7e-7 on strongly
-/// distorted ones.
+/// Points per direction of the quadrature: eight reach round-off on the panels of a wing; twelve agree with the closed
+/// forms to 7e-7 on strongly distorted ones.
 const QUADRATURE_POINTS: usize = 12;
 
 /// Stiffness of a shear panel of unit thickness, lbf/in per inch of gage (12 × 12).
 ///
 /// $$ K = \frac{a a^t}{2 Z}, \qquad U = q_1^2 Z $$
 ///
-/// with $a$ the corner forces of [`corner_forces`] and $Z$ the energy of [`energy_coefficient`], both for a unit
-/// mean shear flow $q_1$ on side 1-2. The panel resists one pattern of motion alone: rank one.
+/// with $a$ the [`corner_forces`] and $Z$ the [`energy_coefficient`] for a unit mean shear flow $q_1$ on side 1-2. The
+/// panel resists a single pattern of motion: rank one.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
@@ -26,8 +24,7 @@ const QUADRATURE_POINTS: usize = 12;
 pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
-    let z = energy_coefficient(&plane, material);
-    Ok((0.5 / z) * &a * a.transpose())
+    Ok((0.5 / energy_coefficient(&plane, material)) * &a * a.transpose())
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.
@@ -38,7 +35,7 @@ pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<D
 /// $$ f_1 = -\frac{X_2 Y_4}{2\tau} d_{13} = -f_3, \qquad
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
-/// They act along the true diagonals, so force and moment vanish exactly, on a warped panel too.
+/// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
 pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
     let [_, c2, c3, c4] = plane.corners;
     let x2 = c2.x;
@@ -56,10 +53,10 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 ///
 /// $$ Z = \int \Big(\frac{p_1 p_2}{p^2}\Big)^{2} \frac{1}{2G}\Big(1 + \frac{2\cot^2\varphi}{1+\nu}\Big) \thinspace dA . $$
 ///
-/// In homogeneous coordinates $P$, $Q$ and the line between them exist also when sides are parallel, so one
-/// quadrature serves rectangle, parallelogram, trapezoid and general panel.
+/// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
+/// quadrature serves every panel.
 pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
-    let corners = plane.corners.map(|c| Vector3::new(c.x, c.y, 1.0));
+    let corners = plane.corners.map(|corner| corner.push(1.0));
     let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
     let p = side[0].cross(&side[2]);
     let q = side[1].cross(&side[3]);
@@ -70,9 +67,9 @@ pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     for &(s, ws) in &rule {
         for &(t, wt) in &rule {
             let (point, jacobian) = bilinear(&plane.corners, s, t);
-            let at = Vector3::new(point.x, point.y, 1.0);
-            let flow = first_two / line.dot(&at).powi(2);
-            let (to_p, to_q) = (ray(&p, &point), ray(&q, &point));
+            let flow = first_two / line.dot(&point.push(1.0)).powi(2);
+            // Directions to P and Q, which may lie at infinity, unscaled.
+            let [to_p, to_q] = [p, q].map(|end| end.xy() - end.z * point);
             let cotangent = to_p.dot(&to_q) / to_p.perp(&to_q);
             energy += ws * wt * jacobian * flow * flow / (2.0 * material.shear_modulus)
                 * (1.0 + 2.0 * cotangent * cotangent / (1.0 + material.poissons_ratio));
@@ -81,12 +78,7 @@ pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     energy
 }
 
-/// Direction from `point` to a point in homogeneous coordinates (which may lie at infinity), unscaled.
-fn ray(to: &Vector3<f64>, point: &Vector2<f64>) -> Vector2<f64> {
-    to.xy() - to.z * point
-}
-
-/// Point and area ratio of the bilinear map of the square from −1 to 1 on the panel.
+/// Point and area ratio of the bilinear map of the square from −1 to 1 onto the panel.
 fn bilinear(corners: &[Vector2<f64>; 4], s: f64, t: f64) -> (Vector2<f64>, f64) {
     let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut point = Vector2::zeros();

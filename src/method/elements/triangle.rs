@@ -1,19 +1,17 @@
 //! The constant-strain triangle in plane stress, anywhere in space.
 
+use crate::method::elements::panel::normal_and_area;
 use crate::method::error::Error;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-/// Area of a triangle divided by the square of its longest side below which it is degenerate.
-const SMALLEST_AREA_RATIO: f64 = 1e-10;
-
 /// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
 ///
-/// $$ K = A B^t D B, \qquad
-///    D = \frac{E}{1-\nu^2}\begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
+/// $$ K = A B^t D B, \qquad D = \frac{E}{1-\nu^2}
+///    \begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
 ///
-/// $B$ maps the nine translations (x, y, z of each corner, global axes, inches) to the three strains in the
-/// triangle's own plane; motion out of the plane meets no resistance. Rank three.
+/// $B$ maps the nine translations (x, y, z of each corner, inches) to the three strains in the triangle's plane; motion
+/// out of the plane meets no resistance. Rank three.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.
@@ -21,14 +19,9 @@ const SMALLEST_AREA_RATIO: f64 = 1e-10;
 /// Source: Turner, Clough, Martin and Topp, *Journal of the Aeronautical Sciences* 23 (1956), 805.
 pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
     let [a, b, c] = corners;
-    let normal = (b - a).cross(&(c - a));
-    let area = 0.5 * normal.norm();
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
-    let ratio = area / (longest * longest);
-    if ratio.is_nan() || ratio <= SMALLEST_AREA_RATIO {
-        return Err(Error::ZeroArea { area: if ratio.is_nan() { 0.0 } else { ratio } });
-    }
-    let strain = strain_matrix(corners, normal / (2.0 * area), area);
+    let (normal, area) = normal_and_area((b - a).cross(&(c - a)), longest)?;
+    let strain = strain_matrix(corners, normal, area);
     let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);

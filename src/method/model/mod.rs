@@ -40,7 +40,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::NotPositiveDefinite`] naming the DOF of a
     /// zero or negative mass; [`Error::Empty`] without parameters or for a parameter without elements;
-    /// [`Error::UnknownElement`], [`Error::UnknownDynamicDof`], [`Error::SharedElement`], [`Error::CoupledMass`] for a bad
+    /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for a bad
     /// parameter; the geometry errors of the elements.
     pub fn new(
         structure: Structure,
@@ -61,7 +61,7 @@ impl FiniteElementModel {
             for &dof in &point.rows {
                 // The diagonal entry alone is scaled, so it must be the whole of the mass.
                 if (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0) {
-                    return Err(Error::CoupledMass { dof });
+                    return Err(Error::CoupledMass(dof));
                 }
             }
         }

@@ -108,7 +108,7 @@ pub(crate) enum MemberKind {
 /// Rows of every parameter's members; nothing is in two parameters of one kind.
 ///
 /// # Errors
-/// [`Error::Empty`] without parameters or members; [`Error::UnknownElement`], [`Error::UnknownDynamicDof`] and
+/// [`Error::Empty`] without parameters or members; [`Error::Unknown`] and
 /// [`Error::SharedElement`] naming the offender.
 pub(crate) fn resolve(
     structure: &Structure,
@@ -134,14 +134,11 @@ pub(crate) fn resolve(
         let mut rows = Vec::with_capacity(members.len());
         for &member in members {
             let name = || parameter.name.clone();
+            let unknown = |what| Error::Unknown { owner: format!("parameter {}", name()), what, label: member };
             let row = match kind {
                 MemberKind::PointMass if member < dynamic_dof => member,
-                MemberKind::PointMass => {
-                    return Err(Error::UnknownDynamicDof { parameter: name(), found: member, count: dynamic_dof });
-                }
-                _ => {
-                    *row_of.get(&member).ok_or_else(|| Error::UnknownElement { parameter: name(), element: member })?
-                }
+                MemberKind::PointMass => return Err(unknown("dynamic degree of freedom")),
+                _ => *row_of.get(&member).ok_or_else(|| unknown("element"))?,
             };
             if let Some(first) = owner.insert((kind, row), &parameter.name) {
                 return Err(Error::SharedElement { element: member, first: first.to_owned(), second: name() });

@@ -134,7 +134,10 @@ fn dependent_rigid_body_vectors_are_named() {
         (dmatrix![1.0, -1.0, 0.0, 2.0; 1.0, 0.0, 1.0, 5.0; 1.0, 1.0, 0.0, 4.0], 3),
     ] {
         let outcome = balance(&raw, &free, &mass, &rigid_body);
-        assert!(matches!(outcome, Err(Error::DependentRigidBody { vector }) if vector == dependent), "{outcome:?}");
+        assert!(
+            matches!(outcome, Err(Error::Dependent { what: "rigid-body vector", index }) if index == dependent),
+            "{outcome:?}"
+        );
     }
 }
 

@@ -58,7 +58,7 @@ fn dependent_modes_keep_their_numbers_when_one_before_them_is_deleted() {
     let shape = [1.0, -1.0, 0.0, 0.0];
     let raw = modes(&[1.0, 2.0, 3.0, 4.0], unit_shapes(&[[1.0, 1.0, 1.0, 0.0], shape, [0.0, 0.0, 1.0, -1.0], shape]));
     let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
-    assert!(matches!(outcome, Err(Error::DependentTestShape { mode: 3 })), "{outcome:?}");
+    assert!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 3 })), "{outcome:?}");
 }
 
 #[test]

@@ -242,7 +242,7 @@ proptest! {
         dependent.shapes.set_column(place, &shape);
         let outcome = orthogonalize(&dependent, &mass);
         prop_assert!(
-            matches!(outcome, Err(Error::DependentTestShape { mode }) if mode == place),
+            matches!(outcome, Err(Error::Dependent { what: "test mode", index }) if index == place),
             "{outcome:?}"
         );
     }

@@ -40,7 +40,7 @@ fn nearly_dependent_shapes_are_told_from_dependent_ones() {
     for (angle, dependent) in [(1e-5, false), (1e-7, true)] {
         let shapes = dmatrix![1.0, 1.0; 0.0, angle];
         let outcome = orthogonalize(&modes(&[1.0, 2.0], shapes), &DMatrix::identity(2, 2));
-        assert_eq!(matches!(outcome, Err(Error::DependentTestShape { mode: 1 })), dependent, "{outcome:?}");
+        assert_eq!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 1 })), dependent, "{outcome:?}");
         assert_eq!(outcome.is_ok(), !dependent);
     }
 }
@@ -49,7 +49,7 @@ fn nearly_dependent_shapes_are_told_from_dependent_ones() {
 fn equal_shapes_are_dependent_in_faer_s_own_pivot_too() {
     let shapes = dmatrix![1.0, 0.0, 1.0; 0.0, 1.0, 0.0; 0.0, 0.0, 0.0];
     let outcome = orthogonalize(&modes(&[1.0, 2.0, 3.0], shapes), &DMatrix::identity(3, 3));
-    assert!(matches!(outcome, Err(Error::DependentTestShape { mode: 2 })), "{outcome:?}");
+    assert!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 2 })), "{outcome:?}");
 }
 
 #[test]

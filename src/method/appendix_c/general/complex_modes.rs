@@ -65,7 +65,7 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     reduced.transpose_mut();
     lower.solve_lower_triangular_unchecked_mut(&mut reduced);
     reduced.transpose_mut();
-    let eigen = to_faer(&reduced).eigen().map_err(|_| Error::NoConvergence { what })?;
+    let eigen = to_faer(&reduced).eigen().map_err(|_| Error::NoConvergence(what))?;
     let unsorted: Vec<Complex<f64>> = (0..size).map(|i| eigen.S()[i]).collect();
     let order = by_magnitude_then_argument(&unsorted);
     let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);

@@ -36,7 +36,7 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
     /// d × d, seen through its modes.
     ///
     /// # Errors
-    /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotBiorthogonal`] when
+    /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotOrthonormal`] when
     /// $U^t K V$ is not diagonal (C.10).
     pub fn new(
         stiffness: &DMatrix<T>,
@@ -56,13 +56,14 @@ impl<T: ComplexField<RealField = f64> + Copy> ModalChange<T> {
         }
         let through_modes = |matrix: &DMatrix<T>| modes.left.tr_mul(&(matrix * &modes.right));
         let k = through_modes(stiffness);
-        for right in 0..count {
-            for left in (0..count).filter(|&left| left != right) {
-                let own = (k[(left, left)] * k[(right, right)]).modulus().sqrt();
-                let ratio = k[(left, right)].modulus() / own;
-                let apart = ratio <= LARGEST_COUPLING;
+        for second in 0..count {
+            for first in (0..count).filter(|&first| first != second) {
+                let own = (k[(first, first)] * k[(second, second)]).modulus().sqrt();
+                let found = k[(first, second)].modulus() / own;
+                let apart = found <= LARGEST_COUPLING;
                 if !apart {
-                    return Err(Error::NotBiorthogonal { left, right, ratio });
+                    let what = "relative generalized stiffness of left and right modes";
+                    return Err(Error::NotOrthonormal { what, first, second, expected: 0.0, found });
                 }
             }
         }
