@@ -11,9 +11,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported.
 ///
-/// It is the square of a suspension frequency over the mode's: 0.04 asks for suspension modes below a fifth of
-/// every test frequency, about what a test on soft suspension is set up for. A supported structure's lowest mode has a
-/// ratio of at least one, because no motion has a smaller ratio of stiffness to mass than that mode.
+/// It is the square of a suspension frequency over the mode's: 0.04 asks for suspension modes below a fifth of every test
+/// frequency, as soft suspensions have. The lowest mode of a supported structure has a ratio of at least one.
 pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
 
 /// Part of a rigid-body vector that is independent of those before it, as a fraction of its generalized mass, below
@@ -38,10 +37,9 @@ pub struct Balanced {
 ///
 /// $$ \Phi^t R_i\, (v_i + \Phi r_i) = 0, $$
 ///
-/// which for the symmetric case, $\Phi = (\{1\}, \{x\})$, is (B.3) and (B.4). On a free structure $K\Phi = 0$ and the
-/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion, so the change is at most
-/// one. The equations are solved in the suspension modes, the mass-orthonormal combinations
-/// $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$) on which $K$ is diagonal:
+/// which for the symmetric case, $\Phi = (\{1\}, \{x\})$, is (B.3) and (B.4). On a free structure $K\Phi = 0$, and the
+/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion. The equations are solved in
+/// the suspension modes $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$), mass-orthonormal and with diagonal $K$:
 ///
 /// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
 ///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
@@ -52,9 +50,8 @@ pub struct Balanced {
 /// # Errors
 /// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
 /// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::DependentRigidBody`] when the balance
-/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds
-/// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode
-/// on the suspension and no test mode.
+/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a
+/// mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 pub fn balance(
     raw: &ModeSet,
     stiffness: &DMatrix<f64>,
@@ -62,47 +59,34 @@ pub fn balance(
     rigid_body: &DMatrix<f64>,
 ) -> Result<Balanced, Error> {
     let generalized_masses = checked_generalized_masses(raw, mass)?;
-    let dof_count = mass.nrows();
-    check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
+    check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    let to_suspension = suspension_modes(stiffness, mass, rigid_body)?;
-    let Suspension { squared, modes: from_suspension } = &to_suspension;
-    let stiffest = squared.amax();
-    let limit = LARGEST_SUSPENSION_RATIO;
-    if let Some(mode) = raw.omega_squared.iter().position(|omega| stiffest > limit * omega) {
+    let (suspension, from_suspension) = suspension_modes(stiffness, mass, rigid_body)?;
+    let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
+    if let Some(mode) = raw.omega_squared.iter().position(|omega_squared| stiffest > limit * omega_squared) {
         return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });
     }
-    let motions = rigid_body * from_suspension;
+    let motions = rigid_body * &from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
     let elastic = motions.tr_mul(&(stiffness * &raw.shapes));
-    let amplitudes = DMatrix::from_fn(squared.len(), raw.len(), |k, i| {
+    let amplitudes = DMatrix::from_fn(suspension.len(), raw.len(), |k, i| {
         let omega_squared = raw.omega_squared[i];
-        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - squared[k])
+        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - suspension[k])
     });
     Ok(Balanced {
         shapes: &raw.shapes + motions * &amplitudes,
-        change: amplitudes
-            .column_iter()
-            .zip(generalized_masses.iter())
-            .map(|(amplitude, generalized_mass)| amplitude.norm() / generalized_mass.sqrt())
-            .collect(),
+        change: (0..raw.len()).map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt()).collect(),
         coefficients: from_suspension * amplitudes,
     })
 }
 
-/// Rigid-body modes on the suspension.
-struct Suspension {
-    /// Squared circular frequencies $\mu$, rad²/s²; zero on a free structure.
-    squared: DVector<f64>,
-    /// Mass-orthonormal modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
-    modes: DMatrix<f64>,
-}
-
+/// Squared circular frequencies $\mu$ (rad²/s², zero on a free structure) of the rigid-body modes on the suspension, and
+/// these modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
 fn suspension_modes(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     rigid_body: &DMatrix<f64>,
-) -> Result<Suspension, Error> {
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     let count = rigid_body.ncols();
     if count == 0 {
         return Err(Error::Empty { what: "rigid-body vectors" });
@@ -120,5 +104,5 @@ fn suspension_modes(
     solve_lower(&lower, &mut reduced);
     let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &symmetric_part(&reduced))?;
     solve_lower_transposed(&lower, &mut modes);
-    Ok(Suspension { squared, modes })
+    Ok((squared, modes))
 }
