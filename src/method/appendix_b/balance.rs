@@ -9,14 +9,12 @@ use crate::method::linear_algebra::{
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
-/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported.
-///
-/// It is the square of a suspension frequency over the mode's: 0.04 asks for suspension modes below a fifth of every test
-/// frequency, as soft suspensions have. The lowest mode of a supported structure has a ratio of at least one.
+/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported: soft
+/// suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
 pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
 
-/// Part of a rigid-body vector that is independent of those before it, as a fraction of its generalized mass, below
-/// which it counts as dependent. Round-off leaves about 1e-15; a reference axis a thousand lengths away leaves 1e-7.
+/// Fraction of a rigid-body vector's generalized mass, independent of the vectors before it, below which it counts as
+/// dependent. Round-off leaves about 1e-15; a reference axis a thousand lengths away leaves 1e-7.
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Test shapes whose forces and moments balance.
@@ -26,8 +24,7 @@ pub struct Balanced {
     pub shapes: DMatrix<f64>,
     /// Coefficients $r$ of the rigid-body vectors (m × n): a translation has the shape's unit, a rotation that per inch.
     pub coefficients: DMatrix<f64>,
-    /// Size of each change relative to its shape, in the mass norm:
-    /// $\sqrt{(\Phi r_i)^t M \Phi r_i}\,/\sqrt{v_i^t M v_i}$.
+    /// Each change relative to its shape in the mass norm, $\sqrt{(\Phi r_i)^t M \Phi r_i}\,/\sqrt{v_i^t M v_i}$.
     pub change: Vec<f64>,
 }
 

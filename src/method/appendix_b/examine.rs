@@ -28,17 +28,13 @@ impl Default for MovementLimits {
 
 impl MovementLimits {
     fn check(&self) -> Result<(), Error> {
-        let (positive, fraction) = ("a positive finite number", "a number between 0 and 1");
-        for (name, found, upper, expected) in [
-            ("balance", self.balance, 1.0, fraction),
-            ("frequency", self.frequency, f64::INFINITY, positive),
-            ("shape", self.shape, f64::INFINITY, positive),
-        ] {
-            if !(found > 0.0 && found < upper) {
-                return Err(Error::Setting { name, expected, found });
-            }
-        }
-        Ok(())
+        let in_range = |name, found, upper, expected| match found > 0.0 && found < upper {
+            true => Ok(()),
+            false => Err(Error::Setting { name, expected, found }),
+        };
+        in_range("balance", self.balance, 1.0, "a number between 0 and 1")?;
+        in_range("frequency", self.frequency, f64::INFINITY, "a positive finite number")?;
+        in_range("shape", self.shape, f64::INFINITY, "a positive finite number")
     }
 
     /// The larger movement in units of its limit.
@@ -96,12 +92,11 @@ pub struct Examination {
 
 /// Balances the test modes, orthogonalizes them, and deletes those that do not fit.
 ///
-/// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves both of two overlapping
-/// modes, so a wrong one moves good ones with it, those above it even farther than itself. So while any mode moves past
-/// a limit, the mode is deleted that overlaps most with all the others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$,
-/// and the rest are orthogonalized anew from their balanced shapes. This finds a single wrong mode that contains several
-/// others wherever it lies in the spectrum. Of two modes that overlap each other alone, the one that moved farther
-/// goes, which is the higher. Several wrong modes that are mixed with each other are not always told from good ones.
+/// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves good modes with a wrong
+/// one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted that
+/// overlaps most with all others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$ (of equal ones that which moved farthest, the
+/// higher of two), and the rest are orthogonalized anew from their balanced shapes. This finds a single wrong mode
+/// anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
 ///
 /// # Errors
 /// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and [`orthogonalize`],
@@ -146,8 +141,7 @@ pub fn examine(
     }
 }
 
-/// The place of the mode with the largest sum of squared overlaps with the others; of equal ones, that which moved
-/// farthest.
+/// The place of the mode with the largest sum of squared overlaps; of equal ones, that which moved farthest.
 fn most_overlapping(result: &Orthogonalized, limits: &MovementLimits) -> usize {
     let count = result.movement.len();
     let overlaps = |i: usize| -> f64 { (0..count).filter(|&j| j != i).map(|j| result.overlap[(j, i)].powi(2)).sum() };

@@ -7,8 +7,7 @@ use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{pair_modes, paired};
 use nalgebra::DMatrix;
 
-/// Part of a unit shape that is independent of those before it, squared, below which it counts as dependent: an
-/// angle of 1e-6 between the shape and what the others span, far below any measurement.
+/// Squared sine of the angle between a shape and the span of those before it, below which it counts as dependent.
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would turn
@@ -44,16 +43,13 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f
 
 /// The combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
 ///
-/// The raw shapes are scaled to unit generalized mass, and the equations of motion in them, with the test
-/// frequencies $\omega_{Gi}$ on the diagonal, are the symmetric-definite eigenproblem
+/// In the raw shapes, scaled to unit generalized mass, the equations of motion are the symmetric-definite eigenproblem
 ///
 /// $$ \mathrm{diag}(\omega_{Gi}^2\, m_{1,ii})\, q = \omega^2\, m_1\, q, \qquad q^t m_1 q = 1. $$
 ///
-/// The new shapes $V q$ are orthonormal in mass, and each takes the place and sign of the raw one it is paired with. An
-/// overlap $e$ of two modes moves the shapes by the order of $e$ and the frequencies by that of $e^2$, mostly the
-/// higher mode's, by $\omega_j^2$ against $\omega_i^2$. The sum of $1/\omega^2$ never changes.
-///
-/// `mass` in lbf·s²/in (d × d).
+/// with the test frequencies $\omega_{Gi}$. Each new shape $V q$ takes the place and sign of the raw one it is paired with.
+/// An overlap $e$ of two modes moves shapes by the order of $e$ and frequencies, mostly the higher, by that of $e^2$;
+/// the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
@@ -76,11 +72,9 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
     let modes = ModeSet { shapes: &unit * combined.shapes, omega_squared: combined.omega_squared };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;
-    let movement = (0..raw.len())
-        .map(|mode| Movement {
-            frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
-            shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
-        })
-        .collect();
-    Ok(Orthogonalized { modes, overlap, movement })
+    let movement = |mode: usize| Movement {
+        frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
+        shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
+    };
+    Ok(Orthogonalized { movement: (0..raw.len()).map(movement).collect(), modes, overlap })
 }

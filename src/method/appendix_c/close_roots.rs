@@ -1,9 +1,8 @@
 //! Close and repeated roots: small blocks of close modes solved exactly, the rest by Recursive 1.
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
-//! form a block $C$, and a matrix $\Gamma$ stands where one root $\gamma_j$ stood; the shapes
-//! $\begin{bmatrix} I \newline P \end{bmatrix}$ span the block's modes. With the changed generalized stiffness
-//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (both n × n, symmetric), row $i$ outside the block and the block's own rows read
+//! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With
+//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric), row $i$ outside the block and the block's own rows read
 //!
 //! $$ P_i\,(A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I)\,P_s, \qquad
 //!    A_{CC}\Gamma = G_{CC} - \sum_{s \notin C}(A_{Cs}P_s\Gamma - G_{Cs}P_s), $$
@@ -11,7 +10,7 @@
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use super::general::{ModalChange, QUIET_ORDERS};
+use super::general::{ModalChange, Pencil, QUIET_ORDERS};
 use super::recursive::{check_order, check_root};
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
@@ -41,9 +40,8 @@ impl Default for CloseRootsSettings {
 /// Roots and shapes after a change, and the modes that were too close for the recursion alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolvedInBlocks {
-    /// Roots and generalized shapes, and how far the recursion went. Every shape has unit generalized mass,
-    /// $p_j^t (k\Lambda + \alpha) p_j = 1$, and the first of its largest components is positive. Within a block the modes
-    /// stand in ascending order of frequency; any other mode $j$ continues mode $j$.
+    /// Roots and generalized shapes, each of unit generalized mass, $p_j^t G p_j = 1$, with the first of its largest
+    /// components positive. Modes ascend in frequency within a block; any other mode $j$ continues mode $j$.
     pub settled: Settled,
     /// The blocks of two or more close modes, each ascending; empty when all roots were apart.
     pub blocks: Vec<Vec<usize>>,
@@ -51,9 +49,8 @@ pub struct SolvedInBlocks {
 
 /// Recursive 1 with blocks of close modes.
 ///
-/// The change must be symmetric: vibrations with changes of stiffness ($\beta$) and mass ($\alpha$), both n × n. Blocks
-/// are formed from the first-order roots $G_{ii}/A_{ii}$; each is solved alone, which moves its roots, and blocks that
-/// thereby come close are joined until all are apart. Without close modes the roots and shapes are those of
+/// Both changes must be symmetric. Blocks are formed from the first-order roots $G_{ii}/A_{ii}$; each is solved alone, which
+/// moves its roots, and blocks that thereby come close are joined until all are apart. Without close modes this is
 /// [`super::general::recursive_1_converged`] but for the scale of the shapes.
 ///
 /// # Errors
@@ -67,23 +64,23 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     if !(0.0..=1.0).contains(&separation) {
         return Err(Error::Setting { name: "separation", expected: "between 0 and 1", found: separation });
     }
-    let (stiffness, mass) = change.pencil()?;
+    let pencil = change.pencil()?;
     check_symmetric("generalized stiffness change", &change.beta)?;
     check_symmetric("generalized mass change", &change.alpha)?;
-    cholesky("changed generalized mass", &mass, 0.0)?;
+    cholesky("changed generalized mass", &pencil.1, 0.0)?;
     let size = change.len();
     let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
-    let solve_alone = |blocks: &[Vec<usize>]| solve_within(blocks, &stiffness, &mass, &DMatrix::identity(size, size));
-    let mut alone = solve_alone(&blocks)?;
+    let identity = DMatrix::identity(size, size);
+    let mut alone = solve_in(&blocks, &pencil, &identity)?;
     // Each round joins two blocks at least, so there are fewer rounds than modes.
     while join_close(&mut blocks, &alone.roots, separation) {
-        alone = solve_alone(&blocks)?;
+        alone = solve_in(&blocks, &pencil, &identity)?;
     }
     // The modes of the blocks alone are the basis of the recursion: in it A and G are diagonal within every block.
     let in_basis = |matrix: &DMatrix<f64>| alone.shapes.tr_mul(&(matrix * &alone.shapes));
-    let (stiffness, mass) = (in_basis(&stiffness), in_basis(&mass));
-    let mut settled = recursion(&blocks, &stiffness, &mass, settings)?;
-    let mut solved = solve_within(&blocks, &stiffness, &mass, &settled.perturbed.shapes)?;
+    let pencil = (in_basis(&pencil.0), in_basis(&pencil.1));
+    let mut settled = recursion(&blocks, &pencil, settings)?;
+    let mut solved = solve_in(&blocks, &pencil, &settled.perturbed.shapes)?;
     for block in blocks.iter().filter(|block| block.len() == 1) {
         solved.roots[block[0]] = settled.perturbed.roots[block[0]];
     }
@@ -98,12 +95,10 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     Ok(SolvedInBlocks { settled: settled.check(orders)?, blocks })
 }
 
-/// Recursive 1 with a matrix of roots for each block. Its shapes are the identity within blocks and $P$ outside (n × n), its
-/// roots the diagonal of $\Gamma$.
+/// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and the identity within blocks and $P$ outside (n × n).
 fn recursion(
     blocks: &[Vec<usize>],
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
+    (stiffness, mass): &Pencil<f64>,
     settings: CloseRootsSettings,
 ) -> Result<Settled, Error> {
     let size = mass.nrows();
@@ -174,12 +169,7 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
 
 /// Roots and modes of every block's own symmetric pencil within the span of its columns of `shapes`: combinations of
 /// those columns, ascending in frequency and of unit generalized mass.
-fn solve_within(
-    blocks: &[Vec<usize>],
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    shapes: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
+fn solve_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, shapes: &DMatrix<f64>) -> Result<Perturbed, Error> {
     let mut solved = Perturbed { roots: DVector::zeros(shapes.ncols()), shapes: shapes.clone() };
     for block in blocks {
         let span = shapes.select_columns(block);

@@ -1,5 +1,5 @@
-//! Modes of the paper's general pencil $(K\lambda - G)v = 0$ (C.1): left and right shapes for a $G$ that may be
-//! complex and unsymmetric, such as mass with aerodynamic terms.
+//! Left and right modes of the general pencil (C.1), whose $G$ may be complex and unsymmetric, such as mass with
+//! aerodynamic terms.
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape, cholesky, to_faer};
@@ -32,16 +32,14 @@ impl From<&Modes> for LeftRightModes<f64> {
     }
 }
 
-/// All modes of $(K\lambda - G)v = 0$ for a symmetric positive definite $K$ (lbf/in) and any $G$ (lbf·s²/in), both
-/// d × d.
+/// All modes of $(K\lambda - G)v = 0$ for a symmetric positive definite $K$ (lbf/in) and any $G$ (lbf·s²/in), d × d.
 ///
 /// With $K = L L^t$ this is the ordinary eigenproblem of $L^{-1} G L^{-t}$, solved through faer. With its shapes in the
 /// columns of $Y$,
 ///
 /// $$ V = L^{-t} Y, \qquad U = L^{-t} Y^{-t}, \qquad U^t K V = I, \qquad U^t G V = \Lambda. $$
 ///
-/// - Order: by falling $|\lambda|$, the lowest frequency first; roots of equal magnitude (to one part in 10⁹) by
-///   rising argument, between −π and π.
+/// - Order: by falling $|\lambda|$; roots of equal magnitude (to one part in 10⁹) by rising argument from −π to π.
 /// - Scale: $v^* K v = 1$ with $v^*$ the conjugate transpose, and $u^t K v = 1$.
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
@@ -54,8 +52,8 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     if size == 0 {
         return Err(Error::Empty { what: "degrees of freedom" });
     }
-    let what = "mass and aerodynamic terms";
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
+    let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;
     check_finite(what, g)?;
     let mut reduced = g.clone();

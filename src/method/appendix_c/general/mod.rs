@@ -6,11 +6,9 @@
 //! $$ (A\gamma_j - G)\, p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
 //!    \quad \text{(C.14 to C.19)}. $$
 //!
-//! The paper prints $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to
-//! $U$. Before (C.13) it prints $k = g\Lambda$, where (C.5) gives $k\Lambda = g$. It has no (C.23).
-//!
-//! The same functions serve real numbers and complex ones: a change of mass keeps every root real, and aerodynamic
-//! terms make the same equations complex. The formulae for stiffness alone are in [`super::recursive`].
+//! The paper prints $U\Delta G V^t$ and $U\Delta K V^t$ for the last two; shapes are columns, so the transpose belongs to
+//! $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The same functions serve
+//! real numbers (changes of mass) and complex ones (aerodynamic terms); stiffness alone is in [`super::recursive`].
 
 pub mod complex_modes;
 mod modal_change;
@@ -23,13 +21,16 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_finite;
 use nalgebra::{ComplexField, DMatrix, DVector};
 
-/// Orders in a row that must leave the roots alone for a recursion with mass changes to count as converged.
+/// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
 pub(super) const QUIET_ORDERS: usize = 2;
 
 /// A real or complex number.
 pub trait Number: ComplexField<RealField = f64> + Copy {}
 
 impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
+
+/// The changed pencil in modal coordinates, $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n).
+pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 
 /// First order (C.20, C.21 with $\alpha$ and a general $k$), where $\gamma_i = \lambda_i + \Delta\lambda_i$:
 ///
@@ -56,15 +57,14 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 /// As [`first_order`], and [`Error::Setting`] for order zero.
 pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
     check_order(order)?;
-    let (stiffness, g) = change.pencil()?;
-    (0..order).try_fold(order_zero(&stiffness, &g)?, |now, _| next_order(&stiffness, &g, now))
+    let pencil = change.pencil()?;
+    (0..order).try_fold(order_zero(&pencil)?, |now, _| next_order(&pencil, now))
 }
 
 /// [`recursive_1`] until two orders in a row change no root by more than `tolerance` (relative), at most to order
 /// `orders`.
 ///
-/// One quiet order is not enough here: a change of mass enters the sum for a root without the root itself, so that two
-/// modes move their roots in every second order only.
+/// One quiet order is not enough: roots of two modes that only a change of mass couples move in every second order.
 ///
 /// # Errors
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] as [`super::recursive_1_converged`].
@@ -74,12 +74,12 @@ pub fn recursive_1_converged<T: Number>(
     orders: usize,
 ) -> Result<Settled<T>, Error> {
     check_order(orders)?;
-    let (stiffness, g) = change.pencil()?;
-    let mut now = next_order(&stiffness, &g, order_zero(&stiffness, &g)?)?;
+    let pencil = change.pencil()?;
+    let mut now = next_order(&pencil, order_zero(&pencil)?)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
     while order < orders && quiet_orders < QUIET_ORDERS {
         let before = now.roots.clone();
-        now = next_order(&stiffness, &g, now)?;
+        now = next_order(&pencil, now)?;
         order += 1;
         // Round-off in the largest root is no change of a root that is smaller still.
         let floor = f64::EPSILON * before.map(T::modulus).max();
@@ -91,13 +91,13 @@ pub fn recursive_1_converged<T: Number>(
 }
 
 /// The shapes before the change, and Rayleigh's quotients on them for roots.
-fn order_zero<T: Number>(stiffness: &DMatrix<T>, g: &DMatrix<T>) -> Result<Perturbed<T>, Error> {
-    let shapes = DMatrix::identity(g.nrows(), g.nrows());
-    Ok(Perturbed { roots: explicit_roots(stiffness, g, &shapes)?, shapes })
+fn order_zero<T: Number>(pencil: &Pencil<T>) -> Result<Perturbed<T>, Error> {
+    let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
+    Ok(Perturbed { roots: explicit_roots(pencil, &shapes)?, shapes })
 }
 
 /// One order of Recursive 1.
-fn next_order<T: Number>(stiffness: &DMatrix<T>, g: &DMatrix<T>, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
+fn next_order<T: Number>((stiffness, g): &Pencil<T>, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
     let sums_of = |matrix: &DMatrix<T>| {
         let mut coupling = matrix.clone();
         coupling.fill_diagonal(T::zero());
@@ -124,22 +124,20 @@ fn next_order<T: Number>(stiffness: &DMatrix<T>, g: &DMatrix<T>, mut now: Pertur
     Ok(now)
 }
 
-/// Recursive 2 (C.24 with $\alpha$ and a general $k$) to a given order: explicit roots, and shapes from one linear
-/// solution per mode.
+/// Recursive 2 (C.24 in general) to a given order: explicit roots, and shapes from one linear solution per mode.
 ///
 /// $$ (\gamma_i)_r = \frac{\sum_j G_{ij}(p_{ji})_\rho}{\sum_j A_{ij}(p_{ji})_\rho}, \qquad
 ///    \sum_{s \ne j}\big[A_{is}(\gamma_j)_r - G_{is}\big](p_{sj})_r = G_{ij} - A_{ij}(\gamma_j)_r, \quad i \ne j $$
 ///
 /// # Errors
-/// As [`first_order`], [`Error::Setting`] for order zero, and [`Error::CoalescingModes`] when the linear system of
-/// a mode is singular.
+/// As [`recursive_1`], and [`Error::CoalescingModes`] when the linear system of a mode is singular.
 pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
     check_order(order)?;
-    let (stiffness, g) = change.pencil()?;
+    let pencil = change.pencil()?;
     let mut now = first_order(change)?;
     for _ in 2..=order {
-        now.roots = explicit_roots(&stiffness, &g, &now.shapes)?;
-        now.shapes = shapes_by_linear_solution(&stiffness, &g, &now.roots)?;
+        now.roots = explicit_roots(&pencil, &now.shapes)?;
+        now.shapes = shapes_by_linear_solution(&pencil, &now.roots)?;
     }
     Ok(now)
 }
@@ -149,13 +147,12 @@ pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<P
 /// # Errors
 /// As [`first_order`].
 pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
-    let (stiffness, g) = change.pencil()?;
     let Perturbed { shapes, .. } = first_order(change)?;
-    Ok(Perturbed { roots: explicit_roots(&stiffness, &g, &shapes)?, shapes })
+    Ok(Perturbed { roots: explicit_roots(&change.pencil()?, &shapes)?, shapes })
 }
 
 /// Roots from given shapes, $\gamma_i = (Gp)_{ii}/(Ap)_{ii}$ (C.24).
-fn explicit_roots<T: Number>(stiffness: &DMatrix<T>, g: &DMatrix<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
+fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
     let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;
     Ok(roots)
@@ -166,11 +163,7 @@ fn check_finite_roots<T: Number>(roots: &DVector<T>) -> Result<(), Error> {
 }
 
 /// Shapes that satisfy all equations but their own for given roots, one (n−1) × (n−1) solution per mode.
-fn shapes_by_linear_solution<T: Number>(
-    stiffness: &DMatrix<T>,
-    g: &DMatrix<T>,
-    roots: &DVector<T>,
-) -> Result<DMatrix<T>, Error> {
+fn shapes_by_linear_solution<T: Number>((stiffness, g): &Pencil<T>, roots: &DVector<T>) -> Result<DMatrix<T>, Error> {
     let size = roots.len();
     let mut shapes = DMatrix::identity(size, size);
     // One mode has no others, and nalgebra's solution of an empty system panics.

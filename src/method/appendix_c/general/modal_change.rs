@@ -1,14 +1,14 @@
 //! What the general formulae work on: a change of stiffness and of $G$ seen through the modes before it.
 
-use super::Number;
 use super::complex_modes::LeftRightModes;
+use super::{Number, Pencil};
 use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
 
-/// Generalized stiffness between a left and another right mode, relative to their own, above which the shapes are
-/// refused as not biorthogonal. Round-off leaves about 1e-14 times the condition of the shapes.
+/// Generalized stiffness between a left and another right mode, relative to their own, above which shapes count as not
+/// biorthogonal. Round-off leaves about 1e-14 times their condition.
 const LARGEST_COUPLING: f64 = 1e-8;
 
 /// A change of $K$ and of $G$ seen through the modes before it.
@@ -83,12 +83,8 @@ impl<T: Number> ModalChange<T> {
         self.roots.is_empty()
     }
 
-    /// The changed pencil in modal coordinates, $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n).
-    ///
-    /// # Errors
-    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit;
-    /// [`Error::LostStiffness`] when some $A_{ii}$ vanishes.
-    pub(crate) fn pencil(&self) -> Result<(DMatrix<T>, DMatrix<T>), Error> {
+    /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
+    pub(crate) fn pencil(&self) -> Result<Pencil<T>, Error> {
         let size = self.len();
         if size == 0 {
             return Err(Error::Empty { what: "modes" });
