@@ -9,8 +9,8 @@ use crate::method::linear_algebra::{
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
-/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported: soft
-/// suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
+/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
+/// soft suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
 pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
 
 /// Fraction of a rigid-body vector's generalized mass, independent of the vectors before it, below which it counts as
@@ -22,7 +22,7 @@ const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 pub struct Balanced {
     /// Balanced shapes $v_i + \Phi r_i$ (d × n), at the scale of the raw ones.
     pub shapes: DMatrix<f64>,
-    /// Coefficients $r$ of the rigid-body vectors (m × n): a translation has the shape's unit, a rotation that per inch.
+    /// Coefficients $r$ of the rigid-body vectors (m × n); a rotation has a translation's unit per inch.
     pub coefficients: DMatrix<f64>,
     /// Each change relative to its shape in the mass norm, $\sqrt{(\Phi r_i)^t M \Phi r_i}\,/\sqrt{v_i^t M v_i}$.
     pub change: Vec<f64>,
@@ -34,9 +34,9 @@ pub struct Balanced {
 ///
 /// $$ \Phi^t R_i\, (v_i + \Phi r_i) = 0, $$
 ///
-/// which for the symmetric case, $\Phi = (\{1\}, \{x\})$, is (B.3) and (B.4). On a free structure $K\Phi = 0$, and the
+/// for the symmetric case, $\Phi = (\{1\}, \{x\})$, (B.3) and (B.4). On a free structure $K\Phi = 0$, and the
 /// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion. The equations are solved in
-/// the suspension modes $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$), mass-orthonormal and with diagonal $K$:
+/// the suspension modes $\hat\Phi = \Phi L^{-t} Y$ ($L L^t = \Phi^t M \Phi$), mass-orthonormal and with diagonal $K$:
 ///
 /// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
 ///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
@@ -77,8 +77,8 @@ pub fn balance(
     })
 }
 
-/// Squared circular frequencies $\mu$ (rad²/s², zero on a free structure) of the rigid-body modes on the suspension, and
-/// these modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
+/// Squared circular frequencies $\mu$ (rad²/s², zero on a free structure) of the rigid-body modes on the suspension,
+/// and these modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
 fn suspension_modes(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,

@@ -19,8 +19,8 @@ pub struct MovementLimits {
 }
 
 impl Default for MovementLimits {
-    /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 % of
-    /// frequency, several times what a resonance is measured to.
+    /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 %
+    /// of frequency, several times what a resonance is measured to.
     fn default() -> Self {
         Self { balance: 0.10, frequency: 0.02, shape: 0.10 }
     }
@@ -92,15 +92,15 @@ pub struct Examination {
 
 /// Balances the test modes, orthogonalizes them, and deletes those that do not fit.
 ///
-/// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves good modes with a wrong
-/// one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted that
-/// overlaps most with all others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$ (of equal ones that which moved farthest, the
-/// higher of two), and the rest are orthogonalized anew from their balanced shapes. This finds a single wrong mode
-/// anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
+/// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves good modes with a
+/// wrong one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted
+/// that overlaps most with all others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$ (of equal ones that which moved
+/// farthest, the higher of two), and the rest are orthogonalized anew from their balanced shapes. This finds a single
+/// wrong mode anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
 ///
 /// # Errors
-/// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and [`orthogonalize`],
-/// with modes numbered as they came.
+/// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and
+/// [`orthogonalize`], with modes numbered as they came.
 pub fn examine(
     raw: &ModeSet,
     mass: &DMatrix<f64>,

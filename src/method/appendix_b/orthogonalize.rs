@@ -10,8 +10,8 @@ use nalgebra::DMatrix;
 /// Squared sine of the angle between a shape and the span of those before it, below which it counts as dependent.
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
-/// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would turn
-/// two modes of one frequency by any angle.
+/// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would
+/// turn two modes of one frequency by any angle.
 const OVERLAP_ROUND_OFF: f64 = 1e-12;
 
 /// How far orthogonalization moved a mode.
@@ -35,8 +35,8 @@ pub struct Orthogonalized {
     pub movement: Vec<Movement>,
 }
 
-/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries are
-/// the integrals of (B.5), which vanish for orthogonal modes.
+/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
+/// are the integrals of (B.5), which vanish for orthogonal modes.
 pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
     shapes.tr_mul(&(mass * shapes))
 }
@@ -47,9 +47,9 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f
 ///
 /// $$ \mathrm{diag}(\omega_{Gi}^2\, m_{1,ii})\, q = \omega^2\, m_1\, q, \qquad q^t m_1 q = 1. $$
 ///
-/// with the test frequencies $\omega_{Gi}$. Each new shape $V q$ takes the place and sign of the raw one it is paired with.
-/// An overlap $e$ of two modes moves shapes by the order of $e$ and frequencies, mostly the higher, by that of $e^2$;
-/// the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
+/// with the test frequencies $\omega_{Gi}$. Each new shape $V q$ takes the place and sign of the raw one it is paired
+/// with. An overlap $e$ of two modes moves shapes by the order of $e$ and frequencies, mostly the higher, by that of
+/// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],

@@ -30,12 +30,12 @@ pub enum Motion {
     Yaw,
 }
 
-/// The motions of the symmetric boundary condition: with z alone measured, $\{1\}$ and $\{x\}$ of (B.1) and (B.2). Where
-/// x is measured, add [`Motion::ForeAft`], which is symmetric too.
+/// The motions of the symmetric boundary condition: with z alone measured, $\{1\}$ and $\{x\}$ of (B.1) and (B.2).
+/// Where x is measured, add [`Motion::ForeAft`], which is symmetric too.
 pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
 
-/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and the
-/// other two must be left out.
+/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and
+/// the other two must be left out.
 pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
 
 impl Motion {

@@ -2,7 +2,7 @@
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
 //! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With
-//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric), row $i$ outside the block and the block's own rows read
+//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric), row $i$ outside the block and its own rows read
 //!
 //! $$ P_i\,(A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I)\,P_s, \qquad
 //!    A_{CC}\Gamma = G_{CC} - \sum_{s \notin C}(A_{Cs}P_s\Gamma - G_{Cs}P_s), $$
@@ -21,8 +21,8 @@ use nalgebra::{DMatrix, DVector};
 /// How [`close_roots`] tells close modes and when it stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloseRootsSettings {
-    /// Two first-order roots are close when they differ by less than this fraction of the larger one, between 0 and 1. It
-    /// is no fraction of the spectrum's width, which spans decades and would make one block of all high modes.
+    /// Two first-order roots are close when they differ by less than this fraction of the larger one, between 0 and 1.
+    /// It is no fraction of the spectrum's width, which spans decades and would make one block of all high modes.
     pub separation: f64,
     /// Largest relative change of a root in two orders in a row at which the recursion stops.
     pub tolerance: f64,
@@ -49,9 +49,9 @@ pub struct SolvedInBlocks {
 
 /// Recursive 1 with blocks of close modes.
 ///
-/// Both changes must be symmetric. Blocks are formed from the first-order roots $G_{ii}/A_{ii}$; each is solved alone, which
-/// moves its roots, and blocks that thereby come close are joined until all are apart. Without close modes this is
-/// [`super::general::recursive_1_converged`] but for the scale of the shapes.
+/// Both changes must be symmetric. Blocks are formed from the first-order roots $G_{ii}/A_{ii}$; each is solved alone,
+/// which moves its roots, and blocks that thereby come close are joined until all are apart. Without close modes this
+/// is [`super::general::recursive_1_converged`] but for the scale of the shapes.
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::LostStiffness`] for
@@ -95,7 +95,7 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     Ok(SolvedInBlocks { settled: settled.check(orders)?, blocks })
 }
 
-/// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and the identity within blocks and $P$ outside (n × n).
+/// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and $P$ outside blocks with the identity within.
 fn recursion(
     blocks: &[Vec<usize>],
     (stiffness, mass): &Pencil<f64>,

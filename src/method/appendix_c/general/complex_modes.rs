@@ -6,8 +6,8 @@ use crate::method::linear_algebra::{check_finite, check_shape, cholesky, to_faer
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that round-off
-/// does not choose the order of a conjugate pair.
+/// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that
+/// round-off does not choose the order of a conjugate pair.
 const MAGNITUDE_TIE: f64 = 1e-9;
 
 /// Cosine between a mode's left and right shapes below which the pencil counts as defective. Round-off splits a double

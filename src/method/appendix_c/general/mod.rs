@@ -6,9 +6,9 @@
 //! $$ (A\gamma_j - G)\, p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
 //!    \quad \text{(C.14 to C.19)}. $$
 //!
-//! The paper prints $U\Delta G V^t$ and $U\Delta K V^t$ for the last two; shapes are columns, so the transpose belongs to
-//! $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The same functions serve
-//! real numbers (changes of mass) and complex ones (aerodynamic terms); stiffness alone is in [`super::recursive`].
+//! The paper prints $U\Delta G V^t$ and $U\Delta K V^t$ for the last two; shapes are columns, so the transpose belongs
+//! to $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The
+//! functions serve real numbers and, with aerodynamic terms, complex ones; stiffness alone is in [`super::recursive`].
 
 pub mod complex_modes;
 mod modal_change;
@@ -35,21 +35,22 @@ pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 /// First order (C.20, C.21 with $\alpha$ and a general $k$), where $\gamma_i = \lambda_i + \Delta\lambda_i$:
 ///
 /// $$ \Delta\lambda_i = \frac{\alpha_{ii} - \beta_{ii}\lambda_i}{k_{ii} + \beta_{ii}}, \qquad
-///    p_{ij} = -\frac{\beta_{ij}\gamma_j - \alpha_{ij}}{(k_{ii} + \beta_{ii})\gamma_j - k_{ii}\lambda_i - \alpha_{ii}} $$
+///    p_{ij} = -\frac{\beta_{ij}\gamma_j - \alpha_{ij}}{A_{ii}\gamma_j - G_{ii}} $$
 ///
 /// Modes that the change does not couple may have equal roots.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when
-/// $k_{ii} + \beta_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
+/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when some $A_{ii}$
+/// vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
 pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     recursive_1(change, 1)
 }
 
 /// Recursive 1 (C.22 with $\alpha$ and a general $k$) to a given order; with $\rho = r - 1$:
 ///
-/// $$ (\gamma_j)_r = \frac{G_{jj} - \sum_{s\ne j}\big(A_{js}(\gamma_j)_\rho - G_{js}\big)(p_{sj})_\rho}{A_{jj}}, \qquad
-///    (p_{ij})_r = -\frac{\sum_{s\ne i}\big(A_{is}(\gamma_j)_\rho - G_{is}\big)(p_{sj})_\rho}{A_{ii}(\gamma_j)_\rho - G_{ii}} $$
+/// $$ \gamma_j^{(r)} = \frac{G_{jj} - \sum_{s\ne j} f_{js}\, p_{sj}^{(\rho)}}{A_{jj}}, \quad
+///    p_{ij}^{(r)} = -\frac{\sum_{s\ne i} f_{is}\, p_{sj}^{(\rho)}}{f_{ii}},
+///    \quad f_{is} = A_{is}\gamma_j^{(\rho)} - G_{is} $$
 ///
 /// Order zero is $p = I$ with $\gamma_j = G_{jj}/A_{jj}$, so that order one is [`first_order`].
 ///
@@ -126,8 +127,8 @@ fn next_order<T: Number>((stiffness, g): &Pencil<T>, mut now: Perturbed<T>) -> R
 
 /// Recursive 2 (C.24 in general) to a given order: explicit roots, and shapes from one linear solution per mode.
 ///
-/// $$ (\gamma_i)_r = \frac{\sum_j G_{ij}(p_{ji})_\rho}{\sum_j A_{ij}(p_{ji})_\rho}, \qquad
-///    \sum_{s \ne j}\big[A_{is}(\gamma_j)_r - G_{is}\big](p_{sj})_r = G_{ij} - A_{ij}(\gamma_j)_r, \quad i \ne j $$
+/// $$ \gamma_i^{(r)} = \frac{\sum_j G_{ij}\, p_{ji}^{(\rho)}}{\sum_j A_{ij}\, p_{ji}^{(\rho)}}, \qquad
+///    \sum_{s \ne j}\big[A_{is}\gamma_j^{(r)} - G_{is}\big] p_{sj}^{(r)} = G_{ij} - A_{ij}\gamma_j^{(r)}, \ i \ne j $$
 ///
 /// # Errors
 /// As [`recursive_1`], and [`Error::CoalescingModes`] when the linear system of a mode is singular.

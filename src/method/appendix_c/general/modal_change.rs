@@ -25,8 +25,8 @@ pub struct ModalChange<T> {
 }
 
 impl ModalChange<f64> {
-    /// A change seen through mass-orthonormal modes of vibration: $k_{ii} = \omega_i^2$ (rad²/s²),
-    /// $\lambda_i = 1/\omega_i^2$, `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
+    /// A change seen through mass-orthonormal modes of vibration, whose $k_{ii} = \omega_i^2$ (rad²/s²) and
+    /// $\lambda_i = 1/\omega_i^2$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
     pub fn of_vibrations(omega_squared: &DVector<f64>, beta: DMatrix<f64>, alpha: DMatrix<f64>) -> Self {
         Self { generalized_stiffness: omega_squared.clone(), roots: omega_squared.map(f64::recip), beta, alpha }
     }
