@@ -6,9 +6,9 @@
 //! $$ (A\gamma_j - G)\, p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
 //!    \quad \text{(C.14 to C.19)}. $$
 //!
-//! The paper prints $U\Delta G V^t$ and $U\Delta K V^t$ for the last two; shapes are columns, so the transpose belongs
-//! to $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The
-//! functions serve real numbers and, with aerodynamic terms, complex ones; stiffness alone is in [`super::recursive`].
+//! The paper prints $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to
+//! $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The same functions
+//! serve real and, with aerodynamic terms, complex numbers. Stiffness alone is in [`super::recursive`].
 
 pub mod complex_modes;
 mod modal_change;
@@ -40,8 +40,8 @@ pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 /// Modes that the change does not couple may have equal roots.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when some $A_{ii}$
-/// vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
+/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when some
+/// $A_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
 pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     recursive_1(change, 1)
 }
