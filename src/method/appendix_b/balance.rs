@@ -9,15 +9,12 @@ use crate::method::linear_algebra::{
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
-/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported.
-///
-/// It is the square of a suspension frequency over the mode's: 0.04 asks for suspension modes below a fifth of
-/// every test frequency, about what a test on soft suspension is set up for. A supported structure's lowest mode has a
-/// ratio of at least one, because no motion has a smaller ratio of stiffness to mass than that mode.
+/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
+/// soft suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
 pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
 
-/// Part of a rigid-body vector that is independent of those before it, as a fraction of its generalized mass, below
-/// which it counts as dependent. Round-off leaves about 1e-15; a reference axis a thousand lengths away leaves 1e-7.
+/// Fraction of a rigid-body vector's generalized mass, independent of the vectors before it, below which it counts as
+/// dependent. Round-off leaves about 1e-15; a reference axis a thousand lengths away leaves 1e-7.
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Test shapes whose forces and moments balance.
@@ -25,10 +22,9 @@ const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 pub struct Balanced {
     /// Balanced shapes $v_i + \Phi r_i$ (d × n), at the scale of the raw ones.
     pub shapes: DMatrix<f64>,
-    /// Coefficients $r$ of the rigid-body vectors (m × n): a translation has the shape's unit, a rotation that per inch.
+    /// Coefficients $r$ of the rigid-body vectors (m × n); a rotation has a translation's unit per inch.
     pub coefficients: DMatrix<f64>,
-    /// Size of each change relative to its shape, in the mass norm:
-    /// $\sqrt{(\Phi r_i)^t M \Phi r_i} / \sqrt{v_i^t M v_i}$.
+    /// Each change relative to its shape in the mass norm, $\sqrt{(\Phi r_i)^t M \Phi r_i} /\sqrt{v_i^t M v_i}$.
     pub change: Vec<f64>,
 }
 
@@ -36,12 +32,11 @@ pub struct Balanced {
 ///
 /// With $R_i = \omega_i^2 M - K$ and the rigid-body vectors in the columns of $\Phi$, the coefficients solve
 ///
-/// $$ \Phi^t R_i (v_i + \Phi r_i) = 0, $$
+/// $$ \Phi^t R_i  (v_i + \Phi r_i) = 0, $$
 ///
-/// which for the symmetric case, $\Phi = (\lbrace 1 \rbrace, \lbrace x \rbrace)$, is (B.3) and (B.4). On a free structure $K\Phi = 0$ and the
-/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion, so the change is at most
-/// one. The equations are solved in the suspension modes, the mass-orthonormal combinations
-/// $\hat\Phi = \Phi L^{-t} Y$ (with $L L^t = \Phi^t M \Phi$) on which $K$ is diagonal:
+/// for the symmetric case, $\Phi = (\lbrace 1 \rbrace, \lbrace x \rbrace)$, (B.3) and (B.4). On a free structure $K\Phi = 0$, and the
+/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion. The equations are solved in
+/// the suspension modes $\hat\Phi = \Phi L^{-t} Y$ ($L L^t = \Phi^t M \Phi$), mass-orthonormal and with diagonal $K$:
 ///
 /// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
 ///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
@@ -52,9 +47,8 @@ pub struct Balanced {
 /// # Errors
 /// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
 /// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::Dependent`] when the balance
-/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds
-/// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode
-/// on the suspension and no test mode.
+/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a
+/// mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 pub fn balance(
     raw: &ModeSet,
     stiffness: &DMatrix<f64>,
@@ -62,47 +56,34 @@ pub fn balance(
     rigid_body: &DMatrix<f64>,
 ) -> Result<Balanced, Error> {
     let generalized_masses = checked_generalized_masses(raw, mass)?;
-    let dof_count = mass.nrows();
-    check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
+    check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    let to_suspension = suspension_modes(stiffness, mass, rigid_body)?;
-    let Suspension { squared, modes: from_suspension } = &to_suspension;
-    let stiffest = squared.amax();
-    let limit = LARGEST_SUSPENSION_RATIO;
-    if let Some(mode) = raw.omega_squared.iter().position(|omega| stiffest > limit * omega) {
+    let (suspension, from_suspension) = suspension_modes(stiffness, mass, rigid_body)?;
+    let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
+    if let Some(mode) = raw.omega_squared.iter().position(|omega_squared| stiffest > limit * omega_squared) {
         return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });
     }
-    let motions = rigid_body * from_suspension;
+    let motions = rigid_body * &from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
     let elastic = motions.tr_mul(&(stiffness * &raw.shapes));
-    let amplitudes = DMatrix::from_fn(squared.len(), raw.len(), |k, i| {
+    let amplitudes = DMatrix::from_fn(suspension.len(), raw.len(), |k, i| {
         let omega_squared = raw.omega_squared[i];
-        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - squared[k])
+        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - suspension[k])
     });
     Ok(Balanced {
         shapes: &raw.shapes + motions * &amplitudes,
-        change: amplitudes
-            .column_iter()
-            .zip(generalized_masses.iter())
-            .map(|(amplitude, generalized_mass)| amplitude.norm() / generalized_mass.sqrt())
-            .collect(),
+        change: (0..raw.len()).map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt()).collect(),
         coefficients: from_suspension * amplitudes,
     })
 }
 
-/// Rigid-body modes on the suspension.
-struct Suspension {
-    /// Squared circular frequencies $\mu$, rad²/s²; zero on a free structure.
-    squared: DVector<f64>,
-    /// Mass-orthonormal modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
-    modes: DMatrix<f64>,
-}
-
+/// Squared circular frequencies $\mu$ (rad²/s², zero on a free structure) of the rigid-body modes on the suspension,
+/// and these modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
 fn suspension_modes(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     rigid_body: &DMatrix<f64>,
-) -> Result<Suspension, Error> {
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     let count = rigid_body.ncols();
     if count == 0 {
         return Err(Error::Empty { what: "rigid-body vectors" });
@@ -118,5 +99,5 @@ fn suspension_modes(
     solve_lower(&lower, &mut reduced);
     let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &symmetric_part(&reduced))?;
     solve_lower_transposed(&lower, &mut modes);
-    Ok(Suspension { squared, modes })
+    Ok((squared, modes))
 }

@@ -1,14 +1,14 @@
 //! Appendix B: measured modes made fit for correlation.
 //!
-//! Measured modes miss equilibrium and orthogonality by what the test was inaccurate. Three steps, in order:
+//! Measured modes violate equilibrium and orthogonality by the errors of the test. Three steps, in order:
 //!
 //! 1. [`balance`] adds to every shape the rigid-body motion that brings its forces and moments to zero (B.1 to B.4);
 //!    [`rigid_body_vectors`] writes those motions for given measuring points.
 //! 2. [`orthogonalize`] solves for the combinations of the shapes that are orthogonal in mass (B.5 to B.7).
 //! 3. [`examine`] does both, reports how far each mode moved, and leaves out the modes that moved past the limits.
 //!
-//! Balancing belongs to free and softly suspended structures alone: where supports hold the structure, their
-//! reactions balance the forces, which are then not zero at the dynamic DOF.
+//! Only free and softly suspended structures are balanced: where supports hold the structure, their reactions balance
+//! the forces, which are then not zero at the dynamic DOF.
 
 mod balance;
 mod examine;
@@ -26,7 +26,7 @@ use crate::method::modes::ModeSet;
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 
-/// Refuses test modes and masses that no step can work with; returns every shape's generalized mass $v_i^t M v_i$.
+/// Every shape's generalized mass $v_i^t M v_i$, after refusing test modes and masses that no step can work with.
 fn checked_generalized_masses(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
     if raw.is_empty() {
         return Err(Error::Empty { what: "test modes" });

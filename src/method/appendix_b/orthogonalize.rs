@@ -7,12 +7,11 @@ use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{pair_modes, paired};
 use nalgebra::DMatrix;
 
-/// Part of a unit shape that is independent of those before it, squared, below which it counts as dependent: an
-/// angle of 1e-6 between the shape and what the others span, far below any measurement.
+/// Squared sine of the angle between a shape and the span of those before it, below which it counts as dependent.
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
-/// Overlap of unit shapes below which it is the round-off of a product over some hundreds of DOF and counts as none.
-/// Without it two modes of one frequency, orthogonal but for round-off, would be turned by any angle.
+/// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would
+/// turn two modes of one frequency by any angle.
 const OVERLAP_ROUND_OFF: f64 = 1e-12;
 
 /// How far orthogonalization moved a mode.
@@ -21,10 +20,7 @@ pub struct Movement {
     /// Change of frequency relative to the raw one, $(f - f_G)/f_G$.
     pub frequency: f64,
     /// Mass norm of the change of shape, $\sqrt{(w - v)^t M (w - v)}$ with both scaled to unit generalized mass and
-    /// signed alike.
-    ///
-    /// It is $2\sin(\theta/2)$ for an angle $\theta$ between the shapes, so about the fraction of other modes mixed
-    /// in; the modal assurance criterion in the mass product is $(1 - c^2/2)^2$ of it.
+    /// signed alike: $2\sin(\theta/2)$ for an angle $\theta$ between them, about the fraction of other modes mixed in.
     pub shape: f64,
 }
 
@@ -39,26 +35,21 @@ pub struct Orthogonalized {
     pub movement: Vec<Movement>,
 }
 
-/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale.
-///
-/// Its off-diagonal entries are the integrals of (B.5) over the mass; they vanish for orthogonal modes.
+/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
+/// are the integrals of (B.5), which vanish for orthogonal modes.
 pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
     shapes.tr_mul(&(mass * shapes))
 }
 
 /// The combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
 ///
-/// The raw shapes are scaled to unit generalized mass, and the equations of motion in them, with the test
-/// frequencies $\omega_{Gi}$ on the diagonal, are the symmetric-definite eigenproblem
+/// In the raw shapes, scaled to unit generalized mass, the equations of motion are the symmetric-definite eigenproblem
 ///
-/// $$ \mathrm{diag}(\omega_{Gi}^2 m_{1,ii}) q = \omega^2 m_1 q, \qquad q^t m_1 q = 1. $$
+/// $$ \mathrm{diag}(\omega_{Gi}^2  m_{1,ii})  q = \omega^2  m_1  q, \qquad q^t m_1 q = 1. $$
 ///
-/// The new shapes $V q$ are orthonormal in mass. Each is paired with a raw one by their cross-orthogonality, and takes
-/// its place and sign. When $m_1$ is diagonal every frequency and shape stays as it is; an overlap $e$ of two
-/// modes moves the shapes by the order of $e$ and the frequencies by that of $e^2$, and is charged mostly to the
-/// higher mode, by $\omega_j^2$ against $\omega_i^2$. The sum of $1/\omega^2$ never changes.
-///
-/// `mass` in lbf·s²/in (d × d).
+/// with the test frequencies $\omega_{Gi}$. Each new shape $V q$ takes the place and sign of the raw one it is paired
+/// with. An overlap $e$ of two modes moves shapes by the order of $e$ and frequencies, mostly the higher, by that of
+/// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
@@ -70,21 +61,18 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
     for (mut shape, generalized_mass) in unit.column_iter_mut().zip(generalized_masses.iter()) {
         shape /= generalized_mass.sqrt();
     }
-    let overlap = symmetric_part(&generalized_mass(&unit, mass));
-    let overlap = overlap.map(|entry| if entry.abs() < OVERLAP_ROUND_OFF { 0.0 } else { entry });
+    let mut overlap = symmetric_part(&generalized_mass(&unit, mass));
+    overlap.iter_mut().filter(|entry| entry.abs() < OVERLAP_ROUND_OFF).for_each(|entry| *entry = 0.0);
     cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART)
         .map_err(|error| error.or_dependent("test mode"))?;
     let combined = solve(&DMatrix::from_diagonal(&raw.omega_squared), &overlap, raw.len())?;
-    let pairing = pair_modes(&combined.shapes.tr_mul(&overlap))?;
-    let combined = paired(&combined, &pairing);
+    let combined = paired(&combined, &pair_modes(&combined.shapes.tr_mul(&overlap))?);
     let modes = ModeSet { shapes: &unit * combined.shapes, omega_squared: combined.omega_squared };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;
-    let movement = (0..raw.len())
-        .map(|mode| Movement {
-            frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
-            shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
-        })
-        .collect();
-    Ok(Orthogonalized { modes, overlap, movement })
+    let movement = |mode: usize| Movement {
+        frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
+        shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
+    };
+    Ok(Orthogonalized { movement: (0..raw.len()).map(movement).collect(), modes, overlap })
 }

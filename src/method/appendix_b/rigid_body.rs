@@ -31,37 +31,30 @@ pub enum Motion {
 }
 
 /// The motions of the symmetric boundary condition: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of (B.1) and (B.2).
-///
-/// Fore-and-aft motion is symmetric too; add [`Motion::ForeAft`] where x is measured.
+/// Where x is measured, add [`Motion::ForeAft`], which is symmetric too.
 pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
 
-/// The motions of the antisymmetric boundary condition: side force, rolling moment, yawing moment.
-///
-/// Where z alone is measured only [`Motion::Roll`] is seen, and the other two must be left out.
+/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and
+/// the other two must be left out.
 pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
 
 impl Motion {
-    /// Displacement of a point (in) under the motion's unit: 1 in of translation, or 1 rad of rotation in the linear
-    /// theory, in per rad.
+    /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
     ///
-    /// Rotations are signed so that yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the
-    /// tail: roll $(0, -z, y)$, pitch $(-z, 0, x)$, yaw $(-y, x, 0)$.
+    /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
     pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
-        let (x, y, z) = (position.x, position.y, position.z);
         match self {
             Self::ForeAft => Vector3::x(),
             Self::Side => Vector3::y(),
             Self::Plunge => Vector3::z(),
-            Self::Roll => Vector3::new(0.0, -z, y),
-            Self::Pitch => Vector3::new(-z, 0.0, x),
-            Self::Yaw => Vector3::new(-y, x, 0.0),
+            Self::Roll => Vector3::new(0.0, -position.z, position.y),
+            Self::Pitch => Vector3::new(-position.z, 0.0, position.x),
+            Self::Yaw => Vector3::new(-position.y, position.x, 0.0),
         }
     }
 }
 
-/// The rigid-body vectors $\Phi$ (dynamic DOF × motions): what each motion shows at each DOF,
-/// $\Phi_{ij} = n_i \cdot u_j(x_i)$.
-///
+/// The rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
 /// Translations have no unit, rotations are in inches per radian.
 ///
 /// # Errors

@@ -1,9 +1,8 @@
 //! Close and repeated roots: small blocks of close modes solved exactly, the rest by Recursive 1.
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
-//! form a block $C$ that is carried through the recursion as one: its shapes $\begin{bmatrix} I \newline P \end{bmatrix}$
-//! span the block's modes, and a matrix $\Gamma$ stands where one root $\gamma_j$ stood. With the changed
-//! generalized stiffness $A = k + \beta$ and $G = k\Lambda + \alpha$ (both n × n, symmetric), row $i$ outside the block reads
+//! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With
+//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric), row $i$ outside the block and its own rows read
 //!
 //! $$ P_i (A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I) P_s, \qquad
 //!    A_{CC}\Gamma = G_{CC} - \sum_{s \notin C}(A_{Cs}P_s\Gamma - G_{Cs}P_s), $$
@@ -11,22 +10,19 @@
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use super::blocks::{BlockPencil, block_modes};
-use super::general::ModalChange;
-use super::general::QUIET_ORDERS;
+use super::general::{ModalChange, Pencil, QUIET_ORDERS};
 use super::recursive::{check_order, check_root};
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, symmetric_part};
-use crate::method::modes::apply_sign_rule;
+use crate::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_part};
+use crate::method::modes::{apply_sign_rule, solve};
 use nalgebra::{DMatrix, DVector};
 
 /// How [`close_roots`] tells close modes and when it stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloseRootsSettings {
-    /// Two first-order roots are close when they differ by less than this fraction of the larger one, between 0
-    /// and 1. A fraction of the place in the spectrum and not of its width: spectra span decades, and the width
-    /// would make one block of all high modes (small roots).
+    /// Two first-order roots are close when they differ by less than this fraction of the larger one, between 0 and 1.
+    /// It is no fraction of the spectrum's width, which spans decades and would make one block of all high modes.
     pub separation: f64,
     /// Largest relative change of a root in two orders in a row at which the recursion stops.
     pub tolerance: f64,
@@ -44,9 +40,8 @@ impl Default for CloseRootsSettings {
 /// Roots and shapes after a change, and the modes that were too close for the recursion alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolvedInBlocks {
-    /// Roots and generalized shapes, and how far the recursion went. Every shape has unit generalized mass, $p_j^t (k\Lambda + \alpha) p_j = 1$, and the
-    /// first of its largest components is positive. Within a block the modes stand in ascending order of
-    /// frequency; any other mode $j$ continues mode $j$.
+    /// Roots and generalized shapes, each of unit generalized mass, $p_j^t G p_j = 1$, with the first of its largest
+    /// components positive. Modes ascend in frequency within a block; any other mode $j$ continues mode $j$.
     pub settled: Settled,
     /// The blocks of two or more close modes, each ascending; empty when all roots were apart.
     pub blocks: Vec<Vec<usize>>,
@@ -54,127 +49,142 @@ pub struct SolvedInBlocks {
 
 /// Recursive 1 with blocks of close modes.
 ///
-/// The change must be symmetric: vibrations with changes of stiffness ($\beta$) and mass ($\alpha$), both n × n. Blocks
-/// are formed from the first-order roots $(k_{ii}\lambda_i + \alpha_{ii})/(k_{ii} + \beta_{ii})$; each is solved alone, which moves
-/// its roots, and blocks that thereby come close are joined until all are apart. Without close modes the roots
-/// and shapes are those of [`super::recursive_1_converged`] but for the scale of the shapes.
+/// Both changes must be symmetric. Blocks are formed from the first-order roots $G_{ii}/A_{ii}$; each is solved alone,
+/// which moves its roots, and blocks that thereby come close are joined until all are apart. Without close modes this
+/// is [`super::general::recursive_1_converged`] but for the scale of the shapes.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::LostStiffness`] for bad
-/// input; [`Error::Setting`] for a separation outside 0 to 1 or no orders; [`Error::NotPositiveDefinite`] when the
-/// changed mass is not; [`Error::UnsettledRoots`]; [`Error::LostRoot`] when a root loses its sign; [`Error::CoalescingModes`] when the
-/// recursion itself brings roots together that were apart.
+/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::LostStiffness`] for
+/// bad input; [`Error::Setting`] for a separation outside 0 to 1 or no orders; [`Error::NotPositiveDefinite`] when the
+/// changed mass is not; [`Error::UnsettledRoots`]; [`Error::LostRoot`] when a root loses its sign;
+/// [`Error::CoalescingModes`] when the recursion itself brings roots together that were apart.
 pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> Result<SolvedInBlocks, Error> {
-    check_order(settings.orders)?;
-    if !(0.0..=1.0).contains(&settings.separation) {
-        return Err(Error::Setting { name: "separation", expected: "between 0 and 1", found: settings.separation });
+    let CloseRootsSettings { separation, tolerance, orders } = settings;
+    check_order(orders)?;
+    if !(0.0..=1.0).contains(&separation) {
+        return Err(Error::Setting { name: "separation", expected: "between 0 and 1", found: separation });
     }
-    let pencil = BlockPencil::new(change, settings.separation)?;
-    let Recursion { mut shapes, block_roots, order, last_change } = recursion(&pencil, settings)?;
-    let mut roots = DVector::zeros(change.len());
-    for (block, root) in pencil.blocks.iter().zip(block_roots) {
-        let span = shapes.select_columns(block);
-        let stiffness = span.tr_mul(&(&pencil.stiffness * &span));
-        let mass = span.tr_mul(&(&pencil.mass * &span));
-        let modes = block_modes(&symmetric_part(&stiffness), &symmetric_part(&mass), block)?;
-        for (column, &mode) in block.iter().enumerate() {
-            roots[mode] = match block.len() {
-                1 => root[(0, 0)],
-                _ => 1.0 / modes.omega_squared[column],
-            };
-            check_root(mode, roots[mode])?;
-            shapes.set_column(mode, &(&span * modes.shapes.column(column)));
-        }
+    let pencil = change.pencil()?;
+    check_symmetric("generalized stiffness change", &change.beta)?;
+    check_symmetric("generalized mass change", &change.alpha)?;
+    cholesky("changed generalized mass", &pencil.1, 0.0)?;
+    let size = change.len();
+    let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
+    let identity = DMatrix::identity(size, size);
+    let mut alone = solve_in(&blocks, &pencil, &identity)?;
+    // Each round joins two blocks at least, so there are fewer rounds than modes.
+    while join_close(&mut blocks, &alone.roots, separation) {
+        alone = solve_in(&blocks, &pencil, &identity)?;
     }
-    shapes = &pencil.rotation * shapes;
-    check_finite("perturbed generalized shapes", &shapes)?;
-    apply_sign_rule(&mut shapes);
-    Ok(SolvedInBlocks {
-        settled: Settled { perturbed: Perturbed { roots, shapes }, order, last_change }
-            .check(settings.tolerance, settings.orders)?,
-        blocks: pencil.blocks.into_iter().filter(|block| block.len() > 1).collect(),
-    })
+    // The modes of the blocks alone are the basis of the recursion: in it A and G are diagonal within every block.
+    let in_basis = |matrix: &DMatrix<f64>| alone.shapes.tr_mul(&(matrix * &alone.shapes));
+    let pencil = (in_basis(&pencil.0), in_basis(&pencil.1));
+    let mut settled = recursion(&blocks, &pencil, settings)?;
+    let mut solved = solve_in(&blocks, &pencil, &settled.perturbed.shapes)?;
+    for block in blocks.iter().filter(|block| block.len() == 1) {
+        solved.roots[block[0]] = settled.perturbed.roots[block[0]];
+    }
+    for (mode, &root) in solved.roots.iter().enumerate() {
+        check_root(mode, root)?;
+    }
+    solved.shapes = alone.shapes * solved.shapes;
+    check_finite("perturbed generalized shapes", &solved.shapes)?;
+    apply_sign_rule(&mut solved.shapes);
+    settled.perturbed = solved;
+    blocks.retain(|block| block.len() > 1);
+    Ok(SolvedInBlocks { settled: settled.check(tolerance, orders)?, blocks })
 }
 
-/// Where the recursion ended, in the rotated basis.
-struct Recursion {
-    /// The identity within each block, $P$ outside (n × n).
-    shapes: DMatrix<f64>,
-    /// $\Gamma$ of every block.
-    block_roots: Vec<DMatrix<f64>>,
-    order: usize,
-    last_change: f64,
-}
-
-/// Recursive 1 with a matrix of roots for each block.
-fn recursion(pencil: &BlockPencil, settings: CloseRootsSettings) -> Result<Recursion, Error> {
-    let (stiffness, mass) = (&pencil.stiffness, &pencil.mass);
-    let (stiffness_coupling, mass_coupling) = (pencil.coupling(stiffness), pencil.coupling(mass));
-    let size = stiffness.nrows();
-    let mut now = Recursion {
-        shapes: DMatrix::identity(size, size),
-        block_roots: pencil
-            .blocks
-            .iter()
-            .map(|block| {
-                let roots = block.iter().map(|&i| mass[(i, i)] / stiffness[(i, i)]);
-                DMatrix::from_diagonal(&DVector::from_iterator(block.len(), roots))
-            })
-            .collect(),
-        order: 0,
-        last_change: 1.0,
-    };
-    let mut quiet_orders = 0;
-    // The first round makes the first-order shapes and leaves the roots alone: its sums hold nothing yet.
-    for order in 1..=settings.orders {
-        let stiffness_sums = &stiffness_coupling * &now.shapes;
-        let mass_sums = &mass_coupling * &now.shapes;
+/// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and $P$ outside blocks with the identity within.
+fn recursion(
+    blocks: &[Vec<usize>],
+    (stiffness, mass): &Pencil<f64>,
+    settings: CloseRootsSettings,
+) -> Result<Settled, Error> {
+    let size = mass.nrows();
+    let together = |i: usize, j: usize| blocks.iter().any(|block| block.contains(&i) && block.contains(&j));
+    let coupling =
+        |matrix: &DMatrix<f64>| matrix.map_with_location(|i, j, entry| if together(i, j) { 0.0 } else { entry });
+    let (stiffness_coupling, mass_coupling) = (coupling(stiffness), coupling(mass));
+    // Γ of all blocks in one matrix, zero outside of blocks.
+    let mut gamma = DMatrix::from_diagonal(&mass.diagonal().component_div(&stiffness.diagonal()));
+    let mut shapes = DMatrix::identity(size, size);
+    let (mut order, mut last_change, mut quiet_orders) = (0, 1.0, 0);
+    while order < settings.orders && quiet_orders < QUIET_ORDERS {
+        let sums = &stiffness_coupling * &shapes * &gamma - &mass_coupling * &shapes;
+        let next = DMatrix::from_fn(size, size, |i, j| match together(i, j) {
+            true if i == j => (mass[(i, i)] - sums[(i, i)]) / stiffness[(i, i)],
+            true => -sums[(i, j)] / stiffness[(i, i)],
+            false => 0.0,
+        });
+        check_finite("perturbed roots", &next)?;
         let mut change = 0.0_f64;
-        for (block, gamma) in pencil.blocks.iter().zip(&mut now.block_roots) {
-            let sums = stiffness_sums.select_columns(block) * &*gamma - mass_sums.select_columns(block);
+        for block in blocks {
+            let within = |matrix: &DMatrix<f64>| matrix.select_rows(block).select_columns(block);
+            let roots = within(&gamma);
             for i in (0..size).filter(|i| !block.contains(i)) {
-                let inverse = inverse_denominator(stiffness[(i, i)] * &*gamma, mass[(i, i)], (i, block[0]))?;
-                let row = -sums.row(i) * inverse;
-                for (column, &mode) in block.iter().enumerate() {
-                    now.shapes[(i, mode)] = row[column];
-                }
+                let own = stiffness[(i, i)] * &roots;
+                let own_mass = DMatrix::from_diagonal_element(block.len(), block.len(), mass[(i, i)]);
+                let inverse = (&own - own_mass).try_inverse();
+                let separation = inverse.as_ref().map_or(0.0, |inverse| 1.0 / (own.amax() * inverse.amax()));
+                let Some(inverse) = inverse.filter(|_| separation > SMALLEST_SEPARATION) else {
+                    return Err(Error::CoalescingModes { first: i, second: block[0], separation });
+                };
+                let row = -sums.select_rows([&i]).select_columns(block) * inverse;
+                block.iter().zip(row.iter()).for_each(|(&mode, &entry)| shapes[(i, mode)] = entry);
             }
-            let mut root = -sums.select_rows(block);
-            for (row, &i) in block.iter().enumerate() {
-                root[(row, row)] += mass[(i, i)];
-                root.row_mut(row).unscale_mut(stiffness[(i, i)]);
-            }
-            check_finite("perturbed roots", &root)?;
-            change = change.max((&root - &*gamma).amax() / gamma.amax());
-            *gamma = root;
+            change = change.max((within(&next) - &roots).amax() / roots.amax());
         }
-        now.order = order;
+        gamma = next;
+        order += 1;
+        // The first order makes the shapes and leaves the roots alone: its sums hold nothing of them yet.
         if order > 1 {
-            now.last_change = change;
+            last_change = change;
             quiet_orders = if change < settings.tolerance { quiet_orders + 1 } else { 0 };
-            if quiet_orders == QUIET_ORDERS {
-                break;
-            }
         }
     }
-    Ok(now)
+    Ok(Settled { perturbed: Perturbed { roots: gamma.diagonal(), shapes }, order, last_change })
 }
 
-/// $(A_{ii}\Gamma - G_{ii} I)^{-1}$, refused when the row's own root has met one of the block's.
-fn inverse_denominator(
-    own_stiffness_times_roots: DMatrix<f64>,
-    own_mass: f64,
-    (row, mode): (usize, usize),
-) -> Result<DMatrix<f64>, Error> {
-    let own = own_stiffness_times_roots.amax();
-    let mut difference = own_stiffness_times_roots;
-    for i in 0..difference.nrows() {
-        difference[(i, i)] -= own_mass;
+/// Joins blocks that hold neighboring roots closer than `separation` of the larger; whether there were any.
+///
+/// Neighbors are enough: when two roots are close, every root between them is close to the larger.
+fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f64) -> bool {
+    let before = blocks.len();
+    let mut ascending: Vec<usize> = (0..roots.len()).collect();
+    ascending.sort_by(|&a, &b| roots[a].total_cmp(&roots[b]));
+    for neighbors in ascending.windows(2) {
+        let (smaller, larger) = (neighbors[0], neighbors[1]);
+        if roots[larger] - roots[smaller] < separation * roots[larger] {
+            let is_joined = |block: &Vec<usize>| block.contains(&smaller) || block.contains(&larger);
+            let (joined, apart): (Vec<_>, Vec<_>) = blocks.drain(..).partition(is_joined);
+            *blocks = apart;
+            blocks.push(joined.concat());
+        }
     }
-    let inverse = difference.try_inverse();
-    let separation = inverse.as_ref().map_or(0.0, |inverse| 1.0 / (own * inverse.amax()));
-    match inverse {
-        Some(inverse) if separation > SMALLEST_SEPARATION => Ok(inverse),
-        _ => Err(Error::CoalescingModes { first: row, second: mode, separation }),
+    blocks.iter_mut().for_each(|block| block.sort_unstable());
+    blocks.sort_unstable();
+    blocks.len() < before
+}
+
+/// Roots and modes of every block's own symmetric pencil within the span of its columns of `shapes`: combinations of
+/// those columns, ascending in frequency and of unit generalized mass.
+fn solve_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, shapes: &DMatrix<f64>) -> Result<Perturbed, Error> {
+    let mut solved = Perturbed { roots: DVector::zeros(shapes.ncols()), shapes: shapes.clone() };
+    for block in blocks {
+        let span = shapes.select_columns(block);
+        let within = |matrix: &DMatrix<f64>| symmetric_part(&span.tr_mul(&(matrix * &span)));
+        let modes = solve(&within(stiffness), &within(mass), block.len()).map_err(|error| match error {
+            Error::NotAVibration { mode, value } => Error::LostRoot { mode: block[mode], value: value.recip() },
+            Error::NotPositiveDefinite { dof, .. } => {
+                Error::NotPositiveDefinite { what: "changed generalized mass", dof: block[dof] }
+            }
+            other => other,
+        })?;
+        for (column, &mode) in block.iter().enumerate() {
+            solved.roots[mode] = modes.omega_squared[column].recip();
+            solved.shapes.set_column(mode, &(&span * modes.shapes.column(column)));
+        }
     }
+    Ok(solved)
 }

@@ -13,7 +13,6 @@
 //! - [`close_roots`]: Recursive 1 where some modes are so close that they must be solved together;
 //! - [`general`]: all of it with changes of mass, and for pencils that are complex or unsymmetric.
 
-mod blocks;
 pub mod close_roots;
 pub mod general;
 pub mod recursive;
@@ -76,10 +75,7 @@ impl<T> Settled<T> {
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] for bad input; those of [`solve`];
 /// [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
 pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
-    change.check()?;
-    let k = &change.generalized_stiffness;
-    let stiffness = DMatrix::from_diagonal(k) + &change.beta;
-    let mass = DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha;
+    let (stiffness, mass) = change.pencil()?;
     let modes = solve(&stiffness, &mass, change.len())?;
     // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
     let pairing = pair_modes(&modes.shapes.transpose())?;

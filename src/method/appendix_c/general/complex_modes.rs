@@ -1,19 +1,17 @@
-//! Modes of the paper's general pencil $(K\lambda - G)v = 0$ (C.1): left and right shapes for a $G$ that may be
-//! complex and unsymmetric, such as mass with aerodynamic terms.
+//! Left and right modes of the general pencil (C.1), whose $G$ may be complex and unsymmetric, such as mass with
+//! aerodynamic terms.
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape, cholesky, to_faer};
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
-use std::cmp::Ordering;
 
-/// Roots whose magnitudes differ by less than this fraction count as equally large for the order of modes, so
-/// that round-off does not choose the order of a conjugate pair.
+/// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that
+/// round-off does not choose the order of a conjugate pair.
 const MAGNITUDE_TIE: f64 = 1e-9;
 
-/// Cosine between a mode's left and right shapes below which the pencil counts as defective.
-///
-/// Round-off splits a double root that has one shape by about 1e-8 of its size, and its shapes by as much.
+/// Cosine between a mode's left and right shapes below which the pencil counts as defective. Round-off splits a double
+/// root that has one shape by about 1e-8 of its size, and its shapes by as much.
 const SMALLEST_COSINE: f64 = 1e-7;
 
 /// Roots with right and left shapes, biorthogonal with respect to the stiffness and to $G$ (C.8 to C.10).
@@ -34,16 +32,14 @@ impl From<&Modes> for LeftRightModes<f64> {
     }
 }
 
-/// All modes of $(K\lambda - G)v = 0$ for a symmetric positive definite $K$ (lbf/in) and any $G$ (lbf·s²/in), both
-/// d × d.
+/// All modes of $(K\lambda - G)v = 0$ for a symmetric positive definite $K$ (lbf/in) and any $G$ (lbf·s²/in), d × d.
 ///
-/// With $K = L L^t$ the pencil becomes the ordinary one of $L^{-1} G L^{-t}$, solved through faer. If its shapes are
-/// the columns of $Y$, then
+/// With $K = L L^t$ this is the ordinary eigenproblem of $L^{-1} G L^{-t}$, solved through faer. With its shapes in the
+/// columns of $Y$,
 ///
 /// $$ V = L^{-t} Y, \qquad U = L^{-t} Y^{-t}, \qquad U^t K V = I, \qquad U^t G V = \Lambda. $$
 ///
-/// - Order: by falling $|\lambda|$, the lowest frequency first; roots of equal magnitude (to one part in 10⁹) by
-///   rising argument, between −π and π.
+/// - Order: by falling $|\lambda|$; roots of equal magnitude (to one part in 10⁹) by rising argument from −π to π.
 /// - Scale: $v^* K v = 1$ with $v^*$ the conjugate transpose, and $u^t K v = 1$.
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
@@ -56,8 +52,8 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     if size == 0 {
         return Err(Error::Empty { what: "degrees of freedom" });
     }
-    let what = "mass and aerodynamic terms";
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
+    let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;
     check_finite(what, g)?;
     let mut reduced = g.clone();
@@ -66,58 +62,36 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     lower.solve_lower_triangular_unchecked_mut(&mut reduced);
     reduced.transpose_mut();
     let eigen = to_faer(&reduced).eigen().map_err(|_| Error::NoConvergence(what))?;
-    let unsorted: Vec<Complex<f64>> = (0..size).map(|i| eigen.S()[i]).collect();
-    let order = by_magnitude_then_argument(&unsorted);
-    let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
-    for mut shape in reduced_right.column_iter_mut() {
-        shape.normalize_mut();
+    let root = |i: usize| eigen.S()[i];
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));
+    for equal in order.chunk_by_mut(|&a, &b| root(b).norm() >= (1.0 - MAGNITUDE_TIE) * root(a).norm()) {
+        equal.sort_by(|&a, &b| root(a).arg().total_cmp(&root(b).arg()));
     }
+    let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
+    reduced_right.column_iter_mut().for_each(|mut shape| _ = shape.normalize_mut());
     let mut right = reduced_right.clone();
     lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
-    for j in 0..size {
-        let turn = phase(right.column(j).as_slice());
-        right.column_mut(j).apply(|value| *value /= turn);
-        reduced_right.column_mut(j).apply(|value| *value /= turn);
+    for (mut shape, mut reduced) in right.column_iter_mut().zip(reduced_right.column_iter_mut()) {
+        let phase = phase(&shape.clone_owned());
+        shape /= phase;
+        reduced /= phase;
     }
-    // An inverse that does not exist has no finite entries, and the cosines below are zero.
-    let mut left = reduced_right
-        .try_inverse()
-        .unwrap_or_else(|| DMatrix::from_element(size, size, Complex::from(f64::INFINITY)))
-        .transpose();
+    let inverse = reduced_right.try_inverse().ok_or(Error::Defective { mode: 0, cosine: 0.0 })?;
+    let mut left = inverse.transpose();
     for (mode, shape) in left.column_iter().enumerate() {
         let cosine = 1.0 / shape.norm();
-        let complete = cosine > SMALLEST_COSINE;
-        if !complete {
+        if cosine.is_nan() || cosine <= SMALLEST_COSINE {
             return Err(Error::Defective { mode, cosine });
         }
     }
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
-    Ok(LeftRightModes { roots: DVector::from_fn(size, |j, _| unsorted[order[j]]), right, left })
-}
-
-/// Indices of the roots by falling magnitude, and by rising argument among those of equal magnitude.
-fn by_magnitude_then_argument(roots: &[Complex<f64>]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..roots.len()).collect();
-    order.sort_by(|&a, &b| roots[b].norm().total_cmp(&roots[a].norm()));
-    let mut start = 0;
-    while start < order.len() {
-        let largest = roots[order[start]].norm();
-        let count = order[start..].iter().take_while(|&&i| roots[i].norm() >= (1.0 - MAGNITUDE_TIE) * largest).count();
-        order[start..start + count].sort_by(|&a, &b| by_argument(roots[a], roots[b]));
-        start += count;
-    }
-    order
-}
-
-fn by_argument(a: Complex<f64>, b: Complex<f64>) -> Ordering {
-    a.arg().total_cmp(&b.arg())
+    Ok(LeftRightModes { roots: DVector::from_fn(size, |j, _| root(order[j])), right, left })
 }
 
 /// Phase, of unit magnitude, of the first of the largest components.
-fn phase(shape: &[Complex<f64>]) -> Complex<f64> {
-    let largest = shape.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    shape
-        .iter()
-        .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest)
-        .map_or(Complex::from(1.0), |value| value / value.norm())
+fn phase(shape: &DVector<Complex<f64>>) -> Complex<f64> {
+    let largest = shape.map(Complex::norm).max();
+    let first = shape.iter().find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
+    first.map_or(Complex::from(1.0), |value| value / value.norm())
 }
