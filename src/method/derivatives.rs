@@ -6,7 +6,7 @@
 //! $\beta$, and one inner product with $V^t K_e V$ the derivative of each parameter.
 
 use crate::method::appendix_c::general::{self, ModalChange};
-use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order, recursive::check_root};
+use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
 use crate::method::error::Error;
 use crate::method::error_sum::{errors, unit_shape_difference};
 use crate::method::model::{ModalModel, Share};
@@ -69,11 +69,9 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
                 general::first_order(&ModalChange::of_vibrations(k, beta, change))?
             }
         };
-        for (mode, &root) in perturbed.roots.iter().enumerate() {
-            check_root(mode, root)?;
-        }
-        let modes =
-            ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &state.modes.shapes * perturbed.shapes };
+        perturbed.check_roots()?;
+        let shapes = &state.modes.shapes * perturbed.shapes;
+        let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes };
         Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
     };
     model.shares.iter().zip(&state.factors).map(of_parameter).collect()
