@@ -91,10 +91,10 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
 /// $\Delta e_e/0.001$ for smaller and smaller changes.
 ///
-/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r\, \beta_{ri}/(\omega_i^2 - \omega_r^2)$. With
+/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$. With
 /// $g_i = \partial e_v/\partial v_i$, and because $\beta$ is symmetric,
 ///
-/// $$ \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{r,i} \Sigma_{ri} (V^t K_e V)_{ri}, \qquad
+/// $$ \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{r,i} \Sigma_{ri} \kappa_{ri}, \qquad \kappa = V^t K_e V, \qquad
 ///    \Sigma_{ii} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
 ///    \Sigma_{ri} = \Sigma_{ir} = \frac{v_r^t g_i - v_i^t g_r}{2(\omega_i^2 - \omega_r^2)} . $$
 ///
@@ -113,7 +113,7 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
     model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
 }
 
-/// $v_r^t\, \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test
+/// $v_r^t \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test
 /// modes.
 fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
     let shapes = &state.modes.shapes;
@@ -167,7 +167,7 @@ fn sensitivity(
     sensitivity
 }
 
-/// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p\, \Sigma\, p^t$.
+/// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p \Sigma p^t$.
 fn in_exact_modes(sensitivity: DMatrix<f64>, state: &ModalState) -> DMatrix<f64> {
     if state.is_exact() {
         return sensitivity;
