@@ -1,7 +1,7 @@
 //! Closed forms of two degrees of freedom: the exact answers that every approximation is measured against.
 
 use crate::method::appendix_c::Perturbed;
-use crate::method::appendix_c::recursive::{check_input, check_root};
+use crate::method::appendix_c::recursive::check_input;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky};
 use nalgebra::{DMatrix, DVector};
@@ -70,10 +70,9 @@ pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> R
         (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau)
     };
     let roots = DVector::from_vec(vec![1.0 / (a - tangent * b), 1.0 / (d + tangent * b)]);
-    for (mode, &root) in roots.iter().enumerate() {
-        check_root(mode, root)?;
-    }
-    Ok(Perturbed { roots, shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]) })
+    let perturbed = Perturbed { roots, shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]) };
+    perturbed.check_roots()?;
+    Ok(perturbed)
 }
 
 /// The three entries of a symmetric 2 × 2 matrix: first diagonal, off-diagonal, second diagonal.

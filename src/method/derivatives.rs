@@ -6,7 +6,7 @@
 //! $\beta$, and one inner product with $V^t K_e V$ the derivative of each parameter.
 
 use crate::method::appendix_c::general::{self, ModalChange};
-use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order, recursive::check_root};
+use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
 use crate::method::error::Error;
 use crate::method::error_sum::{errors, unit_shape_difference};
 use crate::method::model::{ModalModel, Share};
@@ -69,11 +69,9 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
                 general::first_order(&ModalChange::of_vibrations(k, beta, change))?
             }
         };
-        for (mode, &root) in perturbed.roots.iter().enumerate() {
-            check_root(mode, root)?;
-        }
-        let modes =
-            ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &state.modes.shapes * perturbed.shapes };
+        perturbed.check_roots()?;
+        let shapes = &state.modes.shapes * perturbed.shapes;
+        let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes };
         Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
     };
     model.shares.iter().zip(&state.factors).map(of_parameter).collect()
@@ -93,21 +91,23 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
 /// $\Delta e_e/0.001$ for smaller and smaller changes.
 ///
-/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r  \beta_{ri}/(\omega_i^2 - \omega_r^2)$. With
+/// By first order $\mathrm d\omega_i^2 = \beta_{ii}$ and $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$. With
 /// $g_i = \partial e_v/\partial v_i$, and because $\beta$ is symmetric,
 ///
-/// $$ \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{r,i} \Sigma_{ri} (V^t K_e V)_{ri}, \qquad
-///    \Sigma_{ii} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
-///    \Sigma_{ri} = \Sigma_{ir} = \frac{v_r^t g_i - v_i^t g_r}{2(\omega_i^2 - \omega_r^2)} . $$
+/// $$ \frac{\mathrm d e_S}{\mathrm d c_e} = \sum_{r,i} \Sigma_{ri} \kappa_{ri}, \qquad \kappa = V^t K_e V, \qquad
+/// \Sigma_{ii} = \frac{\partial e_f}{\partial \omega_i^2}, \qquad
+/// \Sigma_{ri} = \Sigma_{ir} = \frac{v_r^t g_i - v_i^t g_r}{2(\omega_i^2 - \omega_r^2)} . $$
 ///
 /// A change of mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. Where an error is zero its root has a kink and no derivative;
 /// that error then counts as constant. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
     let pull = shape_pull(model, state);
-    let of_stiffness = in_exact_modes(sensitivity(model, state, &pull, |_| 1.0), state);
     let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
-    let of_mass =
-        has_mass.then(|| in_exact_modes(sensitivity(model, state, &pull, |omega_squared| -omega_squared), state));
+    let of_mass = has_mass.then(|| {
+        let sensitivity = sensitivity(model, state, pull.clone(), |omega_squared| -omega_squared);
+        in_exact_modes(sensitivity, state)
+    });
+    let of_stiffness = in_exact_modes(sensitivity(model, state, pull, |_| 1.0), state);
     let slope = |share: &Share| match (share, &of_mass) {
         (Share::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
         (share, _) => entries(&of_stiffness).dot(&entries(share.matrix())),
@@ -115,61 +115,68 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
     model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
 }
 
-/// $v_r^t  \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test
+/// $v_r^t \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test
 /// modes.
 fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
     let shapes = &state.modes.shapes;
     let (dof_count, count) = shapes.shape();
     let mut pull = DMatrix::zeros(count, count);
-    let mut to_shape = DVector::zeros(dof_count);
     if state.errors.shape == 0.0 {
         return pull;
     }
+    let mut to_shape = DVector::zeros(dof_count);
     for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
         let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
         unit_shape_difference(shape, sign, model.test.shapes.column(j), &mut to_shape);
-        let largest = shape.icamax();
+        let largest = first_largest(shape.as_slice());
         to_shape[largest] -= to_shape.dot(&shape) / shape[largest];
         to_shape *= sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
-        for (pull, other) in pull.column_mut(i).iter_mut().zip(shapes.column_iter()) {
-            *pull = other.iter().zip(to_shape.iter()).map(|(a, b)| a * b).sum();
+        pull.column_mut(i).gemv_tr(1.0, shapes, &to_shape, 0.0);
+    }
+    pull
+}
+
+/// The place of the first of the components of largest magnitude.
+fn first_largest(shape: &[f64]) -> usize {
+    let mut largest = 0;
+    for place in 1..shape.len() {
+        if shape[place].abs() > shape[largest].abs() {
+            largest = place;
+        }
+    }
+    largest
+}
+
+/// $\Sigma$ (n × n) in place of the pull, with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.
+fn sensitivity(
+    model: &ModalModel,
+    state: &ModalState,
+    mut pull: DMatrix<f64>,
+    per_change: impl Fn(f64) -> f64,
+) -> DMatrix<f64> {
+    let k = &state.modes.omega_squared;
+    for i in 0..k.len() {
+        pull[(i, i)] = 0.0;
+        for r in i + 1..k.len() {
+            let apart = k[i] - k[r];
+            let both = per_change(k[i]) * pull[(r, i)] - per_change(k[r]) * pull[(i, r)];
+            let are_apart = apart.abs() > SMALLEST_SEPARATION * k[i].max(k[r]);
+            pull[(r, i)] = if are_apart { 0.5 * both / apart } else { 0.0 };
+            pull[(i, r)] = pull[(r, i)];
+        }
+    }
+    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
+        if state.errors.frequency > 0.0 {
+            let ratio = (k[i] / model.test.omega_squared[j]).sqrt();
+            pull[(i, i)] = per_change(k[i]) * (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
         }
     }
     pull
 }
 
-/// $\Sigma$ (n × n), with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.
-fn sensitivity(
-    model: &ModalModel,
-    state: &ModalState,
-    pull: &DMatrix<f64>,
-    per_change: impl Fn(f64) -> f64,
-) -> DMatrix<f64> {
-    let k = &state.modes.omega_squared;
-    let mut sensitivity = DMatrix::zeros(k.len(), k.len());
-    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
-        if state.errors.frequency > 0.0 {
-            let ratio = (k[i] / model.test.omega_squared[j]).sqrt();
-            let of_root = (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
-            sensitivity[(i, i)] = per_change(k[i]) * of_root;
-        }
-    }
-    for i in 0..k.len() {
-        for r in i + 1..k.len() {
-            let apart = k[i] - k[r];
-            if apart.abs() > SMALLEST_SEPARATION * k[i].max(k[r]) {
-                let both = per_change(k[i]) * pull[(r, i)] - per_change(k[r]) * pull[(i, r)];
-                sensitivity[(r, i)] = 0.5 * both / apart;
-                sensitivity[(i, r)] = sensitivity[(r, i)];
-            }
-        }
-    }
-    sensitivity
-}
-
-/// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p  \Sigma  p^t$.
+/// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p \Sigma p^t$.
 fn in_exact_modes(sensitivity: DMatrix<f64>, state: &ModalState) -> DMatrix<f64> {
     if state.is_exact() {
         return sensitivity;

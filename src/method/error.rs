@@ -264,6 +264,11 @@ impl Error {
         Self::InElement { element, source: Box::new(self) }
     }
 
+    /// Whether modes come so close under a change that the perturbation cannot follow them.
+    pub(crate) fn is_of_close_modes(&self) -> bool {
+        matches!(self, Self::CoalescingModes { .. } | Self::UnsettledRoots { .. })
+    }
+
     /// Says of a bad pivot which of the vectors behind the matrix depends on those before it.
     pub(crate) fn or_dependent(self, what: &'static str) -> Self {
         match self {
@@ -271,4 +276,10 @@ impl Error {
             other => other,
         }
     }
+}
+
+/// Accepts a setting that is a positive finite number.
+pub(crate) fn positive_setting(name: &'static str, found: f64) -> Result<(), Error> {
+    let expected = "a positive finite number";
+    if found > 0.0 && found.is_finite() { Ok(()) } else { Err(Error::Setting { name, expected, found }) }
 }

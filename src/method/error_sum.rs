@@ -62,8 +62,10 @@ pub(crate) fn unit_shape_difference(
     test: DVectorView<f64>,
     difference: &mut DVector<f64>,
 ) {
-    let (to_unit, to_unit_test) = (sign / analysis.amax(), 1.0 / test.amax());
-    for ((difference, v), w) in difference.iter_mut().zip(analysis.iter()).zip(test.iter()) {
+    let (v, w) = (analysis.as_slice(), test.as_slice());
+    let largest = |shape: &[f64]| shape.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
+    let (to_unit, to_unit_test) = (sign / largest(v), 1.0 / largest(w));
+    for ((difference, v), w) in difference.as_mut_slice().iter_mut().zip(v).zip(w) {
         *difference = v * to_unit - w * to_unit_test;
     }
 }

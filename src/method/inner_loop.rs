@@ -1,7 +1,7 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
 
 use crate::method::derivatives::{DerivativeRule, error_changes};
-use crate::method::error::Error;
+use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::Errors;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Range};
@@ -115,7 +115,10 @@ pub fn run(
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
-    check_settings(settings)?;
+    positive_setting("first_relaxation", settings.first_relaxation)?;
+    positive_setting("relaxation", settings.relaxation)?;
+    positive_setting("tolerance", settings.tolerance)?;
+    Range::positive("factor limits", settings.factor_range.lower, settings.factor_range.upper)?;
     check_length("parameter factors", base.len(), model.shares.len())?;
     check_length("parameter limits", total_ranges.len(), model.shares.len())?;
     for range in total_ranges.iter().flatten() {
@@ -136,12 +139,12 @@ pub fn run(
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
-        let tried = lowering_step(model, &state, &unlimited, base, total_ranges, settings);
-        let (halvings, limits, next) = match tried? {
-            Trial::Lower(halvings, limits, next) => (halvings, limits, next),
-            // The loop could do nothing at all; the error names the modes that prevent it.
-            Trial::Refused(error) if iterations.is_empty() => return Err(error),
-            Trial::Refused(_) | Trial::TooFar => break Stop::LocalMinimum,
+        let (halvings, limits, next) = match lowering_step(model, &state, &unlimited, base, total_ranges, settings) {
+            Ok(Some(lower)) => lower,
+            Ok(None) => break Stop::LocalMinimum,
+            // An error in the first step names the modes that prevent any; later ones end the loop where it is.
+            Err(error) if error.is_of_close_modes() && !iterations.is_empty() => break Stop::LocalMinimum,
+            Err(error) => return Err(error),
         };
         state = next;
         iterations.push(Iteration {
@@ -160,17 +163,8 @@ pub fn run(
     Ok(InnerRun { start, iterations, last: state, first_unlimited_factors, stop })
 }
 
-/// What became of a step and its halvings.
-enum Trial {
-    /// The longest that lowers the error sum: how often it was halved, what held it, where it leads.
-    Lower(usize, Vec<Limit>, ModalState),
-    /// None lowers it.
-    TooFar,
-    /// Modes coalesce, or their roots do not settle, in every one of them; the error of the shortest.
-    Refused(Error),
-}
-
-/// The longest of the step and its halvings that lowers the error sum.
+/// The longest of the step and its halvings that lowers the error sum, if one does: how often it was halved, what limited
+/// it, where it leads. An error when modes are too close in every one of them: that of the shortest.
 fn lowering_step(
     model: &ModalModel,
     state: &ModalState,
@@ -178,7 +172,7 @@ fn lowering_step(
     base: &[f64],
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
-) -> Result<Trial, Error> {
+) -> Result<Option<(usize, Vec<Limit>, ModalState)>, Error> {
     let (mut is_too_far, mut refusal) = (false, None);
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
@@ -189,31 +183,12 @@ fn lowering_step(
             })
             .unzip();
         match ModalState::at(model, factors, settings.update) {
-            Ok(next) if next.errors.sum() < state.errors.sum() => {
-                return Ok(Trial::Lower(halvings, limits, next));
-            }
+            Ok(next) if next.errors.sum() < state.errors.sum() => return Ok(Some((halvings, limits, next))),
             // Uphill, or too far for the perturbation: a shorter step may do.
             Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
-            Err(error @ (Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })) => {
-                refusal = Some(error);
-            }
+            Err(error) if error.is_of_close_modes() => refusal = Some(error),
             Err(other) => return Err(other),
         }
     }
-    Ok(match refusal {
-        Some(error) if !is_too_far => Trial::Refused(error),
-        _ => Trial::TooFar,
-    })
-}
-
-fn check_settings(settings: &InnerSettings) -> Result<(), Error> {
-    let InnerSettings { first_relaxation, relaxation, tolerance, factor_range, .. } = settings;
-    for (name, value) in [("first_relaxation", first_relaxation), ("relaxation", relaxation), ("tolerance", tolerance)]
-    {
-        if !(*value > 0.0 && value.is_finite()) {
-            return Err(Error::Setting { name, expected: "a positive finite number", found: *value });
-        }
-    }
-    Range::positive("factor limits", factor_range.lower, factor_range.upper)?;
-    Ok(())
+    refusal.filter(|_| !is_too_far).map_or(Ok(None), Err)
 }

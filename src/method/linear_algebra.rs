@@ -42,10 +42,8 @@ pub fn check_shape<T>(
 /// # Errors
 /// [`Error::WrongShape`] with both lengths as rows of one column.
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 })
+    let refused = Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 };
+    if found == expected { Ok(()) } else { Err(refused) }
 }
 
 /// Refuses matrices that are not square, finite and symmetric to working precision.
@@ -97,6 +95,17 @@ pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
 /// Solves $L^t X = R$ in place for a lower triangular $L$ with nonzero diagonal.
 pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
     lower.tr_solve_lower_triangular_unchecked_mut(right);
+}
+
+/// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal: what the eigenproblem $A v = \mu L L^t v$ becomes
+/// for $y = L^t v$.
+pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
+    let mut reduced = matrix.clone();
+    for _ in 0..2 {
+        lower.solve_lower_triangular_unchecked_mut(&mut reduced);
+        reduced.transpose_mut();
+    }
+    reduced
 }
 
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.

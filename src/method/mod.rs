@@ -15,7 +15,6 @@ pub mod assembly;
 pub mod appendix_a;
 
 pub mod modes;
-pub mod whole_modes;
 
 pub mod appendix_b;
 

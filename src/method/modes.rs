@@ -2,7 +2,7 @@
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
+    check_finite, check_shape, check_symmetric, cholesky, reduced, solve_lower_transposed, symmetric_eigen,
     symmetric_part,
 };
 use crate::method::structure::positive;
@@ -122,27 +122,23 @@ impl Modes {
     /// # Errors
     /// [`Error::Empty`] for none; [`Error::TooMany`] for more than there are.
     pub fn lowest(&self, count: usize) -> Result<Self, Error> {
-        check_count(count, self.len())?;
+        check_count("modes", count, self.len())?;
         Ok(Self(self.select(&(0..count).collect::<Vec<_>>())))
     }
 }
 
-fn check_count(count: usize, available: usize) -> Result<(), Error> {
-    if count == 0 {
-        return Err(Error::Empty { what: "modes" });
+/// Refuses to take none of something, or more of it than there is.
+pub(crate) fn check_count(what: &'static str, requested: usize, available: usize) -> Result<(), Error> {
+    match requested {
+        0 => Err(Error::Empty { what }),
+        _ if requested > available => Err(Error::TooMany { what, available, requested }),
+        _ => Ok(()),
     }
-    if count > available {
-        return Err(Error::TooMany { what: "modes", available, requested: count });
-    }
-    Ok(())
 }
 
-/// The lowest `count` modes of $K v = \omega^2 M v$.
+/// The lowest `count` modes of $K v = \omega^2 M v$ for `stiffness` in lbf/in and `mass` in lbf·s²/in, both d × d.
 ///
-/// $$ V^t M V = I, \qquad V^t K V = \mathrm{diag}(\omega^2) $$
-///
-/// `stiffness` in lbf/in and `mass` in lbf·s²/in, both d × d. With $M = L L^t$ the problem becomes the symmetric
-/// one of $L^{-1} K L^{-t}$, solved through faer.
+/// With $M = L L^t$ the problem becomes the symmetric one of $L^{-1} K L^{-t}$, solved through faer.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
@@ -151,13 +147,10 @@ fn check_count(count: usize, available: usize) -> Result<(), Error> {
 pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
-    check_count(count, stiffness.nrows())?;
+    check_count("modes", count, stiffness.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
-    let mut reduced = stiffness.clone();
-    solve_lower(&lower, &mut reduced);
-    reduced.transpose_mut();
-    solve_lower(&lower, &mut reduced);
-    let (omega_squared, mut shapes) = symmetric_eigen("dynamic stiffness", &symmetric_part(&reduced))?;
+    let reduced = symmetric_part(&reduced(&lower, stiffness));
+    let (omega_squared, mut shapes) = symmetric_eigen("dynamic stiffness", &reduced)?;
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
         return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
     }

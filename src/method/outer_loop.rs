@@ -1,6 +1,6 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::model::{Check, ModalModel, Range};
@@ -67,13 +67,10 @@ pub struct Correlation {
 impl Correlation {
     /// The factors of the pass with the lowest exact error sum; all one when no pass improved on the start.
     pub fn best_factors(&self) -> Vec<f64> {
-        let mut best = (self.initial.errors.sum(), vec![1.0; self.parameter_count]);
-        for pass in &self.passes {
-            if pass.check.errors.sum() < best.0 {
-                best = (pass.check.errors.sum(), pass.factors.clone());
-            }
-        }
-        best.1
+        let error_sum = |pass: &Pass| pass.check.errors.sum();
+        let improved = self.passes.iter().filter(|pass| error_sum(pass) < self.initial.errors.sum());
+        let best = improved.min_by(|a, b| error_sum(a).total_cmp(&error_sum(b)));
+        best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
     }
 }
 
@@ -92,7 +89,10 @@ pub fn correlate<E: From<Error>>(
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<Correlation, E> {
-    check_settings(settings)?;
+    positive_setting("later_inner_tolerance", settings.later_inner_tolerance)?;
+    positive_setting("error_sum_tolerance", settings.error_sum_tolerance)?;
+    positive_setting("frequency_tolerance", settings.frequency_tolerance)?;
+    positive_setting("shape_tolerance", settings.shape_tolerance)?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
     let initial = model.exact.clone();
@@ -103,9 +103,7 @@ pub fn correlate<E: From<Error>>(
         let inner = match run(&model, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
-            Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. }) if !passes.is_empty() => {
-                break;
-            }
+            Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
             Err(error) => return Err(error.into()),
         };
         for (factor, step) in factors.iter_mut().zip(&inner.last.factors) {
@@ -129,18 +127,4 @@ fn meets(errors: &Errors, settings: &Settings) -> bool {
     errors.sum() <= settings.error_sum_tolerance
         && errors.frequency <= settings.frequency_tolerance
         && errors.shape <= settings.shape_tolerance
-}
-
-fn check_settings(settings: &Settings) -> Result<(), Error> {
-    for (name, value) in [
-        ("later_inner_tolerance", settings.later_inner_tolerance),
-        ("error_sum_tolerance", settings.error_sum_tolerance),
-        ("frequency_tolerance", settings.frequency_tolerance),
-        ("shape_tolerance", settings.shape_tolerance),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::Setting { name, expected: "a positive finite number", found: value });
-        }
-    }
-    Ok(())
 }

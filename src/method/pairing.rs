@@ -1,8 +1,9 @@
 //! Pairing (4), which the paper calls mode sorting: which analysis mode answers which test mode.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_shape;
-use crate::method::modes::ModeSet;
+use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::method::modes::{ModeSet, check_count};
+use crate::method::structure::positive;
 use nalgebra::DMatrix;
 
 /// The analysis mode paired with every test mode.
@@ -41,7 +42,7 @@ pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<D
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
         for (mode, shape) in shapes.column_iter().enumerate() {
             let owner = || format!("{of} {mode} (from zero)");
-            crate::method::structure::positive("squared length", owner, shape.norm_squared())?;
+            positive("squared length", owner, shape.norm_squared())?;
         }
     }
     let cross = shapes.tr_mul(others);
@@ -61,27 +62,16 @@ pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<D
 /// [`Error::NotFinite`].
 pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let (analysis_count, test_count) = cross.shape();
-    if test_count == 0 {
-        return Err(Error::Empty { what: "test modes" });
-    }
-    if test_count > analysis_count {
-        return Err(Error::TooMany { what: "test modes", available: analysis_count, requested: test_count });
-    }
-    crate::method::linear_algebra::check_finite("cross-orthogonality", cross)?;
+    check_count("test modes", test_count, analysis_count)?;
+    check_finite("cross-orthogonality", cross)?;
+    let from_one = |(i, j): (usize, usize)| (1.0 - cross[(i, j)].abs()).abs();
+    let mut pairs: Vec<_> = (0..test_count).flat_map(|j| (0..analysis_count).map(move |i| (i, j))).collect();
+    // The sort is stable, so ties stay in the order of test modes, then analysis modes.
+    pairs.sort_by(|&a, &b| from_one(a).total_cmp(&from_one(b)));
     let mut partner: Vec<Option<usize>> = vec![None; test_count];
-    loop {
-        let mut closest: Option<(usize, usize, f64)> = None;
-        for j in (0..test_count).filter(|&j| partner[j].is_none()) {
-            for i in (0..analysis_count).filter(|&i| !partner.contains(&Some(i))) {
-                let from_one = (1.0 - cross[(i, j)].abs()).abs();
-                if closest.is_none_or(|(_, _, least)| from_one < least) {
-                    closest = Some((i, j, from_one));
-                }
-            }
-        }
-        match closest {
-            Some((i, j, _)) => partner[j] = Some(i),
-            None => break,
+    for (i, j) in pairs {
+        if partner[j].is_none() && !partner.contains(&Some(i)) {
+            partner[j] = Some(i);
         }
     }
     let analysis_mode: Vec<usize> = partner.into_iter().flatten().collect();

@@ -91,9 +91,7 @@ impl ModalState {
             }
             UpdateRule::Recursive1 => recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed,
         };
-        if let Some((mode, &value)) = perturbed.roots.iter().enumerate().find(|(_, root)| **root <= 0.0) {
-            return Err(Error::LostRoot { mode, value });
-        }
+        perturbed.check_roots()?;
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = pair_modes(&shapes.tr_mul(&model.cross))?;

@@ -3,6 +3,7 @@
 use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::ModalState;
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// How $\Delta k_e$ of (12) and (13) is measured for a change of 0.1 %.
@@ -21,17 +22,14 @@ pub enum StepRule {
 
 /// $\Delta k_e$ of every parameter for a change of 0.1 % at the present state (12), dimensionless.
 pub fn stiffness_changes(model: &ModalModel, state: &ModalState, error_changes: &[f64], rule: StepRule) -> Vec<f64> {
-    let shares = model.test_shares.iter().zip(&state.factors);
-    shares
-        .map(|(share, factor)| match rule {
-            StepRule::RootSumOfSquares => DERIVATIVE_STEP * factor * share.diagonal().norm(),
-            StepRule::SumOverModes => DERIVATIVE_STEP * factor * share.trace(),
-            StepRule::SteepestDescent => {
-                let slopes = error_changes.iter().map(|change| change / DERIVATIVE_STEP);
-                DERIVATIVE_STEP * slopes.map(|slope| slope * slope).sum::<f64>()
-            }
-        })
-        .collect()
+    let slopes = error_changes.iter().map(|change| change / DERIVATIVE_STEP);
+    let squared_slopes: f64 = slopes.map(|slope| slope * slope).sum();
+    let of_parameter = |(share, factor): (&DMatrix<f64>, &f64)| match rule {
+        StepRule::RootSumOfSquares => DERIVATIVE_STEP * factor * share.diagonal().norm(),
+        StepRule::SumOverModes => DERIVATIVE_STEP * factor * share.trace(),
+        StepRule::SteepestDescent => DERIVATIVE_STEP * squared_slopes,
+    };
+    model.test_shares.iter().zip(&state.factors).map(of_parameter).collect()
 }
 
 /// Unlimited stiffness change factors by (13).
@@ -46,14 +44,11 @@ pub fn unlimited_factors(
     error_sum: f64,
     relaxation: f64,
 ) -> Vec<f64> {
-    let parameters = error_changes.iter().zip(stiffness_changes);
-    parameters
-        .map(
-            |(&error, &stiffness)| {
-                if stiffness > 0.0 { 1.0 - relaxation * error_sum * error / stiffness } else { 1.0 }
-            },
-        )
-        .collect()
+    let factor = |(&error, &stiffness): (&f64, &f64)| match stiffness > 0.0 {
+        true => 1.0 - relaxation * error_sum * error / stiffness,
+        false => 1.0,
+    };
+    error_changes.iter().zip(stiffness_changes).map(factor).collect()
 }
 
 /// What limited a parameter's factor in an iteration.

@@ -17,10 +17,10 @@ use crate::method::model::Check;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass};
 use crate::method::structure::DIRECTIONS;
-use crate::method::whole_modes::WholeModes;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::matrix_comparison::MatrixComparison;
+use crate::studies::whole_modes::WholeModes;
 use serde_json::{Value, json};
 
 /// A document with its heading as pretty-printed JSON and a final newline.

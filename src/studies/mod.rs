@@ -3,3 +3,4 @@
 pub mod delta_wing;
 pub mod matrix_comparison;
 pub mod matrix_correction;
+pub mod whole_modes;

@@ -44,10 +44,10 @@ fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
         vec![
             Parameter::group("covers", &COVERS),
             Parameter::group("webs", &WEBS),
-            Parameter::of("mass of covers", Scaled::ElementMass(COVERS.to_vec())),
-            Parameter::of("mass of rods", Scaled::ElementMass(rods)),
-            Parameter::of("mass at the tip", Scaled::PointMass((0..12).collect())),
-            Parameter::of("mass inboard", Scaled::PointMass((24..36).collect())),
+            Parameter::of("mass of covers", Scaled::ElementMass, &COVERS),
+            Parameter::of("mass of rods", Scaled::ElementMass, &rods),
+            Parameter::of("mass at the tip", Scaled::PointMass, &(0..12).collect::<Vec<_>>()),
+            Parameter::of("mass inboard", Scaled::PointMass, &(24..36).collect::<Vec<_>>()),
         ],
     )
     .expect("a model")

@@ -4,7 +4,7 @@ use crate::common::tolerances::EIGEN_ROUND_OFF;
 use corfem::files::deck;
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
-use corfem::method::whole_modes::WholeModes;
+use corfem::studies::whole_modes::WholeModes;
 use std::f64::consts::PI;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {

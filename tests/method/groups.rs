@@ -39,7 +39,7 @@ fn substructures_are_what_the_geometry_says() {
     let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["covers", "spars", "ribs"]);
     for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
-        assert_eq!(parameter.scaled, Scaled::Stiffness(expected));
+        assert_eq!((parameter.scaled, &parameter.members), (Scaled::Stiffness, &expected));
     }
 }
 

@@ -39,11 +39,11 @@ pub fn boxed(parameters: Vec<Parameter>, density: f64, point_factors: [f64; 9]) 
 }
 
 pub fn point_masses() -> Vec<Parameter> {
-    (0..9).map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass(vec![dof]))).collect()
+    (0..9).map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass, &[dof])).collect()
 }
 
 fn element_masses() -> Vec<Parameter> {
-    (1..=39).map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass(vec![label]))).collect()
+    (1..=39).map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass, &[label])).collect()
 }
 
 pub fn modes(model: &FiniteElementModel) -> ModeSet {

@@ -73,10 +73,8 @@ fn a_model_keeps_what_it_was_made_of() {
     let parameters = vec![Parameter::element(2, None), group("ends", &[1, 3], None)];
     let model = chain(parameters.clone()).unwrap();
     assert_eq!(model.parameters(), parameters);
-    assert_eq!(
-        (model.parameters()[0].name.as_str(), &model.parameters()[0].scaled),
-        ("2", &Scaled::Stiffness(vec![2]))
-    );
+    let Parameter { name, scaled, members, .. } = &model.parameters()[0];
+    assert_eq!((name.as_str(), *scaled, members.as_slice()), ("2", Scaled::Stiffness, &[2][..]));
     let range = Range { lower: 1.0, upper: 5.0 };
     assert_eq!(Parameter::element(2, Some(range)).size_range, Some(range));
     assert_eq!(model.structure().elements().len(), 3);

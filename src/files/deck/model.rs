@@ -6,7 +6,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
-use crate::method::whole_modes::{MassDof, WholeModes, lumped_mass, whole_modes};
+use crate::studies::whole_modes::{MassDof, WholeModes, lumped_mass, whole_modes};
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 

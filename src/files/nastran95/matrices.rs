@@ -7,7 +7,7 @@ use crate::method::assembly::dense_stiffness;
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{Element, Grid, Structure};
-use crate::method::whole_modes::lumped_mass;
+use crate::studies::whole_modes::lumped_mass;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 

@@ -3,7 +3,7 @@
 use super::checked_generalized_masses;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
+    check_finite, check_shape, check_symmetric, cholesky, reduced, solve_lower_transposed, symmetric_eigen,
     symmetric_part,
 };
 use crate::method::modes::ModeSet;
@@ -93,11 +93,8 @@ fn suspension_modes(
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
     let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
         .map_err(|error| error.or_dependent("rigid-body vector"))?;
-    let mut reduced = rigid_body.tr_mul(&(stiffness * rigid_body));
-    solve_lower(&lower, &mut reduced);
-    reduced.transpose_mut();
-    solve_lower(&lower, &mut reduced);
-    let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &symmetric_part(&reduced))?;
+    let reduced = symmetric_part(&reduced(&lower, &rigid_body.tr_mul(&(stiffness * rigid_body))));
+    let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &reduced)?;
     solve_lower_transposed(&lower, &mut modes);
     Ok((squared, modes))
 }

@@ -3,7 +3,7 @@
 use super::balance::{Balanced, balance};
 use super::checked_generalized_masses;
 use super::orthogonalize::{Movement, Orthogonalized, orthogonalize};
-use crate::method::error::Error;
+use crate::method::error::{Error, positive_setting};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -28,13 +28,12 @@ impl Default for MovementLimits {
 
 impl MovementLimits {
     fn check(&self) -> Result<(), Error> {
-        let in_range = |name, found, upper, expected| match found > 0.0 && found < upper {
-            true => Ok(()),
-            false => Err(Error::Setting { name, expected, found }),
-        };
-        in_range("balance", self.balance, 1.0, "a number between 0 and 1")?;
-        in_range("frequency", self.frequency, f64::INFINITY, "a positive finite number")?;
-        in_range("shape", self.shape, f64::INFINITY, "a positive finite number")
+        let found = self.balance;
+        if !(found > 0.0 && found < 1.0) {
+            return Err(Error::Setting { name: "balance", expected: "a number between 0 and 1", found });
+        }
+        positive_setting("frequency", self.frequency)?;
+        positive_setting("shape", self.shape)
     }
 
     /// The larger movement in units of its limit.

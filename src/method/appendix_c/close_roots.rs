@@ -11,7 +11,7 @@
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
 use super::general::{ModalChange, Pencil, QUIET_ORDERS};
-use super::recursive::{check_order, check_root};
+use super::recursive::check_order;
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_part};
@@ -84,9 +84,7 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     for block in blocks.iter().filter(|block| block.len() == 1) {
         solved.roots[block[0]] = settled.perturbed.roots[block[0]];
     }
-    for (mode, &root) in solved.roots.iter().enumerate() {
-        check_root(mode, root)?;
-    }
+    solved.check_roots()?;
     solved.shapes = alone.shapes * solved.shapes;
     check_finite("perturbed generalized shapes", &solved.shapes)?;
     apply_sign_rule(&mut solved.shapes);

@@ -46,6 +46,14 @@ pub struct Perturbed<T = f64> {
     pub shapes: DMatrix<T>,
 }
 
+impl Perturbed {
+    /// Refuses roots that are not positive and finite.
+    pub(crate) fn check_roots(&self) -> Result<(), Error> {
+        let lost = self.roots.iter().position(|&root| !(root > 0.0 && root.is_finite()));
+        lost.map_or(Ok(()), |mode| Err(Error::LostRoot { mode, value: self.roots[mode] }))
+    }
+}
+
 /// What a recursion that goes on until its roots settle has reached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settled<T = f64> {

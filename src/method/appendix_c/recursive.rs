@@ -3,7 +3,7 @@
 //!
 //! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$; both are given in rad²/s².
 
-use super::{Perturbed, SMALLEST_SEPARATION, Settled};
+use super::{Perturbed, SMALLEST_SEPARATION, Settled, general};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
@@ -22,18 +22,11 @@ use nalgebra::{DMatrix, DVector};
 pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
-    let k = generalized_stiffness;
-    let (mut roots, mut shapes) = (DVector::zeros(size), DMatrix::identity(size, size));
-    for i in 0..size {
-        roots[i] = 1.0 / (k[i] + beta[(i, i)]);
-        check_root(i, roots[i])?;
-    }
-    for j in 0..size {
-        for i in (0..size).filter(|&i| i != j) {
-            shapes[(i, j)] = quotient(-beta[(i, j)], k, beta, roots[j], (i, j))?;
-        }
-    }
-    Ok(Perturbed { roots, shapes })
+    let roots = (generalized_stiffness + beta.diagonal()).map(f64::recip);
+    let mut now = Perturbed { roots, shapes: DMatrix::identity(size, size) };
+    now.check_roots()?;
+    update_shapes(generalized_stiffness, beta, beta, &mut now)?;
+    Ok(now)
 }
 
 /// Recursive 1 (7, 8, C.22) to a given order, from first order on. Superscripts in parentheses are orders, which the
@@ -99,19 +92,35 @@ fn next_order(
     // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
     // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
     let sums = coupling * &now.shapes;
+    update_shapes(k, beta, &sums, now)?;
     let mut largest_change = 0.0_f64;
-    for j in 0..k.len() {
-        let gamma = now.roots[j];
-        for i in (0..k.len()).filter(|&i| i != j) {
-            now.shapes[(i, j)] = quotient(-sums[(i, j)], k, beta, gamma, (i, j))?;
-        }
+    for (j, gamma) in now.roots.iter_mut().enumerate() {
         let lambda = 1.0 / k[j];
-        let root = lambda - (beta[(j, j)] * lambda + gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
-        check_root(j, root)?;
-        largest_change = largest_change.max((root / gamma - 1.0).abs());
-        now.roots[j] = root;
+        let root = lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+        largest_change = largest_change.max((root / *gamma - 1.0).abs());
+        *gamma = root;
     }
+    now.check_roots()?;
     Ok(largest_change)
+}
+
+/// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
+/// where nothing couples the modes, refused where something does and the denominator vanishes.
+fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now: &mut Perturbed) -> Result<(), Error> {
+    for j in 0..k.len() {
+        for i in (0..k.len()).filter(|&i| i != j) {
+            let own = k[i] + beta[(i, i)];
+            let difference = own - 1.0 / now.roots[j];
+            now.shapes[(i, j)] = if sums[(i, j)] == 0.0 {
+                0.0
+            } else if difference.abs() > SMALLEST_SEPARATION * own {
+                -sums[(i, j)] / difference
+            } else {
+                return Err(Error::CoalescingModes { first: i, second: j, separation: (difference / own).abs() });
+            };
+        }
+    }
+    Ok(())
 }
 
 /// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.
@@ -122,19 +131,20 @@ fn next_order(
 ///    \qquad i \ne j $$
 ///
 /// # Errors
-/// As [`first_order`], [`Error::Setting`] for order zero, and [`Error::CoalescingModes`] when the linear system of
-/// a mode is singular.
+/// As [`first_order`]; [`Error::Setting`] for order zero; [`Error::CoalescingModes`] when the linear system of a mode is
+/// singular; [`Error::NotFinite`] for a root without a finite value.
 pub fn recursive_2(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
     order: usize,
 ) -> Result<Perturbed, Error> {
     check_order(order)?;
-    let k = generalized_stiffness;
-    let mut now = first_order(k, beta)?;
+    let mut now = first_order(generalized_stiffness, beta)?;
+    let pencil = pencil(generalized_stiffness, beta);
     for _ in 2..=order {
-        now.roots = explicit_roots(k, beta, &now.shapes)?;
-        now.shapes = shapes_by_linear_solution(k, beta, &now.roots)?;
+        now.roots = general::explicit_roots(&pencil, &now.shapes)?;
+        now.check_roots()?;
+        now.shapes = general::shapes_by_linear_solution(&pencil, &now.roots)?;
     }
     Ok(now)
 }
@@ -142,87 +152,24 @@ pub fn recursive_2(
 /// The original formulae of 1947: first-order roots and shapes, then the root once more from those shapes (C.24).
 ///
 /// # Errors
-/// As [`first_order`].
+/// As [`first_order`]; [`Error::NotFinite`] for a root without a finite value.
 ///
 /// Source: Van de Vooren, Report V.1366, National Aeronautical Research Institute, Amsterdam (1947).
 pub fn original(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    let Perturbed { shapes, .. } = first_order(generalized_stiffness, beta)?;
-    Ok(Perturbed { roots: explicit_roots(generalized_stiffness, beta, &shapes)?, shapes })
+    let mut now = first_order(generalized_stiffness, beta)?;
+    now.roots = general::explicit_roots(&pencil(generalized_stiffness, beta), &now.shapes)?;
+    now.check_roots()?;
+    Ok(now)
 }
 
-/// Roots from given shapes, $\gamma_i = \lambda_i - \lambda_i S_i/(k_{ii}+S_i)$ (C.24).
-fn explicit_roots(k: &DVector<f64>, beta: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
-    let mut roots = DVector::zeros(k.len());
-    for i in 0..k.len() {
-        let sum = (beta.row(i) * shapes.column(i))[0];
-        let lambda = 1.0 / k[i];
-        roots[i] = lambda - lambda * sum / (k[i] + sum);
-        check_root(i, roots[i])?;
-    }
-    Ok(roots)
-}
-
-/// Shapes that satisfy all rows but their own for given roots, one (n−1) × (n−1) solution per mode.
-fn shapes_by_linear_solution(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    roots: &DVector<f64>,
-) -> Result<DMatrix<f64>, Error> {
-    let size = k.len();
-    let mut shapes = DMatrix::identity(size, size);
-    if size == 1 {
-        // One mode has no others, and the library's solution of an empty system panics.
-        return Ok(shapes);
-    }
-    for j in 0..size {
-        let mut rows = beta.clone();
-        for i in 0..size {
-            rows[(i, i)] += k[i] - 1.0 / roots[j];
-        }
-        let right = -rows.column(j).remove_row(j);
-        let solution = rows
-            .remove_row(j)
-            .remove_column(j)
-            .lu()
-            .solve(&right)
-            .filter(|solution| solution.iter().all(|value| value.is_finite()))
-            .ok_or(Error::CoalescingModes { first: j, second: j, separation: 0.0 })?;
-        shapes.set_column(j, &solution.insert_row(j, 1.0));
-    }
-    Ok(shapes)
-}
-
-/// A shape's component, `numerator` over $k_{ii} + \beta_{ii} - 1/\gamma_j$: zero where nothing couples the modes, refused
-/// where something does and the denominator vanishes.
-fn quotient(
-    numerator: f64,
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    gamma: f64,
-    (i, j): (usize, usize),
-) -> Result<f64, Error> {
-    if numerator == 0.0 {
-        return Ok(0.0);
-    }
-    let own = k[i] + beta[(i, i)];
-    let difference = own - 1.0 / gamma;
-    if difference.abs() > SMALLEST_SEPARATION * own {
-        return Ok(numerator / difference);
-    }
-    let separation = (difference / own).abs();
-    Err(Error::CoalescingModes { first: i, second: j, separation })
-}
-
-/// Refuses a perturbed root that is not positive and finite.
-pub(crate) fn check_root(mode: usize, value: f64) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::LostRoot { mode, value }) }
+/// The changed pencil of the general formulae, whose $G$ is $k\Lambda = I$ here. Multiplied by their roots, the equations
+/// (C.24) are the general ones.
+fn pencil(k: &DVector<f64>, beta: &DMatrix<f64>) -> general::Pencil<f64> {
+    (DMatrix::from_diagonal(k) + beta, DMatrix::identity(k.len(), k.len()))
 }
 
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
-    if order > 0 {
-        return Ok(());
-    }
-    Err(Error::Setting { name: "order", expected: "at least 1", found: 0.0 })
+    if order > 0 { Ok(()) } else { Err(Error::Setting { name: "order", expected: "at least 1", found: 0.0 }) }
 }
 
 /// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.

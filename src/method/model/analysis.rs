@@ -1,7 +1,6 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
-use super::parameters::{MemberKind, Members};
-use super::{DynamicModel, FiniteElementModel, ModalModel, Share};
+use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Share};
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::FactorizedStiffness;
 use crate::method::error::Error;
@@ -57,31 +56,20 @@ impl FiniteElementModel {
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
     fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Vec<Share> {
         let structural = &condensed.transformation * shapes;
-        let count = shapes.ncols();
-        let of_parameter = |members: &Members| {
-            let mut sum = DMatrix::zeros(count, count);
-            for &row in &members.rows {
-                match members.kind {
-                    MemberKind::Stiffness => {
-                        let element = &self.element_matrices[row];
-                        sum += condensed.sizes[row] * generalized_stiffness(&structural, element);
-                    }
-                    MemberKind::ElementMass => {
-                        let element = &self.element_matrices[row];
-                        sum += condensed.mass_sizes[row] * generalized_mass(&structural, element);
-                    }
-                    MemberKind::PointMass => {
-                        let at_point = shapes.row(row);
-                        sum += condensed.point_mass[(row, row)] * at_point.tr_mul(&at_point);
-                    }
-                }
-            }
-            match members.kind {
-                MemberKind::Stiffness => Share::Stiffness(sum),
-                MemberKind::ElementMass | MemberKind::PointMass => Share::Mass(sum),
-            }
+        let sum = |rows: &[usize], share_of: &dyn Fn(usize) -> DMatrix<f64>| {
+            let mut sum = DMatrix::zeros(shapes.ncols(), shapes.ncols());
+            rows.iter().for_each(|&row| sum += share_of(row));
+            sum
         };
-        self.members.iter().map(of_parameter).collect()
+        let stiffness = |row| condensed.sizes[row] * generalized_stiffness(&structural, &self.element_matrices[row]);
+        let mass = |row| condensed.mass_sizes[row] * generalized_mass(&structural, &self.element_matrices[row]);
+        let point_mass = |row| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
+        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| match parameter.scaled {
+            Scaled::Stiffness => Share::Stiffness(sum(rows, &stiffness)),
+            Scaled::ElementMass => Share::Mass(sum(rows, &mass)),
+            Scaled::PointMass => Share::Mass(sum(rows, &point_mass)),
+        };
+        self.parameters.iter().zip(&self.rows).map(of_parameter).collect()
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: what the loops are handed.

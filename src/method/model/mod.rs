@@ -11,9 +11,9 @@ pub use parameters::{Parameter, Range, Scaled};
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky};
-use crate::method::structure::Structure;
+use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
-use parameters::{MemberKind, Members, resolve};
+use parameters::member_rows;
 
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
 ///
@@ -28,7 +28,8 @@ pub struct FiniteElementModel {
     load_distribution: DMatrix<f64>,
     mass: DMatrix<f64>,
     parameters: Vec<Parameter>,
-    members: Vec<Members>,
+    /// Rows of every parameter's members among the elements or the dynamic DOF.
+    rows: Vec<Vec<usize>>,
 }
 
 impl FiniteElementModel {
@@ -39,9 +40,8 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::NotPositiveDefinite`] naming the DOF of a
-    /// zero or negative mass; [`Error::Empty`] without parameters or for a parameter without elements;
-    /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for a bad
-    /// parameter; the geometry errors of the elements.
+    /// zero or negative mass; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for
+    /// bad parameters; the geometry errors of the elements.
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -56,23 +56,16 @@ impl FiniteElementModel {
         if structure.elements().iter().all(|element| element.material.density == 0.0) {
             cholesky("dynamic mass", &mass, 0.0)?;
         }
-        let members = resolve(&structure, dof_count, &parameters)?;
-        for point in members.iter().filter(|members| members.kind == MemberKind::PointMass) {
-            for &dof in &point.rows {
-                // The diagonal entry alone is scaled, so it must be the whole of the mass.
-                if (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0) {
-                    return Err(Error::CoupledMass(dof));
-                }
+        let rows = member_rows(&structure, dof_count, &parameters)?;
+        for (parameter, rows) in parameters.iter().zip(&rows) {
+            // The diagonal entry of a point mass alone is scaled, so it must be the whole of the mass.
+            let coupled = |dof: usize| (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0);
+            if let Some(&dof) = rows.iter().find(|&&row| parameter.scaled == Scaled::PointMass && coupled(row)) {
+                return Err(Error::CoupledMass(dof));
             }
         }
-        Ok(Self {
-            element_matrices: element_matrices(&structure)?,
-            structure,
-            load_distribution,
-            mass,
-            parameters,
-            members,
-        })
+        let element_matrices = element_matrices(&structure)?;
+        Ok(Self { structure, element_matrices, load_distribution, mass, parameters, rows })
     }
 
     /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
@@ -123,24 +116,24 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
-        let bounds = |(parameter, members): (&Parameter, &Members)| {
+        let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             if parameter.size_range.is_none() && parameter.factor_range.is_none() {
                 return Ok(None);
             }
             let own = parameter.factor_range;
             let (mut lower, mut upper) = own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
             if let Some(range) = parameter.size_range {
-                for &row in &members.rows {
+                for &row in rows {
                     let size = self.structure.elements()[row].size;
                     lower = lower.max(range.lower / size);
                     upper = upper.min(range.upper / size);
                 }
             }
-            let what = format!("factor of parameter {}", parameter.name);
+            let what = format!("factor of {}", parameter.owner());
             let factors = Range::positive(&what, lower, upper)?;
             if factors.contains(1.0) { Ok(Some(factors)) } else { Err(Error::Limits { what, lower, upper }) }
         };
-        self.parameters.iter().zip(&self.members).map(bounds).collect()
+        self.parameters.iter().zip(&self.rows).map(bounds).collect()
     }
 
     /// Gage or area of every element for its stiffness at the given parameter factors, in the structure's order.
@@ -148,7 +141,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        self.scaled(self.first_sizes(), MemberKind::Stiffness, factors)
+        self.scaled(self.first_sizes(), Scaled::Stiffness, factors)
     }
 
     /// The same for its mass: the first size times the factors of mass parameters alone.
@@ -156,7 +149,7 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`Self::sizes`].
     pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        self.scaled(self.first_sizes(), MemberKind::ElementMass, factors)
+        self.scaled(self.first_sizes(), Scaled::ElementMass, factors)
     }
 
     /// The dynamic mass $M$ without that of elements at the given parameter factors, lbf·s²/in (d × d).
@@ -166,7 +159,7 @@ impl FiniteElementModel {
     pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
         let ones = vec![1.0; self.mass.nrows()];
         let mut mass = self.mass.clone();
-        for (dof, factor) in self.scaled(ones, MemberKind::PointMass, factors)?.iter().enumerate() {
+        for (dof, factor) in self.scaled(ones, Scaled::PointMass, factors)?.iter().enumerate() {
             mass[(dof, dof)] *= factor;
         }
         Ok(mass)
@@ -176,16 +169,13 @@ impl FiniteElementModel {
         self.structure.elements().iter().map(|element| element.size).collect()
     }
 
-    /// `values` of one kind times the factors of the parameters that scale them.
-    fn scaled(&self, mut values: Vec<f64>, kind: MemberKind, factors: &[f64]) -> Result<Vec<f64>, Error> {
+    /// `values` times the factors of the parameters that scale them.
+    fn scaled(&self, mut values: Vec<f64>, scaled: Scaled, factors: &[f64]) -> Result<Vec<f64>, Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
-        for ((members, &factor), parameter) in self.members.iter().zip(factors).zip(&self.parameters) {
-            let owner = || format!("parameter {}", parameter.name);
-            crate::method::structure::positive("factor", owner, factor)?;
-            if members.kind == kind {
-                for &row in &members.rows {
-                    values[row] *= factor;
-                }
+        for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
+            positive("factor", || parameter.owner(), factor)?;
+            if parameter.scaled == scaled {
+                rows.iter().for_each(|&row| values[row] *= factor);
             }
         }
         Ok(values)

@@ -28,17 +28,12 @@ impl Share {
         }
     }
 
-    /// Another matrix as a share of the same kind.
-    pub(crate) fn with(&self, matrix: DMatrix<f64>) -> Self {
+    /// A share of the same kind with another matrix made from this one's.
+    fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
         match self {
-            Self::Stiffness(_) => Self::Stiffness(matrix),
-            Self::Mass(_) => Self::Mass(matrix),
+            Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
+            Self::Mass(matrix) => Self::Mass(change(matrix)),
         }
-    }
-
-    /// The share seen through shapes $V$ (d × n), $V^t K_e V$.
-    fn through(&self, shapes: &DMatrix<f64>) -> Self {
-        self.with(symmetric_part(&shapes.tr_mul(&(self.matrix() * shapes))))
     }
 }
 
@@ -64,8 +59,10 @@ impl DynamicModel {
             check_shape("parameter share", share.matrix(), dof_count, dof_count)?;
             check_symmetric("parameter share", share.matrix())?;
         }
-        let through = |shapes: &DMatrix<f64>| self.shares.iter().map(|share| share.through(shapes)).collect();
-        ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, through)
+        ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, |shapes| {
+            let through = |matrix: &DMatrix<f64>| symmetric_part(&shapes.tr_mul(&(matrix * shapes)));
+            self.shares.iter().map(|share| share.map(through)).collect()
+        })
     }
 }
 
@@ -128,25 +125,15 @@ impl ModalModel {
         }
         let omega = test.omega_squared.map(f64::sqrt);
         let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
-        let shares = through_both.iter().map(|share| share.with(block(share.matrix(), 0, count)));
-        let test_shares = through_both.iter().map(|share| {
-            let on_test = block(share.matrix(), count, test_count);
-            match share {
-                Share::Stiffness(_) => on_test.component_div(&(&omega * omega.transpose())),
-                Share::Mass(_) => on_test,
-            }
-        });
-        Ok(Self {
-            shares: shares.collect(),
-            test_shares: test_shares.collect(),
-            exact: Check {
-                frequencies_hz: paired(&modes, &pairing).frequencies_hz(),
-                errors: errors(&modes, &pairing, &test),
-                modes,
-                pairing,
-            },
-            test,
-            cross,
-        })
+        let shares = through_both.iter().map(|share| share.map(|matrix| block(matrix, 0, count))).collect();
+        let on_test = |share: &Share| match share {
+            Share::Stiffness(matrix) => block(matrix, count, test_count).component_div(&(&omega * omega.transpose())),
+            Share::Mass(matrix) => block(matrix, count, test_count),
+        };
+        let test_shares = through_both.iter().map(on_test).collect();
+        let frequencies_hz = paired(&modes, &pairing).frequencies_hz();
+        let errors = errors(&modes, &pairing, &test);
+        let exact = Check { modes, pairing, frequencies_hz, errors };
+        Ok(Self { exact, test, cross, shares, test_shares })
     }
 }

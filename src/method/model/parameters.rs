@@ -20,11 +20,8 @@ impl Range {
     /// # Errors
     /// [`Error::Limits`] unless $0 < \text{lower} < \text{upper}$, both finite.
     pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
-        if lower > 0.0 && upper > lower && upper.is_finite() {
-            Ok(Self { lower, upper })
-        } else {
-            Err(Error::Limits { what: what.to_owned(), lower, upper })
-        }
+        let in_order = lower > 0.0 && upper > lower && upper.is_finite();
+        if in_order { Ok(Self { lower, upper }) } else { Err(Error::Limits { what: what.to_owned(), lower, upper }) }
     }
 
     /// Whether a number lies in the interval.
@@ -45,14 +42,14 @@ impl Range {
 }
 
 /// What a parameter scales.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Scaled {
     /// The stiffness (gage, area) of elements, by their labels.
-    Stiffness(Vec<usize>),
+    Stiffness,
     /// The mass of elements, by their labels; their stiffness stays.
-    ElementMass(Vec<usize>),
+    ElementMass,
     /// The mass at dynamic DOF, by their index from zero; it may not be coupled to other DOF in the given $M$.
-    PointMass(Vec<usize>),
+    PointMass,
 }
 
 /// A set of elements or masses that are scaled together: one element, or a substructure.
@@ -62,6 +59,8 @@ pub struct Parameter {
     pub name: String,
     /// What it scales.
     pub scaled: Scaled,
+    /// Labels of the elements, or indices of the dynamic DOF, that it scales.
+    pub members: Vec<usize>,
     /// Bounds on the gages (in) or areas (in²) of its elements, if any; for stiffness alone.
     pub size_range: Option<Range>,
     /// Bounds on the factor on its first value, if any.
@@ -71,81 +70,60 @@ pub struct Parameter {
 impl Parameter {
     /// The stiffness of one element, named by its number.
     pub fn element(label: usize, size_range: Option<Range>) -> Self {
-        Self { size_range, ..Self::of(&label.to_string(), Scaled::Stiffness(vec![label])) }
+        Self { size_range, ..Self::group(&label.to_string(), &[label]) }
     }
 
     /// The stiffness of a group of elements.
     pub fn group(name: &str, elements: &[usize]) -> Self {
-        Self::of(name, Scaled::Stiffness(elements.to_vec()))
+        Self::of(name, Scaled::Stiffness, elements)
     }
 
     /// Anything, without bounds.
-    pub fn of(name: &str, scaled: Scaled) -> Self {
-        Self { name: name.to_owned(), scaled, size_range: None, factor_range: None }
+    pub fn of(name: &str, scaled: Scaled, members: &[usize]) -> Self {
+        Self { name: name.to_owned(), scaled, members: members.to_vec(), size_range: None, factor_range: None }
+    }
+
+    /// What the parameter is called in errors.
+    pub(crate) fn owner(&self) -> String {
+        format!("parameter {}", self.name)
     }
 }
 
-/// A parameter's members as rows: of the structure's elements, or of the dynamic DOF.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Members {
-    /// The rows.
-    pub rows: Vec<usize>,
-    /// What kind of thing they are rows of.
-    pub kind: MemberKind,
-}
-
-/// What a parameter's rows are rows of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum MemberKind {
-    /// Elements, for their stiffness.
-    Stiffness,
-    /// Elements, for their mass.
-    ElementMass,
-    /// Dynamic DOF.
-    PointMass,
-}
-
-/// Rows of every parameter's members; nothing is in two parameters of one kind.
+/// Every parameter's members as rows, of the structure's elements or of the dynamic DOF.
 ///
 /// # Errors
-/// [`Error::Empty`] without parameters or members; [`Error::Unknown`] and
-/// [`Error::SharedElement`] naming the offender.
-pub(crate) fn resolve(
+/// [`Error::Empty`] without parameters or members; [`Error::Unknown`]; [`Error::SharedElement`] for a member of two
+/// parameters that scale the same of it.
+pub(crate) fn member_rows<'a>(
     structure: &Structure,
     dynamic_dof: usize,
-    parameters: &[Parameter],
-) -> Result<Vec<Members>, Error> {
+    parameters: &'a [Parameter],
+) -> Result<Vec<Vec<usize>>, Error> {
     if parameters.is_empty() {
         return Err(Error::Empty { what: "parameters" });
     }
     let elements = structure.elements().iter().enumerate();
     let row_of: HashMap<usize, usize> = elements.map(|(row, element)| (element.label, row)).collect();
-    let mut owner: HashMap<(MemberKind, usize), &str> = HashMap::new();
-    let mut resolved = Vec::with_capacity(parameters.len());
-    for parameter in parameters {
-        let (kind, members) = match &parameter.scaled {
-            Scaled::Stiffness(members) => (MemberKind::Stiffness, members),
-            Scaled::ElementMass(members) => (MemberKind::ElementMass, members),
-            Scaled::PointMass(members) => (MemberKind::PointMass, members),
-        };
-        if members.is_empty() {
+    let mut first_with: HashMap<(Scaled, usize), &'a str> = HashMap::new();
+    let rows_of = |parameter: &'a Parameter| {
+        if parameter.members.is_empty() {
             return Err(Error::Empty { what: "members of a parameter" });
         }
-        let mut rows = Vec::with_capacity(members.len());
-        for &member in members {
-            let name = || parameter.name.clone();
-            let unknown = |what| Error::Unknown { owner: format!("parameter {}", name()), what, label: member };
-            let row = match kind {
-                MemberKind::PointMass if member < dynamic_dof => member,
-                MemberKind::PointMass => return Err(unknown("dynamic degree of freedom")),
-                _ => *row_of.get(&member).ok_or_else(|| unknown("element"))?,
+        let row = |&label: &usize| {
+            let (what, row) = match parameter.scaled {
+                Scaled::PointMass => ("dynamic degree of freedom", Some(label).filter(|&dof| dof < dynamic_dof)),
+                Scaled::Stiffness | Scaled::ElementMass => ("element", row_of.get(&label).copied()),
             };
-            if let Some(first) = owner.insert((kind, row), &parameter.name) {
-                return Err(Error::SharedElement { element: member, first: first.to_owned(), second: name() });
+            let row = row.ok_or_else(|| Error::Unknown { owner: parameter.owner(), what, label })?;
+            match first_with.insert((parameter.scaled, row), &parameter.name) {
+                None => Ok(row),
+                Some(first) => {
+                    let (first, second) = (first.to_owned(), parameter.name.clone());
+                    Err(Error::SharedElement { element: label, first, second })
+                }
             }
-            rows.push(row);
-        }
-        resolved.push(Members { rows, kind });
-    }
-    Ok(resolved)
+        };
+        parameter.members.iter().map(row).collect()
+    };
+    parameters.iter().map(rows_of).collect()
 }

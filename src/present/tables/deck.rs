@@ -2,8 +2,8 @@
 
 use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
-use crate::method::whole_modes::WholeModes;
 use crate::present::table::{Cell, Digits, Table, counted};
+use crate::studies::whole_modes::WholeModes;
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.
 const MODES_PER_TABLE: usize = 9;

@@ -7,7 +7,7 @@ use crate::cases::published::PublishedTable;
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
 use crate::method::error::Error;
 use crate::method::structure::Structure;
-use crate::method::whole_modes::{MassDof, WholeModes, whole_modes};
+use crate::studies::whole_modes::{MassDof, WholeModes, whole_modes};
 use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.

@@ -2,7 +2,7 @@
 //! aerodynamic terms.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, cholesky, to_faer};
+use crate::method::linear_algebra::{check_finite, check_shape, cholesky, reduced, to_faer};
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -56,12 +56,7 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;
     check_finite(what, g)?;
-    let mut reduced = g.clone();
-    lower.solve_lower_triangular_unchecked_mut(&mut reduced);
-    reduced.transpose_mut();
-    lower.solve_lower_triangular_unchecked_mut(&mut reduced);
-    reduced.transpose_mut();
-    let eigen = to_faer(&reduced).eigen().map_err(|_| Error::NoConvergence(what))?;
+    let eigen = to_faer(&reduced(&lower, g)).eigen().map_err(|_| Error::NoConvergence(what))?;
     let root = |i: usize| eigen.S()[i];
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));

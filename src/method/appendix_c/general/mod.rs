@@ -153,7 +153,7 @@ pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Erro
 }
 
 /// Roots from given shapes, $\gamma_i = (Gp)_{ii}/(Ap)_{ii}$ (C.24).
-fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
+pub(super) fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
     let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;
     Ok(roots)
@@ -164,7 +164,10 @@ fn check_finite_roots<T: Number>(roots: &DVector<T>) -> Result<(), Error> {
 }
 
 /// Shapes that satisfy all equations but their own for given roots, one (n−1) × (n−1) solution per mode.
-fn shapes_by_linear_solution<T: Number>((stiffness, g): &Pencil<T>, roots: &DVector<T>) -> Result<DMatrix<T>, Error> {
+pub(super) fn shapes_by_linear_solution<T: Number>(
+    (stiffness, g): &Pencil<T>,
+    roots: &DVector<T>,
+) -> Result<DMatrix<T>, Error> {
     let size = roots.len();
     let mut shapes = DMatrix::identity(size, size);
     // One mode has no others, and nalgebra's solution of an empty system panics.
