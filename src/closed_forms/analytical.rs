@@ -127,18 +127,12 @@ pub enum ChainEnds {
 /// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
 pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) -> Vec<f64> {
     let n = count as f64;
-    (1..=count)
-        .map(|j| {
-            let j = j as f64;
-            let theta = PI
-                * match ends {
-                    ChainEnds::FixedFixed => j / (n + 1.0),
-                    ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
-                    ChainEnds::FreeFree => (j - 1.0) / n,
-                };
-            4.0 * spring / mass * (0.5 * theta).sin().powi(2)
-        })
-        .collect()
+    let share = |j: f64| match ends {
+        ChainEnds::FixedFixed => j / (n + 1.0),
+        ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
+        ChainEnds::FreeFree => (j - 1.0) / n,
+    };
+    (1..=count).map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2)).collect()
 }
 
 /// Frequencies of a uniform rod fixed at one end, vibrating along itself, ascending, Hz.

@@ -22,7 +22,8 @@ const LARGEST_CROSS_MASS: f64 = 1e-8;
 /// $$ K = K_A - K_A \Phi\Phi^t M - M \Phi\Phi^t K_A + M \Phi\Phi^t K_A \Phi\Phi^t M + M \Phi \Omega^2 \Phi^t M $$
 ///
 /// with the analysis stiffness $K_A$, the mass $M$, and test shapes $\Phi$ (d × g, $\Phi^t M \Phi = I$) of squared circular
-/// frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest [`weighted_norm`] of $K - K_A$.
+/// frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest
+/// [`weighted_norm`] of $K - K_A$.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for test

@@ -1,8 +1,8 @@
 //! NASTRAN decks: the model as bulk data, written and read.
 //!
-//! A deck contains what [`crate::method::model::FiniteElementModel`] contains and nothing of the correlation. The dynamic points are grids
-//! of their own, tied to the structure by MPC equations whose coefficients are the load distribution $T$, with the masses on
-//! them. The points are the dependent DOF, $q_D = T^t q_S$; a program that eliminates them puts
+//! A deck contains what [`crate::method::model::FiniteElementModel`] contains and nothing of the correlation. The dynamic
+//! points are grids of their own with the masses, tied to the structure by MPC equations whose coefficients are the load
+//! distribution $T$. They are the dependent DOF, $q_D = T^t q_S$; a program that eliminates them puts
 //!
 //! $$ M_S = T M T^t $$
 //!
@@ -24,7 +24,6 @@ mod elements;
 mod lines;
 mod model;
 pub mod number;
-mod numbered;
 mod read;
 mod write;
 

@@ -15,8 +15,8 @@ pub struct Recovered {
     pub group: Group,
     /// The factor found on its first gage.
     pub factor: f64,
-    /// Its largest share of a test mode's generalized stiffness, $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$, in the first model: what of it
-    /// the test modes can see.
+    /// What the test modes can see of it: its largest share of a test mode's generalized stiffness in the first model,
+    /// $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$.
     pub share: f64,
 }
 
