@@ -84,13 +84,14 @@ pub struct FewerModesRun {
     pub membrane_gage_rms: f64,
 }
 
-/// One pass of a case with its lowest `test_modes` test modes and `analysis_modes` analysis modes, from its first gages.
+/// One pass of a case from its first gages, with its lowest `test_modes` test modes and `analysis_modes` analysis
+/// modes.
 ///
 /// The tolerance is that of the case's first pass, the cap [`ITERATIONS`].
 ///
 /// # Errors
-/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF; those of
-/// the model, the analysis and the loops.
+/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
+/// those of the model, the analysis and the loops.
 pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;

@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
 /// [`crate::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
-/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} +
-///    \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
+/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad
+///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
 ///
 /// $X_i$, $Y_i$ are the corners in the mean plane (corner 1 at the origin, $Y_2 = 0$), $A$ the area. The caller says
 /// that the sides are parallel; nothing is tested. Source: NASA SP-222, shear panel; rederived.

@@ -25,7 +25,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
     stiffness * &ends * ends.transpose()
 }
 
-/// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) between $d+1$ springs $k$ (lbf/in), both ends held:
+/// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) and $d+1$ springs $k$ (lbf/in), both ends held:
 ///
 /// $$ \omega_i^2 = 4\frac{k}{m}\sin^2\frac{i\pi}{2(d+1)}, \qquad
 ///    v_{ji} = \sqrt{\frac{2}{(d+1)m}} \sin\frac{ij\pi}{d+1}, \qquad i, j = 1 \dots d $$

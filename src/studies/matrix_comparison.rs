@@ -22,7 +22,7 @@ use serde::Serialize;
 /// The case compared unless another is asked for: every panel is wrong by as much, so that a corrected stiffness
 /// can be judged entry by entry.
 pub const USUAL_CASE: usize = 2;
-/// Test modes given to the corrections unless another number is asked for: about half, so that there are others to predict.
+/// Test modes given to the corrections unless told otherwise: about half, so that there are others to predict.
 pub const USUAL_TEST_MODES: usize = 5;
 /// Name of the prediction that is right by definition.
 pub const TRUTH: &str = "Truth";
@@ -90,8 +90,8 @@ pub struct MatrixComparison {
 ///
 /// The element factors come from [`correlate`] with the case's settings and all analysis modes. Baruch's correction is
 /// given the exact test shapes. Berman and Nagy's is given them rounded to two digits, because with exact ones there
-/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the change
-/// of $K_D$ in the uncorrected model.
+/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the
+/// change of $K_D$ in the uncorrected model.
 ///
 /// # Errors
 /// Those of the model, the loops and the corrections.
@@ -194,8 +194,8 @@ fn relative_entries(change: &DMatrix<f64>, before: &DMatrix<f64>) -> Vec<Vec<f64
     (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part of it
-/// that is left, both in the weighted norm.
+/// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part
+/// of it that is left, both in the weighted norm.
 ///
 /// On a box that is symmetric about its mid-plane upper and lower cover have like shares, so that only their sum is
 /// determined: of all nearest sets it is the smallest, each $c_e$ weighted with the norm of its share.

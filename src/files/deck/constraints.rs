@@ -74,7 +74,7 @@ impl Constraints {
         Ok(())
     }
 
-    /// The equations, by dependent DOF: it may be neither constrained nor in another equation, its coefficient not zero.
+    /// The equations, by dependent DOF: it may not be constrained nor in another equation, nor its coefficient zero.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
         for card in &self.equations {

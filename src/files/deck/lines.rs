@@ -45,7 +45,7 @@ impl Line {
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] for a line that is neither a card nor a continuation and for a selection that is not one set.
+/// [`FileError::DeckLine`] for a line that is neither card nor continuation and for a selection that is not one set.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| line.split('$').next().unwrap_or_default().to_ascii_uppercase();
     let lines = (1..).zip(text.lines().map(code)).filter(|(_, line)| !line.trim().is_empty());
@@ -77,8 +77,8 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
     Ok(())
 }
 
-/// Cuts a line into its fields. With a comma it is in free format; otherwise an asterisk behind the name or in front of a
-/// continuation means fields of 16 characters, its absence fields of 8.
+/// Cuts a line into its fields. With a comma it is in free format; otherwise an asterisk behind the name or in front of
+/// a continuation means fields of 16 characters, its absence fields of 8.
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
     let is_large = |name: &str| name.ends_with('*') || name.starts_with('*');

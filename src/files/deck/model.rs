@@ -66,8 +66,8 @@ impl BulkData {
     ///
     /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
     /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
-    /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass unless
-    /// that is zero. Its MPC equation is its column of $T$:
+    /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
+    /// unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
@@ -139,8 +139,8 @@ impl BulkData {
         ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie)).collect()
     }
 
-    /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of elements
-    /// with a density, given by their matrices. Masses on constrained DOF do not move.
+    /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of
+    /// elements with a density, given by their matrices. Masses on constrained DOF do not move.
     ///
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
     ///

@@ -9,8 +9,8 @@ const ALL_DIGITS: usize = 17;
 
 /// The value of a NASTRAN real, or `None` for anything else.
 ///
-/// Only its decimal point tells a real from an integer. An exponent begins with `E`, `D` or its sign alone. Blanks count
-/// for nothing, so that `10.4  +6` is $1.04 \cdot 10^7$.
+/// Only its decimal point tells a real from an integer. An exponent begins with `E`, `D` or its sign alone. Blanks
+/// count for nothing, so that `10.4  +6` is $1.04 \cdot 10^7$.
 pub fn parse_real(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| *c != ' ').collect();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(&text);

@@ -45,7 +45,8 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
     };
     let ties = if model.ties.is_empty() { String::new() } else { format!("MPC = {SET}\n") };
     let text = format!(
-        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n{alter}CEND\n\
+        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n\
+         {alter}CEND\n\
          TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
         title.to_ascii_uppercase()
     );

@@ -3,9 +3,9 @@
 //!
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
 //! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
-//! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of the
-//! mass nothing is taken over, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it, with the
-//! lumped mass of elements that have a density.
+//! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
+//! the mass nothing is taken over, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it,
+//! with the lumped mass of elements that have a density.
 //!
 //! Appendix A, the eigensolution and everything else is computed here from these matrices: $M_S$ is singular, and
 //! NASTRAN's own eigenvalues are good to five or six digits only.
@@ -95,8 +95,8 @@ impl Nastran95 {
     /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the elements
-    /// to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
+    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
+    /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
     pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];

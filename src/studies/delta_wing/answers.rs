@@ -70,7 +70,7 @@ impl DeltaWing {
     }
 }
 
-/// What NASTRAN printed in 1995, what was measured, and what the analog computer gave: deflections at [`MEASURED_GRIDS`].
+/// Deflections at [`MEASURED_GRIDS`] that NASTRAN printed in 1995, that were measured, that the analog computer gave.
 ///
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.

@@ -5,11 +5,11 @@
 //!
 //! - **Measured** is $z$ at the 19 upper grids that move. $T$ (86 × 19) selects them: one entry a column.
 //! - **Test modes** are ten of the lowest twelve of the right wing, with mass in all directions at all its 86 DOF
-//!   ([`DeltaWing::modes`]), sampled at the measured points: nothing of the model's own condensation is in them. Modes 8
-//!   and 9 are left out: at 372.3 and 378.2 Hz they are 1.6 % apart, and the wrong gages exchange and mix them.
-//! - **Mass**: the wing was weighed part by part, so that every element of the model has its true mass whatever its gage. The
-//!   dynamic mass is $B M_S B^t$, with the new $B$ of every pass; for the right gages its ten frequencies lie within 0.006 %
-//!   of those of the whole wing. Stiffness alone is corrected.
+//!   ([`DeltaWing::modes`]), sampled at the measured points: nothing of the model's own condensation is in them. Modes
+//!   8 and 9 are left out: at 372.3 and 378.2 Hz they are 1.6 % apart, and the wrong gages exchange and mix them.
+//! - **Mass**: the wing was weighed part by part, so that every element of the model has its true mass whatever its
+//!   gage. The dynamic mass is $B M_S B^t$, with the new $B$ of every pass; for the right gages its ten frequencies lie
+//!   within 0.006 % of those of the whole wing. Stiffness alone is corrected.
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 mod run;
@@ -72,10 +72,10 @@ pub const TEST_MODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 10, 11, 12];
 /// Direction measured.
 const Z: usize = 2;
 
-/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after, and the same in the exact check.
+/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after and in the exact check.
 ///
-/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in
-/// modal coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
+/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in modal
+/// coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
 /// pass more.
 pub fn settings() -> Settings {
     Settings {

@@ -1,16 +1,16 @@
 //! A second structure: the delta wing of NACA TN 3114, which nobody here can tune.
 //!
-//! MacNeal and Benscoter analyzed it on an electric analog computer, Zender tested it (NACA TN 3913), and NASA keeps it as
-//! NASTRAN's demonstration problem D01-01-1. Its planform is a rule. Grids lie on five lines along the span, at
+//! MacNeal and Benscoter analyzed it on an electric analog computer, Zender tested it (NACA TN 3913), and NASA keeps it
+//! as NASTRAN's demonstration problem D01-01-1. Its planform is a rule. Grids lie on five lines along the span, at
 //! $y = 0, 20, \dots, 80$ in forward of the trailing edge, where stations at $x = 0, 10, 30, 50, 70, 90$ in outboard of
 //! the root's center cross them behind the leading edge
 //!
 //! $$ x + y \le 110\ \text{in}, $$
 //!
 //! which is swept by 45°. The wing is a quarter of the whole: the other wing moves alike, and the lower surface is the
-//! upper one's mirror image and moves against it in the plane. So mid-plane grids keep to $z$, those of the upper surface at
-//! $x = 0$ to $y$ and $z$, and the wing is supported along $z$ where its upper surface crosses the side of the body,
-//! $x = 30$ in.
+//! upper one's mirror image and moves against it in the plane. So mid-plane grids keep to $z$, those of the upper
+//! surface at $x = 0$ to $y$ and $z$, and the wing is supported along $z$ where its upper surface crosses the side of
+//! the body, $x = 30$ in.
 //!
 //! Depths and sizes are data, in `paper/delta_wing.toml`; `paper/delta_wing.md` tells where they come from.
 //! [`correlation`] corrects a wing of wrong gages with modes of this one.
@@ -100,8 +100,8 @@ impl DeltaWing {
         Ok(read)
     }
 
-    /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to 53)
-    /// and 60 rods (posts, 60 to 83, and caps, 100 to 135), numbered as NASA's deck numbers them.
+    /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to
+    /// 53) and 60 rods (posts, 60 to 83, and caps, 100 to 135), numbered as NASA's deck numbers them.
     ///
     /// # Errors
     /// Those of [`Material::isotropic`] and [`Structure::new`].

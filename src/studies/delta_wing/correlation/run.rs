@@ -58,12 +58,12 @@ pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> R
     correlate_wing_with(wing, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
-/// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name for
-/// the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that program's
-/// element stiffness.
+/// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name
+/// for the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that
+/// program's element stiffness.
 ///
-/// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a test
-/// knows nothing of the program that analyzes the model.
+/// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a
+/// test knows nothing of the program that analyzes the model.
 ///
 /// # Errors
 /// Those of `elements` and of [`correlate_wing`].
