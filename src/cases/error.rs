@@ -1,5 +1,6 @@
 //! What can go wrong with the paper's cases and their data, beside the method itself.
 
+use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 /// An error of a case, of its torque box or of a published table.
@@ -43,4 +44,16 @@ pub enum CaseError {
         /// What it contains.
         found: String,
     },
+}
+
+impl CaseError {
+    pub(crate) fn table(name: &str, expected: String, found: impl Into<String>) -> Self {
+        Self::Table { name: name.to_owned(), expected, found: found.into() }
+    }
+}
+
+/// Reads TOML text; `name` and what is `expected` of it stand in the error.
+pub(crate) fn read_toml<T: DeserializeOwned>(name: &str, expected: &'static str, text: &str) -> Result<T, CaseError> {
+    let wrong = |source| CaseError::Toml { name: name.to_owned(), expected, source: Box::new(source) };
+    toml::from_str(text).map_err(wrong)
 }

@@ -42,11 +42,8 @@ impl Agreement {
         let all = modes.frequencies_hz();
         let others = (0..all.len()).filter(|mode| !pairing.analysis_mode.contains(mode));
         let order = pairing.analysis_mode.iter().copied().chain(others);
-        Self {
-            frequencies_hz: order.map(|mode| all[mode]).collect(),
-            frequency_rms: errors.frequency_rms(),
-            shape_rms: errors.shape_rms(),
-        }
+        let frequencies_hz = order.map(|mode| all[mode]).collect();
+        Self { frequencies_hz, frequency_rms: errors.frequency_rms(), shape_rms: errors.shape_rms() }
     }
 
     fn of(check: &Check) -> Self {
@@ -87,13 +84,14 @@ pub struct FewerModesRun {
     pub membrane_gage_rms: f64,
 }
 
-/// One pass of a case with its lowest `test_modes` test modes and `analysis_modes` analysis modes, from its first gages.
+/// One pass of a case from its first gages, with its lowest `test_modes` test modes and `analysis_modes` analysis
+/// modes.
 ///
 /// The tolerance is that of the case's first pass, the cap [`ITERATIONS`].
 ///
 /// # Errors
-/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF; those of
-/// the model, the analysis and the loops.
+/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
+/// those of the model, the analysis and the loops.
 pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;
@@ -103,9 +101,7 @@ pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) ->
     let ranges = model.factor_ranges()?;
     let correlation =
         correlate(|factors| model.analyze(factors, &test, Some(analysis_modes)), &ranges, &settings, |_, _| {})?;
-    let [pass] = correlation.passes.as_slice() else {
-        return Err(Error::Empty { what: "passes" }.into());
-    };
+    let pass = correlation.passes.first().ok_or(Error::Empty { what: "passes" })?;
     let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
     let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
@@ -141,8 +137,6 @@ pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
 /// Those of [`fewer_modes_run`].
 pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     let most = case.reconstruction.masses.len();
-    (1..=most)
-        .flat_map(|test| (test..=most).map(move |analysis| (test, analysis)))
-        .map(|(test, analysis)| fewer_modes_run(case, test, analysis))
-        .collect()
+    let pairs = (1..=most).flat_map(|test| (test..=most).map(move |analysis| (test, analysis)));
+    pairs.map(|(test, analysis)| fewer_modes_run(case, test, analysis)).collect()
 }

@@ -6,22 +6,13 @@ use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Reconstruction};
 use serde::Serialize;
 
-/// The published columns: case, table of frequencies, table of gages, column prefix.
+/// The published columns: case, table of frequencies, table of gages, column prefixes.
 ///
 /// Case 3's test column is Case 2's, so it is not counted again.
-const COLUMNS: [(usize, usize, usize, &str); 12] = [
-    (1, 3, 4, "gvt"),
-    (1, 3, 4, "initial"),
-    (1, 3, 4, "pass_1"),
-    (1, 3, 4, "pass_2"),
-    (2, 5, 6, "gvt"),
-    (2, 5, 6, "initial"),
-    (2, 5, 6, "pass_1"),
-    (2, 5, 6, "pass_2"),
-    (3, 7, 8, "initial"),
-    (3, 7, 8, "pass_1"),
-    (3, 7, 8, "pass_2"),
-    (3, 7, 8, "pass_3"),
+const COLUMNS: [(usize, usize, usize, [&str; 4]); 3] = [
+    (1, 3, 4, ["gvt", "initial", "pass_1", "pass_2"]),
+    (2, 5, 6, ["gvt", "initial", "pass_1", "pass_2"]),
+    (3, 7, 8, ["initial", "pass_1", "pass_2", "pass_3"]),
 ];
 
 /// Exact solution of the box at one published set of gages, beside the published frequencies.
@@ -67,26 +58,26 @@ pub struct Fit {
 /// Those of the model and its analysis; [`CaseError::Table`] for damaged tables.
 pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
     let mut columns = Vec::new();
-    for (case_number, frequency_table, gage_table, prefix) in COLUMNS {
-        let frequencies = PublishedTable::number(frequency_table)?;
-        let gages = PublishedTable::number(gage_table)?;
-        let case = Case::on(case_number, reconstruction.clone())?;
-        let gages = (1..=PANEL_COUNT)
-            .map(|element| gages.required(&element.to_string(), &format!("{prefix}_in")))
-            .collect::<Result<Vec<_>, _>>()?;
+    for (number, frequency_table, gage_table, prefixes) in COLUMNS {
+        let (frequencies, gages) = (PublishedTable::number(frequency_table)?, PublishedTable::number(gage_table)?);
+        let case = Case::on(number, reconstruction.clone())?;
         let test = case.test_modes()?;
-        let model = case.model_with(&gages)?;
-        let solution = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?.exact;
-        columns.push(FitColumn {
-            case: case_number,
-            column: prefix.to_owned(),
-            frequencies_hz: solution.modes.frequencies_hz(),
-            published_hz: (1..=test.len())
-                .map(|mode| frequencies.required(&mode.to_string(), &format!("{prefix}_hz")))
-                .collect::<Result<_, _>>()?,
-            frequency_rms: solution.errors.frequency_rms(),
-            shape_rms: solution.errors.shape_rms(),
-        });
+        for prefix in prefixes {
+            let rows = |table: &PublishedTable, count: usize, unit: &str| {
+                let heading = format!("{prefix}_{unit}");
+                (1..=count).map(|row| table.required(&row.to_string(), &heading)).collect::<Result<Vec<_>, _>>()
+            };
+            let model = case.model_with(&rows(&gages, PANEL_COUNT, "in")?)?;
+            let solution = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?.exact;
+            columns.push(FitColumn {
+                case: number,
+                column: prefix.to_owned(),
+                frequencies_hz: solution.modes.frequencies_hz(),
+                published_hz: rows(&frequencies, test.len(), "hz")?,
+                frequency_rms: solution.errors.frequency_rms(),
+                shape_rms: solution.errors.shape_rms(),
+            });
+        }
     }
     let (mut sum, mut count) = (0.0, 0.0);
     let (mut largest, mut largest_at) = (0.0_f64, (0, String::new(), 0));

@@ -12,12 +12,10 @@ pub use run::{Anomaly, BUILT_IN, CaseResult, anomalies, run_case, run_case_with}
 
 use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure};
+use crate::cases::torque_box::{COVERS, PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure};
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
-use crate::method::model::FiniteElementModel;
-use crate::method::model::Parameter;
-use crate::method::model::Range;
+use crate::method::model::{FiniteElementModel, Parameter, Range};
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
 use crate::method::structure::ElementKind;
@@ -31,16 +29,14 @@ pub enum Grouping {
     /// Every panel on its own, as in the paper's tables.
     #[default]
     Elements,
-    /// The paper's substructures: all covers, all spars, all ribs.
-    ///
-    /// In Case 3 a group has panels at both gage bounds and could not move: there its factor is kept within the ratio of the
-    /// bounds instead.
+    /// The paper's substructures: all covers, all spars, all ribs. In Case 3 a group has panels at both gage bounds and
+    /// could not move: there its factor is kept within the ratio of the bounds instead.
     Substructures,
 }
 
 /// The box's substructures and their panels.
 const SUBSTRUCTURES: [(&str, &[usize]); 3] =
-    [("covers", &[2, 4, 8, 9, 11, 15]), ("spars", &[1, 3, 5, 6, 10, 14]), ("ribs", &[7, 12, 13])];
+    [("covers", &COVERS), ("spars", &[1, 3, 5, 6, 10, 14]), ("ribs", &[7, 12, 13])];
 
 /// A case: what the structure really is, what the model says it is, and how it is correlated.
 #[derive(Debug, Clone)]
@@ -80,34 +76,27 @@ impl Case {
         }
         let table = PublishedTable::number(2)?;
         let gage_heading = format!("gage_{number}");
-        let panels = (1..=PANEL_COUNT)
-            .map(|label| {
-                let row = label.to_string();
-                let grids = (1..=4)
-                    .map(|corner| Ok(table.required(&row, &format!("grid_{corner}"))? as usize))
-                    .collect::<Result<_, CaseError>>()?;
-                let kind = match table.text(&row, &format!("type_{number}")) {
-                    Some("S") => ElementKind::ShearPanel,
-                    Some("M") => ElementKind::Membrane,
-                    other => {
-                        return Err(CaseError::Table {
-                            name: table.name.clone(),
-                            expected: format!("S or M for element {label}"),
-                            found: other.unwrap_or("nothing").to_owned(),
-                        });
-                    }
-                };
-                Ok(Panel { label, grids, kind, gage: table.required(&row, &gage_heading)? })
-            })
-            .collect::<Result<Vec<_>, CaseError>>()?;
-        // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
-        let gage_range = (number == 3).then_some(Range { lower: 0.007, upper: 0.013 });
+        let panel = |label: usize| {
+            let row = label.to_string();
+            let grids = (1..=4).map(|corner| Ok(table.required(&row, &format!("grid_{corner}"))? as usize));
+            let grids = grids.collect::<Result<_, CaseError>>()?;
+            let kind = match table.text(&row, &format!("type_{number}")) {
+                Some("S") => Ok(ElementKind::ShearPanel),
+                Some("M") => Ok(ElementKind::Membrane),
+                other => {
+                    let expected = format!("S or M for element {label}");
+                    Err(CaseError::table(&table.name, expected, other.unwrap_or("nothing")))
+                }
+            }?;
+            Ok(Panel { label, grids, kind, gage: table.required(&row, &gage_heading)? })
+        };
         Ok(Self {
             number,
             reconstruction,
-            panels,
+            panels: (1..=PANEL_COUNT).map(panel).collect::<Result<_, CaseError>>()?,
             rod_area: table.required("16-39", &gage_heading)?,
-            gage_range,
+            // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
+            gage_range: (number == 3).then_some(Range { lower: 0.007, upper: 0.013 }),
             grouping: Grouping::Elements,
             settings: published_settings(number),
         })
@@ -119,33 +108,21 @@ impl Case {
     /// [`crate::method::error::Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
     pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
         check_length("panel gages", gages.len(), self.panels.len())?;
-        let panels: Vec<Panel> =
-            self.panels.iter().zip(gages).map(|(panel, &gage)| Panel { gage, ..panel.clone() }).collect();
-        Ok(FiniteElementModel::new(
-            structure(&self.reconstruction, &panels, self.rod_area)?,
-            load_distribution(&self.reconstruction)?,
-            self.reconstruction.mass(),
-            self.parameters(),
-        )?)
+        let panels = self.panels.iter().zip(gages).map(|(panel, &gage)| Panel { gage, ..panel.clone() });
+        let structure = structure(&self.reconstruction, &panels.collect::<Vec<_>>(), self.rod_area)?;
+        let t = load_distribution(&self.reconstruction)?;
+        Ok(FiniteElementModel::new(structure, t, self.reconstruction.mass(), self.parameters())?)
     }
 
-    /// What is scaled: single panels or substructures.
     fn parameters(&self) -> Vec<Parameter> {
-        match self.grouping {
-            Grouping::Elements => {
-                self.panels.iter().map(|panel| Parameter::element(panel.label, self.gage_range)).collect()
-            }
-            Grouping::Substructures => SUBSTRUCTURES
-                .iter()
-                .map(|&(name, elements)| Parameter {
-                    // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
-                    factor_range: self
-                        .gage_range
-                        .map(|range| Range { lower: range.lower / range.upper, upper: range.upper / range.lower }),
-                    ..Parameter::group(name, elements)
-                })
-                .collect(),
+        if self.grouping == Grouping::Elements {
+            return self.panels.iter().map(|panel| Parameter::element(panel.label, self.gage_range)).collect();
         }
+        // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
+        let ratio = |range: Range| Range { lower: range.lower / range.upper, upper: range.upper / range.lower };
+        let factor_range = self.gage_range.map(ratio);
+        let groups = SUBSTRUCTURES.iter();
+        groups.map(|&(name, elements)| Parameter { factor_range, ..Parameter::group(name, elements) }).collect()
     }
 
     /// The model with the case's first gages.
@@ -188,16 +165,11 @@ impl Case {
 /// The number of passes is prescribed, not found, so that tables line up with the published ones pass by pass; the
 /// tolerances then judge the result.
 fn published_settings(number: usize) -> Settings {
-    let passes = match number {
-        1 | 2 => 2,
-        3 => 3,
-        _ => 1,
+    let (passes, iterations) = match number {
+        1 | 2 => (2, 100),
+        3 => (3, 100),
+        _ => (1, 1),
     };
-    let iterations = if number == 4 { 1 } else { 100 };
-    Settings {
-        inner: InnerSettings { iterations, ..InnerSettings::default() },
-        least_passes: passes,
-        most_passes: passes,
-        ..Settings::default()
-    }
+    let inner = InnerSettings { iterations, ..InnerSettings::default() };
+    Settings { inner, least_passes: passes, most_passes: passes, ..Settings::default() }
 }

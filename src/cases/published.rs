@@ -49,7 +49,7 @@ impl PublishedTable {
         let name = format!("paper/tables/table_{number}.csv");
         match TABLES.iter().find(|(known, _)| *known == number) {
             Some((_, text)) => Self::parse(number, &name, text),
-            None => Err(CaseError::Table { name, expected: "a table from 2 to 13".into(), found: number.to_string() }),
+            None => Err(CaseError::table(&name, "a table from 2 to 13".into(), number.to_string())),
         }
     }
 
@@ -67,23 +67,16 @@ impl PublishedTable {
             let label = row.next().unwrap_or_default();
             let row: Vec<String> = row.collect();
             if row.len() != headings.len() {
-                return Err(CaseError::Table {
-                    name: name.to_owned(),
-                    expected: format!("{} cells in row {label}", headings.len()),
-                    found: row.len().to_string(),
-                });
+                let expected = format!("{} cells in row {label}", headings.len());
+                return Err(CaseError::table(name, expected, row.len().to_string()));
             }
-            for (heading, cell) in headings.iter().zip(row) {
-                cells.insert((label.clone(), heading.clone()), cell);
-            }
+            let keys = headings.iter().map(|heading| (label.clone(), heading.clone()));
+            cells.extend(keys.zip(row));
             labels.push(label);
         }
-        let remarks = text
-            .lines()
-            .filter_map(|line| line.strip_prefix("# "))
-            .filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)))
-            .map(str::to_owned)
-            .collect();
+        let remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
+        let remarks = remarks.filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)));
+        let remarks = remarks.map(str::to_owned).collect();
         Ok(Self { number, remarks, name: name.to_owned(), headings, labels, cells })
     }
 
@@ -102,10 +95,9 @@ impl PublishedTable {
     /// # Errors
     /// [`CaseError::Table`] naming the cell.
     pub fn required(&self, label: &str, heading: &str) -> Result<f64, CaseError> {
-        self.value(label, heading).ok_or_else(|| CaseError::Table {
-            name: self.name.clone(),
-            expected: format!("a number in row {label}, column {heading}"),
-            found: self.text(label, heading).unwrap_or("nothing").to_owned(),
+        self.value(label, heading).ok_or_else(|| {
+            let expected = format!("a number in row {label}, column {heading}");
+            CaseError::table(&self.name, expected, self.text(label, heading).unwrap_or("nothing"))
         })
     }
 }

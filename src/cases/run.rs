@@ -4,8 +4,7 @@ use super::Case;
 use crate::cases::error::CaseError;
 use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
-use crate::method::model::FiniteElementModel;
-use crate::method::model::{ModalModel, Range};
+use crate::method::model::{FiniteElementModel, ModalModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 
@@ -55,10 +54,9 @@ impl CaseResult {
     /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
     /// faulty element.
     pub fn succeeded(&self) -> bool {
-        if self.case.number == 4 && self.case.settings.inner.iterations == 1 {
-            !self.anomalies.is_empty()
-        } else {
-            self.correlation.converged
+        match (self.case.number, self.case.settings.inner.iterations) {
+            (4, 1) => !self.anomalies.is_empty(),
+            _ => self.correlation.converged,
         }
     }
 }
@@ -92,11 +90,8 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
         &case.settings,
         progress,
     )?;
-    let pass_gages = correlation
-        .passes
-        .iter()
-        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()))
-        .collect::<Result<_, Error>>()?;
+    let pass_gages = correlation.passes.iter().map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
+    let pass_gages = pass_gages.collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
     let anomalies = correlation.passes.first().map_or_else(Vec::new, |pass| {
         anomalies(&parameter_names, &pass.inner.first_unlimited_factors, case.settings.inner.factor_range)
@@ -109,17 +104,9 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
 /// Far is twenty widths of the bounds beyond them: no sequence of bounded steps is meant to go there.
 pub fn anomalies(names: &[String], unlimited_factors: &[f64], factor_range: Range) -> Vec<Anomaly> {
     let width = factor_range.upper - factor_range.lower;
-    let mut found: Vec<(f64, Anomaly)> = names
-        .iter()
-        .zip(unlimited_factors)
-        .filter_map(|(name, &factor)| {
-            let beyond = (factor - factor_range.upper).max(factor_range.lower - factor);
-            (beyond > ANOMALY_WIDTHS * width).then(|| {
-                let parameter = name.clone();
-                (beyond, Anomaly { parameter, factor })
-            })
-        })
-        .collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    found.into_iter().map(|(_, anomaly)| anomaly).collect()
+    let beyond = |factor: f64| (factor - factor_range.upper).max(factor_range.lower - factor);
+    let all = names.iter().zip(unlimited_factors).filter(|(_, factor)| beyond(**factor) > ANOMALY_WIDTHS * width);
+    let mut found: Vec<_> = all.map(|(name, &factor)| Anomaly { parameter: name.clone(), factor }).collect();
+    found.sort_by(|a, b| beyond(b.factor).total_cmp(&beyond(a.factor)));
+    found
 }

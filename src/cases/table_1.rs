@@ -122,18 +122,12 @@ pub fn table_1(problems: &[TwoMasses], orders: usize) -> Result<Table1, Error> {
     let mut formulae = vec![Formula::FirstOrder, Formula::Original];
     formulae.extend((2..=orders).map(|order| Formula::Recursive1 { order }));
     formulae.extend((2..=orders).map(|order| Formula::Recursive2 { order }));
-    let rows = problems
-        .iter()
-        .map(|&problem| {
-            let root_errors = formulae.iter().map(|&formula| problem.root_errors(formula));
-            Ok(RootErrors {
-                problem,
-                exact_roots: problem.exact_roots(),
-                root_errors: root_errors.collect::<Result<_, Error>>()?,
-            })
-        })
-        .collect::<Result<_, Error>>()?;
-    Ok(Table1 { formulae, rows })
+    let row = |&problem: &TwoMasses| {
+        let root_errors = formulae.iter().map(|&formula| problem.root_errors(formula));
+        let root_errors = root_errors.collect::<Result<_, Error>>()?;
+        Ok(RootErrors { problem, exact_roots: problem.exact_roots(), root_errors })
+    };
+    Ok(Table1 { rows: problems.iter().map(row).collect::<Result<_, Error>>()?, formulae })
 }
 
 /// The problems of the printed table: couplings from a quarter to twice a ground spring, changes from −50 to +100 %.

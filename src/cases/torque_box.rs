@@ -4,7 +4,7 @@
 //! (upper, then lower). Rib 1-4 is the tip, 5-8 outboard, 9-12 inboard, 13-16 the root, which is fixed.
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
-use crate::cases::error::CaseError;
+use crate::cases::error::{CaseError, read_toml};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 
 /// Panels of the box, elements 1 to 15.
 pub const PANEL_COUNT: usize = 15;
+/// Cover panels.
+pub const COVERS: [usize; 6] = [2, 4, 8, 9, 11, 15];
 /// Gage of every panel in the test configuration, in.
 pub const TEST_GAGE: f64 = 0.010;
 /// Number of ribs that move.
@@ -57,28 +59,23 @@ impl Reconstruction {
     /// [`CaseError::MissingGrid`] unless the grids are 1 to 16;
     /// [`Error::Setting`] for a mid-chord fraction not between 0 and 1.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
-        let read: Self = toml::from_str(text).map_err(|source| CaseError::Toml {
-            name: name.to_owned(),
-            expected: "a torque box: material, masses and grids",
-            source: Box::new(source),
-        })?;
-        for (what, found, expected) in
-            [("box grids", read.grids.len(), GRID_COUNT), ("box masses", read.masses.len(), 3 * FREE_RIBS)]
-        {
-            check_length(what, found, expected)?;
-        }
+        let read: Self = read_toml(name, "a torque box: material, masses and grids", text)?;
+        check_length("box grids", read.grids.len(), GRID_COUNT)?;
+        check_length("box masses", read.masses.len(), 3 * FREE_RIBS)?;
         if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
             return Err(CaseError::MissingGrid { grid, count: GRID_COUNT });
         }
         if !(read.mid_chord_fraction > 0.0 && read.mid_chord_fraction < 1.0) {
-            return Err(Error::Setting {
-                name: "mid_chord_fraction",
-                expected: "a number between 0 and 1",
-                found: read.mid_chord_fraction,
-            }
-            .into());
+            let (name, found) = ("mid_chord_fraction", read.mid_chord_fraction);
+            return Err(Error::Setting { name, expected: "a number between 0 and 1", found }.into());
         }
         Ok(read)
+    }
+
+    /// Position of a grid, in.
+    fn at(&self, grid: usize) -> Result<Vector3<f64>, CaseError> {
+        let position = self.grids.get(&grid).ok_or(CaseError::MissingGrid { grid, count: GRID_COUNT })?;
+        Ok(Vector3::from(*position))
     }
 
     /// The diagonal dynamic mass matrix $M$, lbf·s²/in (9 × 9).
@@ -102,12 +99,8 @@ pub struct Panel {
 
 /// RMS relative error of the gages of one kind of panel against [`TEST_GAGE`]; NaN when there is none of the kind.
 pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
-    let errors: Vec<f64> = panels
-        .iter()
-        .zip(gages)
-        .filter(|(panel, _)| panel.kind == kind)
-        .map(|(_, gage)| (gage / TEST_GAGE - 1.0).powi(2))
-        .collect();
+    let gages = panels.iter().zip(gages).filter(|(panel, _)| panel.kind == kind);
+    let errors: Vec<f64> = gages.map(|(_, gage)| (gage / TEST_GAGE - 1.0).powi(2)).collect();
     (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
 }
 
@@ -116,16 +109,12 @@ pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
 pub fn rod_ends() -> Vec<[usize; 2]> {
     let mut rods = Vec::new();
     for line in 1..=RIB_GRIDS {
-        for rib in 0..FREE_RIBS {
-            rods.push([line + RIB_GRIDS * rib, line + RIB_GRIDS * (rib + 1)]);
-        }
+        rods.extend((0..FREE_RIBS).map(|rib| [line + RIB_GRIDS * rib, line + RIB_GRIDS * (rib + 1)]));
     }
     for rib in 0..FREE_RIBS {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
-        rods.push([rear_upper, rear_lower]);
-        rods.push([front_upper, front_lower]);
-        rods.push([rear_upper, front_upper]);
-        rods.push([rear_lower, front_lower]);
+        rods.extend([[rear_upper, rear_lower], [front_upper, front_lower]]);
+        rods.extend([[rear_upper, front_upper], [rear_lower, front_lower]]);
     }
     rods
 }
@@ -141,30 +130,19 @@ fn rib_grids(rib: usize) -> [usize; 4] {
 /// Those of [`Material::isotropic`] and [`Structure::new`].
 pub fn structure(reconstruction: &Reconstruction, panels: &[Panel], rod_area: f64) -> Result<Structure, Error> {
     let material = Material::isotropic(reconstruction.youngs_modulus, reconstruction.poissons_ratio)?;
-    let grids = reconstruction
-        .grids
-        .iter()
-        .map(|(&label, &position)| Grid {
-            label,
-            position: Vector3::from(position),
-            constrained: [label >= FIRST_FIXED_GRID; 3],
-        })
-        .collect();
-    let panels = panels.iter().map(|panel| Element {
-        label: panel.label,
-        kind: panel.kind,
-        grids: panel.grids.clone(),
-        size: panel.gage,
-        material,
+    let grids = reconstruction.grids.iter().map(|(&label, &position)| {
+        let constrained = [label >= FIRST_FIXED_GRID; 3];
+        Grid { label, position: Vector3::from(position), constrained }
     });
-    let rods = rod_ends().into_iter().enumerate().map(|(row, ends)| Element {
-        label: PANEL_COUNT + 1 + row,
-        kind: ElementKind::Rod,
-        grids: ends.to_vec(),
-        size: rod_area,
-        material,
+    let panels = panels.iter().map(|panel| {
+        let Panel { label, kind, grids, gage } = panel.clone();
+        Element { label, kind, grids, size: gage, material }
     });
-    Structure::new(grids, panels.chain(rods).collect())
+    let rods = (PANEL_COUNT + 1..).zip(rod_ends()).map(|(label, ends)| {
+        let (kind, grids) = (ElementKind::Rod, ends.to_vec());
+        Element { label, kind, grids, size: rod_area, material }
+    });
+    Structure::new(grids.collect(), panels.chain(rods).collect())
 }
 
 /// The load distribution $T$ of the box (36 × 9), columns rear, mid, front of each free rib from the tip in.
@@ -191,13 +169,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
         3.0 * xi.powi(2) - 2.0 * xi.powi(3),
         xi.powi(3) - xi.powi(2),
     ];
-    let at = |grid: usize| {
-        reconstruction
-            .grids
-            .get(&grid)
-            .map(|&position| Vector3::from(position))
-            .ok_or(CaseError::MissingGrid { grid, count: GRID_COUNT })
-    };
+    let at = |grid| reconstruction.at(grid);
     let mut t = DMatrix::zeros(3 * RIB_GRIDS * FREE_RIBS, 3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
@@ -232,10 +204,7 @@ fn nonzero(length: f64) -> Result<f64, Error> {
 /// # Errors
 /// [`CaseError::MissingGrid`] for a box without a grid it must have.
 pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, CaseError> {
-    let at = |grid: usize| match reconstruction.grids.get(&grid) {
-        Some(&position) => Ok(Vector3::from(position)),
-        None => Err(CaseError::MissingGrid { grid, count: GRID_COUNT }),
-    };
+    let at = |grid| reconstruction.at(grid);
     let mut points = Vec::with_capacity(3 * FREE_RIBS);
     for rib in 0..FREE_RIBS {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);

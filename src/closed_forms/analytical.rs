@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
 /// [`crate::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
-/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} +
-///    \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
+/// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad
+///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
 ///
 /// $X_i$, $Y_i$ are the corners in the mean plane (corner 1 at the origin, $Y_2 = 0$), $A$ the area. The caller says
 /// that the sides are parallel; nothing is tested. Source: NASA SP-222, shear panel; rederived.
@@ -127,18 +127,12 @@ pub enum ChainEnds {
 /// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
 pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) -> Vec<f64> {
     let n = count as f64;
-    (1..=count)
-        .map(|j| {
-            let j = j as f64;
-            let theta = PI
-                * match ends {
-                    ChainEnds::FixedFixed => j / (n + 1.0),
-                    ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
-                    ChainEnds::FreeFree => (j - 1.0) / n,
-                };
-            4.0 * spring / mass * (0.5 * theta).sin().powi(2)
-        })
-        .collect()
+    let share = |j: f64| match ends {
+        ChainEnds::FixedFixed => j / (n + 1.0),
+        ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
+        ChainEnds::FreeFree => (j - 1.0) / n,
+    };
+    (1..=count).map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2)).collect()
 }
 
 /// Frequencies of a uniform rod fixed at one end, vibrating along itself, ascending, Hz.

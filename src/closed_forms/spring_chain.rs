@@ -1,6 +1,7 @@
 //! Chains of point masses and springs: structures whose stiffness is written down at sight, and, when uniform, whose
 //! modes are too.
 
+use super::analytical::{ChainEnds, chain_eigenvalues};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::structure::positive;
@@ -24,7 +25,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
     stiffness * &ends * ends.transpose()
 }
 
-/// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) between $d+1$ springs $k$ (lbf/in), both ends held:
+/// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) and $d+1$ springs $k$ (lbf/in), both ends held:
 ///
 /// $$ \omega_i^2 = 4\frac{k}{m}\sin^2\frac{i\pi}{2(d+1)}, \qquad
 ///    v_{ji} = \sqrt{\frac{2}{(d+1)m}} \sin\frac{ij\pi}{d+1}, \qquad i, j = 1 \dots d $$
@@ -45,9 +46,6 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Resul
         let angle = ((i + 1) * (j + 1)) as f64 * PI / span;
         (2.0 / (span * mass)).sqrt() * angle.sin()
     });
-    let omega_squared = DVector::from_fn(mass_count, |i, _| {
-        let half_angle = (i + 1) as f64 * PI / (2.0 * span);
-        4.0 * stiffness / mass * half_angle.sin().powi(2)
-    });
-    Ok(Modes::ascending(omega_squared, shapes))
+    let omega_squared = chain_eigenvalues(ChainEnds::FixedFixed, mass_count, stiffness, mass);
+    Ok(Modes::ascending(DVector::from_vec(omega_squared), shapes))
 }

@@ -4,7 +4,7 @@ use crate::method::appendix_c::Perturbed;
 use crate::method::appendix_c::recursive::check_input;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, dvector};
 
 /// Squared circular frequencies of $K v = \omega^2 M v$ (2 × 2), ascending, rad²/s².
 ///
@@ -63,13 +63,9 @@ pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> R
     let [beta11, b, beta22] = entries(beta);
     let a = generalized_stiffness[0] + beta11;
     let d = generalized_stiffness[1] + beta22;
-    let tangent = if b == 0.0 {
-        0.0
-    } else {
-        let tau = (d - a) / (2.0 * b);
-        (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau)
-    };
-    let roots = DVector::from_vec(vec![1.0 / (a - tangent * b), 1.0 / (d + tangent * b)]);
+    let tau = (d - a) / (2.0 * b);
+    let tangent = if b == 0.0 { 0.0 } else { (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau) };
+    let roots = dvector![1.0 / (a - tangent * b), 1.0 / (d + tangent * b)];
     let perturbed = Perturbed { roots, shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]) };
     perturbed.check_roots()?;
     Ok(perturbed)

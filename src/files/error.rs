@@ -50,7 +50,8 @@ pub enum FileError {
     },
     /// NASTRAN-95 is not in the given folder.
     #[error(
-        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; name it with --nastran or the environment variable NASTRAN95"
+        "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; \
+         name it with --nastran or the environment variable NASTRAN95"
     )]
     SolverMissing {
         /// The folder looked in.
@@ -100,9 +101,12 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// The error about a line of a deck.
     pub(crate) fn line(file: &str, line: usize, expected: &'static str, found: impl Into<String>) -> Self {
         Self::DeckLine { file: file.to_owned(), line, expected, found: found.into() }
+    }
+
+    pub(crate) fn answer(expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::SolverAnswer { expected: expected.into(), found: found.into() }
     }
 
     /// Turns the operating system's error about a file into this one, for `map_err`.

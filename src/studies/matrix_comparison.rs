@@ -6,6 +6,7 @@
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
+pub use crate::cases::torque_box::COVERS;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
@@ -21,10 +22,8 @@ use serde::Serialize;
 /// The case compared unless another is asked for: every panel is wrong by as much, so that a corrected stiffness
 /// can be judged entry by entry.
 pub const USUAL_CASE: usize = 2;
-/// Test modes given to the corrections unless another number is asked for: about half, so that there are others to predict.
+/// Test modes given to the corrections unless told otherwise: about half, so that there are others to predict.
 pub const USUAL_TEST_MODES: usize = 5;
-/// Covers of the box.
-pub const COVERS: [usize; 6] = [2, 4, 8, 9, 11, 15];
 /// Name of the prediction that is right by definition.
 pub const TRUTH: &str = "Truth";
 /// What the design change adds to every cover's gage, in: half of what a tested cover has.
@@ -67,6 +66,9 @@ pub struct ElementFactor {
     pub nearest_to_baruch: f64,
 }
 
+/// A model before it is judged: its name, its stiffness as tested and after the design change, its mass.
+type Candidate<'a> = (&'static str, DMatrix<f64>, DMatrix<f64>, &'a DMatrix<f64>);
+
 /// The comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MatrixComparison {
@@ -88,8 +90,8 @@ pub struct MatrixComparison {
 ///
 /// The element factors come from [`correlate`] with the case's settings and all analysis modes. Baruch's correction is
 /// given the exact test shapes. Berman and Nagy's is given them rounded to two digits, because with exact ones there
-/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the change
-/// of $K_D$ in the uncorrected model.
+/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the
+/// change of $K_D$ in the uncorrected model.
 ///
 /// # Errors
 /// Those of the model, the loops and the corrections.
@@ -122,38 +124,32 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let true_modes = solve(&candidates[1].1, mass, mass.nrows())?;
     let true_changed = solve(&candidates[1].2, mass, mass.nrows())?;
     let start_distance = weighted_norm(&(&start.stiffness - &candidates[1].1), mass)?;
-    let predictions = candidates
-        .iter()
-        .map(|(name, stiffness, changed, own_mass)| {
-            let change = stiffness - &start.stiffness;
-            let separation = weighted_norm(&(stiffness - &candidates[1].1), mass)?;
-            Ok(Prediction {
-                model: name,
-                as_tested: frequency_errors(stiffness, own_mass, &true_modes)?,
-                after_change: frequency_errors(changed, own_mass, &true_changed)?,
-                stiffness_change: relative_entries(&change, &start.stiffness),
-                mass_change: relative_entries(&(*own_mass - mass), mass),
-                distance_left: separation / start_distance,
-                beyond_elements: nearest_factors(&change, &start)?.1,
-            })
+    let predict = |(name, stiffness, changed, own_mass): &Candidate| {
+        let change = stiffness - &start.stiffness;
+        Ok(Prediction {
+            model: name,
+            as_tested: frequency_errors(stiffness, own_mass, &true_modes)?,
+            after_change: frequency_errors(changed, own_mass, &true_changed)?,
+            stiffness_change: relative_entries(&change, &start.stiffness),
+            mass_change: relative_entries(&(*own_mass - mass), mass),
+            distance_left: weighted_norm(&(stiffness - &candidates[1].1), mass)? / start_distance,
+            beyond_elements: nearest_factors(&change, &start)?.1,
         })
-        .collect::<Result<_, Error>>()?;
+    };
     let nearest = nearest_factors(&(&baruch - &start.stiffness), &start)?.0;
-    let factors = (0..PANEL_COUNT)
-        .map(|e| ElementFactor {
-            element: case.panels[e].label,
-            truth: TEST_GAGE / first[e],
-            found: found[e] / first[e],
-            nearest_to_baruch: 1.0 + nearest[e],
-        })
-        .collect();
+    let factor = |e: usize| ElementFactor {
+        element: case.panels[e].label,
+        truth: TEST_GAGE / first[e],
+        found: found[e] / first[e],
+        nearest_to_baruch: 1.0 + nearest[e],
+    };
     Ok(MatrixComparison {
         case: case.number,
         test_modes,
         as_tested_hz: true_modes.frequencies_hz(),
         after_change_hz: true_changed.frequencies_hz(),
-        predictions,
-        factors,
+        predictions: candidates.iter().map(predict).collect::<Result<_, Error>>()?,
+        factors: (0..PANEL_COUNT).map(factor).collect(),
     })
 }
 
@@ -194,13 +190,12 @@ fn frequency_errors(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, truth: &Modes
 /// $\Delta_{ij}/\sqrt{A_{ii} A_{jj}}$, row by row.
 fn relative_entries(change: &DMatrix<f64>, before: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let size = before.nrows();
-    let scale = |i: usize, j: usize| (before[(i, i)] * before[(j, j)]).sqrt();
-    let row = |i: usize| (0..size).map(|j| change[(i, j)] / scale(i, j)).collect();
-    (0..size).map(row).collect()
+    let entry = |i: usize, j: usize| change[(i, j)] / (before[(i, i)] * before[(j, j)]).sqrt();
+    (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part of it
-/// that is left, both in the weighted norm.
+/// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part
+/// of it that is left, both in the weighted norm.
 ///
 /// On a box that is symmetric about its mid-plane upper and lower cover have like shares, so that only their sum is
 /// determined: of all nearest sets it is the smallest, each $c_e$ weighted with the norm of its share.
@@ -209,22 +204,12 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         let weighted = mass_weighted(matrix, &start.mass)?;
         Ok::<_, Error>(DVector::from_column_slice(weighted.as_slice()))
     };
-    let mut columns = Vec::with_capacity(start.shares.len());
-    let mut norms = Vec::with_capacity(start.shares.len());
-    for share in &start.shares {
-        let column = weighted(share.matrix())?;
-        norms.push(column.norm());
-        columns.push(column.normalize());
-    }
-    let shares = DMatrix::from_columns(&columns);
+    let columns = start.shares.iter().map(|share| weighted(share.matrix())).collect::<Result<Vec<_>, _>>()?;
+    let shares = DMatrix::from_columns(&columns.iter().map(DVector::normalize).collect::<Vec<_>>());
     let target = weighted(change)?;
-    let coefficients = shares
-        .clone()
-        .svd(true, true)
-        .solve(&target, SMALLEST_SINGULAR_VALUE)
-        .map_err(|_| Error::NoConvergence("element shares"))?;
-    let left = (&target - shares * &coefficients).norm();
-    let whole = target.norm();
-    let factors = coefficients.iter().zip(norms).map(|(c, norm)| c / norm);
+    let nearest = shares.clone().svd(true, true).solve(&target, SMALLEST_SINGULAR_VALUE);
+    let coefficients = nearest.map_err(|_| Error::NoConvergence("element shares"))?;
+    let (left, whole) = ((&target - shares * &coefficients).norm(), target.norm());
+    let factors = coefficients.iter().zip(&columns).map(|(c, column)| c / column.norm());
     Ok((factors.collect(), if whole > 0.0 { left / whole } else { 0.0 }))
 }

@@ -1,7 +1,8 @@
 //! Corrections of whole matrices: what the method does not do, and is to be compared with.
 //!
-//! In closed form, with the smallest change in a weighted norm, they give a model that has the measured modes exactly. The
-//! change is spread over all entries of the matrix: nothing says which element it belongs to, nor that any could make it.
+//! In closed form, with the smallest change in a weighted norm, they give a model that has the measured modes exactly.
+//! The change is spread over all entries of the matrix: nothing says which element it belongs to, nor that any could
+//! make it.
 //!
 //! Sources: Baruch, "Optimization Procedure to Correct Stiffness and Flexibility Matrices Using Vibration Tests", *AIAA
 //! Journal* 16 (1978), 1208–1210; Berman and Nagy, "Improvement of a Large Analytical Model Using Test Data", *AIAA
@@ -21,12 +22,13 @@ const LARGEST_CROSS_MASS: f64 = 1e-8;
 ///
 /// $$ K = K_A - K_A \Phi\Phi^t M - M \Phi\Phi^t K_A + M \Phi\Phi^t K_A \Phi\Phi^t M + M \Phi \Omega^2 \Phi^t M $$
 ///
-/// with the analysis stiffness $K_A$, the mass $M$, and test shapes $\Phi$ (d × g, $\Phi^t M \Phi = I$) of squared circular
-/// frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest [`weighted_norm`] of $K - K_A$.
+/// with the analysis stiffness $K_A$, the mass $M$, and test shapes $\Phi$ (d × g, $\Phi^t M \Phi = I$) of squared
+/// circular frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest
+/// [`weighted_norm`] of $K - K_A$.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for test
-/// shapes that are not orthonormal with this mass.
+/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for
+/// test shapes that are not orthonormal with this mass.
 pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
     // M Φ, and with it the projections M Φ Φᵗ and Φ Φᵗ M.
@@ -44,12 +46,13 @@ pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Mo
 ///
 /// $$ M = M_A + M_A \Phi m_A^{-1} (I - m_A) m_A^{-1} \Phi^t M_A, \qquad m_A = \Phi^t M_A \Phi $$
 ///
-/// with the analysis mass $M_A$ and measured shapes $\Phi$ (d × g) at the scale they are to keep. Of all symmetric $M$ with
-/// $\Phi^t M \Phi = I$ it is the one of smallest [`weighted_norm`] of $M - M_A$.
+/// with the analysis mass $M_A$ and measured shapes $\Phi$ (d × g) at the scale they are to keep. Of all symmetric $M$
+/// with $\Phi^t M \Phi = I$ it is the one of smallest [`weighted_norm`] of $M - M_A$.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotPositiveDefinite`] for a
-/// mass that is not; [`Error::Dependent`] naming the first shape that is a combination of those before it.
+/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
+/// [`Error::NotPositiveDefinite`] for a mass that is not; [`Error::Dependent`] naming the first shape that is a
+/// combination of those before it.
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     check_shape("test mode shapes", shapes, mass.nrows(), shapes.ncols())?;
@@ -91,18 +94,20 @@ pub fn berman_nagy_stiffness(
     Ok(symmetric_part(&(stiffness + &half + half.transpose())))
 }
 
-/// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2} \Delta M^{-1/2} \rVert$: the root of the
-/// sum of squares of all entries, each divided by the masses of its row and column when $M$ is diagonal.
+/// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2} \Delta M^{-1/2} \rVert$: the root of
+/// the sum of squares of all entries, each divided by the masses of its row and column when $M$ is diagonal.
 ///
 /// For a change of stiffness in lbf/in it is in rad²/s², for a change of mass a fraction.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotPositiveDefinite`] for bad matrices.
+/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotPositiveDefinite`] for bad
+/// matrices.
 pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, Error> {
     Ok(mass_weighted(change, mass)?.norm())
 }
 
-/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2} \Delta M^{-1/2}$, and of the same norm.
+/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2} \Delta M^{-1/2}$, and of the same
+/// norm.
 pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;

@@ -2,6 +2,7 @@
 
 use super::number::parse_real;
 use crate::files::error::FileError;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Data fields of a line in the small format, numbered 2 to 9; field 1 is the name, field 10 the continuation.
@@ -9,12 +10,10 @@ pub(super) const FIELDS_PER_LINE: usize = 8;
 /// Largest number of a grid, an element and so on.
 pub(super) const LARGEST_LABEL: usize = 99_999_999;
 
-/// A field as it was read.
+/// A field as it was read: its text without blanks at either end, and its line, from one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Field {
-    /// Its text without blanks at either end.
     pub text: String,
-    /// The line it stands in, from one.
     pub line: usize,
 }
 
@@ -22,15 +21,25 @@ pub(super) struct Field {
 /// [`FileError::DeckField`] about that field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Card {
-    /// The file, for messages.
     pub file: Arc<str>,
     /// The line of its name, from one.
     pub line: usize,
-    /// Its name, such as `GRID`, in capitals and without the asterisk of the large format.
+    /// In capitals and without the asterisk of the large format.
     pub name: String,
-    /// Data fields, eight for every line of the small format or two lines of the large.
+    /// Eight for every line of the small format or two lines of the large.
     pub fields: Vec<Field>,
 }
+
+/// What a card says, and where its entry begins: in field 2, or in field 6 for the second of two on a card.
+#[derive(Debug)]
+pub(super) struct Kept<T> {
+    pub value: T,
+    pub card: Card,
+    pub start: usize,
+}
+
+/// What the cards of one kind say, by number.
+pub(super) type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
     /// A field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.
@@ -46,26 +55,20 @@ impl Card {
 
     /// Numbers of the fields that are not blank, in order.
     pub fn filled(&self) -> Vec<usize> {
-        let fields = self.fields.iter().enumerate();
-        fields
-            .filter(|(_, field)| !field.text.is_empty())
-            .map(|(place, _)| 10 * (place / FIELDS_PER_LINE) + place % FIELDS_PER_LINE + 2)
-            .collect()
+        let filled = (0..self.fields.len()).filter(|&place| !self.fields[place].text.is_empty());
+        filled.map(|place| 10 * (place / FIELDS_PER_LINE) + place % FIELDS_PER_LINE + 2).collect()
     }
 
     /// An error about a field.
     pub fn error(&self, field: usize, expected: impl Into<String>) -> FileError {
-        let found = match self.text(field) {
-            "" => "a blank",
-            text => text,
-        };
+        let text = self.text(field);
         FileError::DeckField {
             file: self.file.to_string(),
             line: self.field(field).map_or(self.line, |field| field.line),
             card: self.name.clone(),
             field,
             expected: expected.into(),
-            found: found.to_owned(),
+            found: if text.is_empty() { "a blank" } else { text }.to_owned(),
         }
     }
 
@@ -102,15 +105,13 @@ impl Card {
     /// Refuses what the crate's elements do not have, `meaning`: the field must be blank or zero.
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
-        if text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
-            return Ok(());
+        match text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
+            true => Ok(()),
+            false => Err(self.error(field, format!("a blank or zero, for the crate has no {meaning}"))),
         }
-        let expected = format!("a blank or zero, for the crate has no {meaning}");
-        Err(self.error(field, expected))
     }
 
-    /// Directions x, y, z named by a list of components such as `123`; 4 to 6, the rotations, are allowed and have no place
-    /// in the result.
+    /// Directions x, y, z among components such as `123`; the rotations, 4 to 6, are allowed and left out.
     pub fn directions(&self, field: usize) -> Result<[bool; 3], FileError> {
         let components = self.text(field);
         if components.chars().all(|c| ('1'..='6').contains(&c)) {
@@ -124,5 +125,22 @@ impl Card {
     pub fn direction(&self, field: usize) -> Result<usize, FileError> {
         let direction = ["1", "2", "3"].iter().position(|c| *c == self.text(field));
         direction.ok_or_else(|| self.error(field, "component 1, 2 or 3"))
+    }
+
+    /// Adds an entry to others by the number in its first field, which no other card may have.
+    pub fn keep<T>(&self, start: usize, value: T, others: &mut Numbered<T>) -> Result<(), FileError> {
+        let kept = Kept { value, card: self.clone(), start };
+        match others.insert(self.label(start)?, kept) {
+            None => Ok(()),
+            Some(first) => {
+                let expected = format!("a number other than that of the card in line {}", first.card.line);
+                Err(self.error(start, expected))
+            }
+        }
+    }
+
+    /// What a field refers to by its number, which must exist; `card` is the name of the card looked for.
+    pub fn referred<'a, T>(&self, field: usize, all: &'a BTreeMap<usize, T>, card: &str) -> Result<&'a T, FileError> {
+        all.get(&self.label(field)?).ok_or_else(|| self.error(field, format!("the number of a {card} card")))
     }
 }

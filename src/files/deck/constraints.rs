@@ -7,13 +7,9 @@ use crate::files::error::FileError;
 use crate::method::structure::{Grid, StructuralDof};
 use std::collections::BTreeMap;
 
-/// Fields of the groups G, C, A on every line of an MPC card.
-const TERM_FIELDS: [usize; 2] = [3, 6];
-
 /// The constraints of the selected sets, as cards.
 #[derive(Debug)]
 pub(super) struct Constraints {
-    /// Whether case control says which sets count.
     by_case_control: bool,
     selected: Selected,
     supports: Vec<Card>,
@@ -23,35 +19,26 @@ pub(super) struct Constraints {
 impl Constraints {
     /// None yet; without case control the one set in the deck counts.
     pub fn new(selected: Option<Selected>) -> Self {
-        Self {
-            by_case_control: selected.is_some(),
-            selected: selected.unwrap_or_default(),
-            supports: Vec::new(),
-            equations: Vec::new(),
-        }
+        let by_case_control = selected.is_some();
+        Self { by_case_control, selected: selected.unwrap_or_default(), supports: Vec::new(), equations: Vec::new() }
     }
 
-    /// Takes an SPC1 or MPC card if its set counts; whether it does. A second set is an error where no case control selects
-    /// one.
-    pub fn take(&mut self, card: Card) -> Result<bool, FileError> {
+    /// Takes an SPC1 or MPC card if its set counts; whether it does. Without case control a second set is an error.
+    pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
         let set = card.label(2)?;
-        let (chosen, cards) = if card.name == "SPC1" {
-            (&mut self.selected.spc, &mut self.supports)
-        } else {
-            (&mut self.selected.mpc, &mut self.equations)
+        let (chosen, cards) = match card.name.as_str() {
+            "SPC1" => (&mut self.selected.spc, &mut self.supports),
+            _ => (&mut self.selected.mpc, &mut self.equations),
         };
         if !self.by_case_control {
             let first = *chosen.get_or_insert(set);
             if first != set {
-                let expected = format!("set {first} again, for no case control selects one");
-                return Err(card.error(2, expected));
+                return Err(card.error(2, format!("set {first} again, for no case control selects one")));
             }
         }
-        if *chosen != Some(set) {
-            return Ok(false);
-        }
-        cards.push(card);
-        Ok(true)
+        let is_chosen = *chosen == Some(set);
+        cards.extend(is_chosen.then(|| card.clone()));
+        Ok(is_chosen)
     }
 
     /// Marks what is constrained: the grids of every card one by one, or from the first to the last of `G1 THRU G2`.
@@ -69,49 +56,40 @@ impl Constraints {
                 let first = card.label(field)?;
                 let mut last = first;
                 if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
-                    let end = fields.next();
-                    let end = end.ok_or_else(|| card.error(word + 1, "a grid after THRU"))?;
+                    let end = fields.next().ok_or_else(|| card.error(word + 1, "a grid after THRU"))?;
                     last = card.label(end)?;
                     if last < first {
                         return Err(card.error(end, format!("a grid after {first}")));
                     }
                 }
-                let mut is_known = false;
-                for (_, grid) in grids.range_mut(first..=last) {
-                    is_known = true;
-                    for (constrained, direction) in grid.constrained.iter_mut().zip(directions) {
-                        *constrained |= direction;
-                    }
-                }
-                if !is_known {
+                let mut run = grids.range_mut(first..=last).peekable();
+                if run.peek().is_none() {
                     return Err(card.error(field, "the number of a GRID card"));
+                }
+                for (_, grid) in run {
+                    grid.constrained = std::array::from_fn(|d| grid.constrained[d] || directions[d]);
                 }
             }
         }
         Ok(())
     }
 
-    /// The equations, by dependent DOF. A dependent DOF may be neither constrained nor in another equation, and its
-    /// coefficient may not be zero.
+    /// The equations, by dependent DOF: it may not be constrained nor in another equation, nor its coefficient zero.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
         for card in &self.equations {
             let mut terms = terms(card, grids)?.into_iter();
-            let Some((dependent, coefficient)) = terms.next() else {
-                return Err(card.error(3, "a grid"));
-            };
+            let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
+            let key = (dependent.grid, dependent.direction);
             if coefficient == 0.0 {
                 return Err(card.error(5, "a coefficient that is not zero"));
             }
-            let key = (dependent.grid, dependent.direction);
             if grids.get(&key.0).is_some_and(|g| g.constrained[key.1]) {
                 return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
             }
             let tie = Tie { dependent, coefficient, terms: terms.collect() };
             if let Some((_, first)) = ties.insert(key, (tie, card)) {
-                let line = first.line;
-                let expected = format!("a degree of freedom that line {line} does not tie");
-                return Err(card.error(3, expected));
+                return Err(card.error(3, format!("a degree of freedom that line {} does not tie", first.line)));
             }
         }
         for (tie, card) in ties.values() {
@@ -127,27 +105,16 @@ impl Constraints {
 
 /// The terms of an equation, the dependent DOF first.
 fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDof, f64)>, FileError> {
-    let mut terms = Vec::new();
     let last = card.filled().pop().unwrap_or(0);
-    while term_field(terms.len()) <= last {
-        let field = term_field(terms.len());
-        let grid = known_grid(card, field, grids)?;
-        let direction = card.direction(field + 1)?;
-        terms.push((StructuralDof { grid, direction }, card.real(field + 2)?));
-    }
-    Ok(terms)
-}
-
-/// The grid that a field names, which must exist.
-pub(super) fn known_grid(card: &Card, field: usize, grids: &BTreeMap<usize, Grid>) -> Result<usize, FileError> {
-    let label = card.label(field)?;
-    match grids.contains_key(&label) {
-        true => Ok(label),
-        false => Err(card.error(field, "the number of a GRID card")),
-    }
+    let fields = (0..).map(term_field).take_while(|&field| field <= last);
+    let term = |field| {
+        let grid = card.referred(field, grids, "GRID")?.label;
+        Ok((StructuralDof { grid, direction: card.direction(field + 1)? }, card.real(field + 2)?))
+    };
+    fields.map(term).collect()
 }
 
 /// Field of the grid of a term, counted from zero: two terms to a line, in fields 3 and 6.
 fn term_field(term: usize) -> usize {
-    10 * (term / TERM_FIELDS.len()) + TERM_FIELDS[term % TERM_FIELDS.len()]
+    10 * (term / 2) + [3, 6][term % 2]
 }

@@ -37,9 +37,8 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
             open = None;
             let (tag, number) = (line.own_tag().to_owned(), line.number);
             if let Some(first) = waiting.insert(tag.clone(), line) {
-                let expected = "a continuation with a tag of its own";
                 let found = format!("{tag}, which the one in line {} has", first.number);
-                return Err(FileError::line(file, number, expected, found));
+                return Err(FileError::line(file, number, "a continuation with a tag of its own", found));
             }
         }
     }
@@ -52,9 +51,8 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
             tag = line.tag;
         }
         if let Some(first) = taken.get(&tag) {
-            let expected = "a card with continuations of its own";
             let found = format!("tag {tag}, which continues the card of line {first}");
-            return Err(FileError::line(file, card.line, expected, found));
+            return Err(FileError::line(file, card.line, "a card with continuations of its own", found));
         }
     }
     match waiting.values().min_by_key(|line| line.number) {

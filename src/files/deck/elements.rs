@@ -1,10 +1,8 @@
 //! Cards of elements, properties, materials and masses.
 
-use super::card::Card;
-use super::constraints::known_grid;
+use super::card::{Card, Kept, Numbered};
 use super::model::PointMass;
 use super::number::nearest_in_field;
-use super::numbered::{Kept, Numbered};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Grid, Material};
@@ -21,7 +19,7 @@ pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
 const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 
 /// What the cards say of elements before they are put together.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct ElementCards {
     connections: Numbered<(ElementKind, Size)>,
     properties: [Numbered<f64>; 4],
@@ -38,80 +36,55 @@ enum Size {
 }
 
 impl ElementCards {
-    /// None yet.
-    pub fn new() -> Self {
-        Self {
-            connections: Numbered::new(),
-            properties: std::array::from_fn(|_| Numbered::new()),
-            materials: Numbered::new(),
-        }
-    }
-
     /// Takes a card if it is one of an element, a property or a material; whether it was.
     pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
-        let is_double =
-            TWO_TO_A_CARD.contains(&card.name.as_str()) && card.filled().last().is_some_and(|&last| last > 5);
+        let name = card.name.as_str();
+        let is_double = TWO_TO_A_CARD.contains(&name) && card.filled().last().is_some_and(|&last| last > 5);
         let starts = if is_double { &[2, 6][..] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
-            if card.name == connection {
-                for &start in starts {
-                    let element = (kind, Size::Property(row));
-                    self.connections.insert(card, start, element)?;
-                }
-                return Ok(true);
-            }
-            if card.name == property {
-                for &start in starts {
+            for &start in starts {
+                if name == connection {
+                    card.keep(start, (kind, Size::Property(row)), &mut self.connections)?;
+                } else if name == property {
                     let size = card.positive(start + 2)?;
-                    let mut mass = start + 3;
-                    if kind == ElementKind::Rod {
+                    let is_rod = kind == ElementKind::Rod;
+                    if is_rod {
                         card.absent(start + 3, "torsion of rods")?;
-                        mass = start + 5;
                     }
-                    card.absent(mass, "nonstructural mass")?;
-                    self.properties[row].insert(card, start, size)?;
+                    card.absent(start + if is_rod { 5 } else { 3 }, "nonstructural mass")?;
+                    card.keep(start, size, &mut self.properties[row])?;
                 }
-                return Ok(true);
             }
         }
-        match card.name.as_str() {
+        match name {
             "CONROD" => {
-                let size = card.positive(6)?;
+                let rod = (ElementKind::Rod, Size::Own(card.positive(6)?));
                 card.absent(7, "torsion of rods")?;
                 card.absent(9, "nonstructural mass")?;
-                let rod = (ElementKind::Rod, Size::Own(size));
-                self.connections.insert(card, 2, rod)?;
+                card.keep(2, rod, &mut self.connections)?;
             }
-            "MAT1" => self.materials.insert(card, 2, material(card)?)?,
-            _ => return Ok(false),
+            "MAT1" => card.keep(2, material(card)?, &mut self.materials)?,
+            _ => return Ok(ELEMENT_CARDS.iter().any(|known| name == known.0 || name == known.1)),
         }
         Ok(true)
     }
 
     /// The elements by number; property, material and grids must exist.
     pub fn elements(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Element>, FileError> {
-        let put_together = |(label, kept): (usize, &Kept<(ElementKind, Size)>)| {
-            let Kept { card, start, value } = kept;
-            let (kind, size) = value;
+        let put_together = |(&label, kept): (&usize, &Kept<(ElementKind, Size)>)| {
+            let Kept { card, start, value: (kind, size) } = kept;
             let (size, material, first_grid) = match size {
-                Size::Own(size) => (*size, self.materials.referred(card, 5, "MAT1")?, 3),
+                Size::Own(size) => (*size, card.referred(5, &self.materials, "MAT1")?, 3),
                 Size::Property(row) => {
-                    let name = ELEMENT_CARDS[*row].1;
-                    let property = self.properties[*row].referred(card, start + 1, name)?;
-                    let field = property.start + 1;
-                    let material = self.materials.referred(&property.card, field, "MAT1")?;
+                    let property = card.referred(start + 1, &self.properties[*row], ELEMENT_CARDS[*row].1)?;
+                    let material = property.card.referred(property.start + 1, &self.materials, "MAT1")?;
                     (property.value, material, start + 2)
                 }
             };
-            Ok(Element {
-                label,
-                kind: *kind,
-                grids: (first_grid..first_grid + kind.corner_count())
-                    .map(|field| known_grid(card, field, grids))
-                    .collect::<Result<_, _>>()?,
-                size,
-                material: material.value,
-            })
+            let corners = (first_grid..).take(kind.corner_count());
+            let grids = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
+            let grids = grids.collect::<Result<_, FileError>>()?;
+            Ok(Element { label, kind: *kind, grids, size, material: material.value })
         };
         self.connections.iter().map(put_together).collect()
     }
@@ -132,10 +105,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
         Error::Setting { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
         _ => card.error(3, "a positive Young's modulus"),
     })?;
-    let shear_modulus = match g {
-        Some(_) => card.positive(4)?,
-        None => derived.shear_modulus,
-    };
+    let shear_modulus = if g.is_some() { card.positive(4)? } else { derived.shear_modulus };
     let density = card.real(6)?;
     if density < 0.0 {
         return Err(card.error(6, "a density that is not negative"));
@@ -148,12 +118,8 @@ pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
     let label = card.label(2)?;
     if card.name == "CMASS2" {
         card.absent(6, "masses between two degrees of freedom")?;
-        return Ok(PointMass {
-            label,
-            grid: card.label(4)?,
-            direction: Some(card.direction(5)?),
-            mass: card.positive(3)?,
-        });
+        let (grid, direction) = (card.label(4)?, Some(card.direction(5)?));
+        return Ok(PointMass { label, grid, direction, mass: card.positive(3)? });
     }
     card.absent(4, "coordinate systems but the basic one")?;
     for field in 6..=8 {

@@ -9,12 +9,10 @@ pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Columns of a line that count.
 const LINE_WIDTH: usize = 80;
 
-/// Sets of constraints that case control selects.
+/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Selected {
-    /// `SPC = n`.
     pub spc: Option<usize>,
-    /// `MPC = n`.
     pub mpc: Option<usize>,
 }
 
@@ -47,16 +45,12 @@ impl Line {
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] for a line that is neither a card nor a continuation and for a selection that is not one set.
+/// [`FileError::DeckLine`] for a line that is neither card nor continuation and for a selection that is not one set.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
-    let code = |line: &str| line.split('$').next().map(str::to_ascii_uppercase);
-    let lines: Vec<(usize, String)> = (1..)
-        .zip(text.lines())
-        .map(|(number, line)| (number, code(line).unwrap_or_default()))
-        .filter(|(_, line)| !line.trim().is_empty())
-        .collect();
-    let is = |line: &str, words: [&str; 2]| line.split_whitespace().eq(words);
-    let begin = lines.iter().position(|(_, line)| is(line, ["BEGIN", "BULK"]));
+    let code = |line: &str| line.split('$').next().unwrap_or_default().to_ascii_uppercase();
+    let lines = (1..).zip(text.lines().map(code)).filter(|(_, line)| !line.trim().is_empty());
+    let lines: Vec<(usize, String)> = lines.collect();
+    let begin = lines.iter().position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
     let mut selected = begin.map(|_| Selected::default());
     if let Some(selected) = &mut selected {
@@ -71,37 +65,28 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
 
 /// Takes notice of `SPC = n` and `MPC = n`.
 fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Result<(), FileError> {
-    let Some((name, set)) = text.split_once('=') else {
-        return Ok(());
-    };
-    let slot = match name.trim() {
-        "SPC" => &mut selected.spc,
-        "MPC" => &mut selected.mpc,
+    let (slot, set) = match text.split_once('=').map(|(name, set)| (name.trim(), set)) {
+        Some(("SPC", set)) => (&mut selected.spc, set),
+        Some(("MPC", set)) => (&mut selected.mpc, set),
         _ => return Ok(()),
     };
     match set.trim().parse() {
-        Ok(set) if slot.is_none_or(|earlier| earlier == set) => {
-            *slot = Some(set);
-            Ok(())
-        }
-        _ => {
-            let expected = "one set of constraints, by its number";
-            Err(FileError::line(file, line, expected, text.trim()))
-        }
+        Ok(set) if slot.is_none_or(|earlier| earlier == set) => *slot = Some(set),
+        _ => return Err(FileError::line(file, line, "one set of constraints, by its number", text.trim())),
     }
+    Ok(())
 }
 
-/// Cuts a line into its fields.
-///
-/// A line with a comma is in free format; otherwise an asterisk behind the name or in front of a continuation means
-/// fields of 16 characters, its absence fields of 8.
+/// Cuts a line into its fields. With a comma it is in free format; otherwise an asterisk behind the name or in front of
+/// a continuation means fields of 16 characters, its absence fields of 8.
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
     let is_large = |name: &str| name.ends_with('*') || name.starts_with('*');
     let mut parts: Vec<String> = if text.contains(',') {
         text.split(',').map(|part| part.trim().to_owned()).collect()
     } else {
-        let columns: Vec<char> = expand_tabs(text).chars().take(LINE_WIDTH).collect();
+        let mut columns = expand_tabs(text);
+        columns.truncate(LINE_WIDTH);
         let (name, data) = columns.split_at(SMALL_FIELD.min(columns.len()));
         let field = |columns: &[char]| columns.iter().collect::<String>().trim().to_owned();
         let large = is_large(name.iter().collect::<String>().trim_end());
@@ -122,25 +107,20 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     parts.resize(count + 1, String::new());
     let tag = parts.pop().unwrap_or_default();
     if let Some(long) = parts.iter().find(|part| part.chars().count() > width) {
-        let expected = "a field of 8 characters, or of 16 with an asterisk";
-        return Err(wrong(expected, long));
+        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", long));
     }
     let data = parts.into_iter().map(|text| Field { text, line: number });
     Ok(Line { number, first, data: data.collect(), large, tag: tag.trim_start_matches(['+', '*']).to_owned() })
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.
-fn expand_tabs(text: &str) -> String {
-    let mut expanded = String::new();
-    let mut column = 0_usize;
+fn expand_tabs(text: &str) -> Vec<char> {
+    let mut columns: Vec<char> = Vec::new();
     for c in text.chars() {
-        let next = match c {
-            '\t' => (column + 1).next_multiple_of(SMALL_FIELD),
-            _ => column + 1,
-        };
-        let c = if c == '\t' { ' ' } else { c };
-        expanded.extend(std::iter::repeat_n(c, next - column));
-        column = next;
+        columns.push(if c == '\t' { ' ' } else { c });
+        if c == '\t' {
+            columns.resize(columns.len().next_multiple_of(SMALL_FIELD), ' ');
+        }
     }
-    expanded
+    columns
 }

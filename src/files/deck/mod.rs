@@ -1,14 +1,14 @@
 //! NASTRAN decks: the model as bulk data, written and read.
 //!
-//! A deck contains what [`crate::method::model::FiniteElementModel`] contains and nothing of the correlation. The dynamic points are grids
-//! of their own, tied to the structure by MPC equations whose coefficients are the load distribution $T$, with the masses on
-//! them. The points are the dependent DOF, $q_D = T^t q_S$; a program that eliminates them puts
+//! A deck contains what [`crate::method::model::FiniteElementModel`] contains and nothing of the correlation. The
+//! dynamic points are grids of their own with the masses, tied to the structure by MPC equations whose coefficients are
+//! the load distribution $T$. They are the dependent DOF, $q_D = T^t q_S$; a program that eliminates them puts
 //!
 //! $$ M_S = T M T^t $$
 //!
 //! on the structural DOF beside $K_S$. $M_S$ is singular: of the roots of $(K_S, M_S)$ as many are finite as there are
-//! dynamic points, and these are the roots of $(K_D, M)$. With $F = T M^{1/2}$ the nonzero eigenvalues of $K_S^{-1} F F^t$
-//! are those of
+//! dynamic points, and these are the roots of $(K_D, M)$. With $F = T M^{1/2}$ the nonzero eigenvalues of
+//! $K_S^{-1} F F^t$ are those of
 //!
 //! $$ F^t K_S^{-1} F = M^{1/2} K_D^{-1} M^{1/2} $$
 //!
@@ -24,7 +24,6 @@ mod elements;
 mod lines;
 mod model;
 pub mod number;
-mod numbered;
 mod read;
 mod write;
 

@@ -41,8 +41,8 @@ pub struct PointMass {
 
 /// The model that a deck describes.
 ///
-/// Two decks that say the same in another order, in other formats and with other numbers of properties and materials
-/// give equal models. Rotations have no place in it: the crate's elements do not resist them.
+/// Decks that say the same in another order, in other formats and with other numbers of properties and materials give
+/// equal models. Rotations have no place in it: the crate's elements do not resist them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BulkData {
     /// Grids by number, with what SPC1 cards constrain.
@@ -58,26 +58,19 @@ pub struct BulkData {
 impl BulkData {
     /// A structure alone, without ties and point masses.
     pub fn of_structure(structure: &Structure) -> Self {
-        Self {
-            grids: structure.grids().to_vec(),
-            elements: structure.elements().to_vec(),
-            ties: Vec::new(),
-            masses: Vec::new(),
-        }
+        let (grids, elements) = (structure.grids().to_vec(), structure.elements().to_vec());
+        Self { grids, elements, ties: Vec::new(), masses: Vec::new() }
     }
 
     /// A finite element model as a deck can express it, its parameters scaled by `factors`.
     ///
-    /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it, as
-    /// the law of [`FiniteElementModel`] demands.
-    ///
-    /// Every dynamic DOF becomes the z of a grid of its own at the position given in `points` (in), numbered after the
-    /// next multiple of a hundred above every grid and element, with the other directions constrained, and with a point mass
-    /// unless its mass is zero. Its MPC equation is its column of $T$:
+    /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
+    /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
+    /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
+    /// unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
-    /// so that a program's own elimination of the dependent DOF puts $T M T^t$ on the structural ones.
     ///
     /// # Errors
     /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
@@ -87,9 +80,8 @@ impl BulkData {
         let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
         check_length("positions of dynamic points", points.len(), t.ncols())?;
         let mut all = Self::of_structure(structure);
-        let sizes = model.sizes(factors)?.into_iter();
-        let both = sizes.zip(model.mass_sizes(factors)?);
-        for (element, (size, mass_size)) in all.elements.iter_mut().zip(both) {
+        let sizes = model.sizes(factors)?.into_iter().zip(model.mass_sizes(factors)?);
+        for (element, (size, mass_size)) in all.elements.iter_mut().zip(sizes) {
             element.size = size;
             element.material.density *= mass_size / size;
         }
@@ -99,26 +91,14 @@ impl BulkData {
                 return Err(Error::CoupledMass(column).into());
             }
             let label = base + column;
-            all.grids.push(Grid {
-                label,
-                position,
-                constrained: [0, 1, 2].map(|direction| direction != DYNAMIC_DIRECTION),
-            });
-            let (dofs, factors) = (structure.free_dof().iter(), t.column(column));
-            let terms = dofs.copied().zip(factors.iter().copied());
-            all.ties.push(Tie {
-                dependent: StructuralDof { grid: label, direction: DYNAMIC_DIRECTION },
-                coefficient: -1.0,
-                terms: terms.filter(|(_, factor)| *factor != 0.0).collect(),
-            });
-            if mass[(column, column)] != 0.0 {
-                all.masses.push(PointMass {
-                    label,
-                    grid: label,
-                    direction: Some(DYNAMIC_DIRECTION),
-                    mass: mass[(column, column)],
-                });
-            }
+            all.grids.push(Grid { label, position, constrained: [0, 1, 2].map(|d| d != DYNAMIC_DIRECTION) });
+            let dependent = StructuralDof { grid: label, direction: DYNAMIC_DIRECTION };
+            let terms = (0..).zip(structure.free_dof()).map(|(row, dof)| (*dof, t[(row, column)]));
+            let terms = terms.filter(|(_, factor)| *factor != 0.0).collect();
+            all.ties.push(Tie { dependent, coefficient: -1.0, terms });
+            let own = mass[(column, column)];
+            let point = PointMass { label, grid: label, direction: Some(DYNAMIC_DIRECTION), mass: own };
+            all.masses.extend((own != 0.0).then_some(point));
         }
         all.grids.sort_by_key(|grid| grid.label);
         all.elements.sort_by_key(|element| element.label);
@@ -140,24 +120,17 @@ impl BulkData {
     /// [`FileError::TiedElement`] for an element at a dependent DOF; those of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, FileError> {
         let tied = self.tie_of();
-        for element in &self.elements {
-            for &grid in &element.grids {
-                if let Some(direction) = (0..3).find(|&d| tied.contains_key(&(grid, d))) {
-                    return Err(FileError::TiedElement {
-                        element: element.label,
-                        grid,
-                        direction: DIRECTIONS[direction],
-                    });
-                }
+        let corners = self.elements.iter().flat_map(|element| element.grids.iter().map(|&grid| (element.label, grid)));
+        for (element, grid) in corners {
+            if let Some(direction) = (0..3).find(|&d| tied.contains_key(&(grid, d))) {
+                return Err(FileError::TiedElement { element, grid, direction: DIRECTIONS[direction] });
             }
         }
-        let mut grids = self.grids.clone();
-        for grid in &mut grids {
-            for (direction, constrained) in grid.constrained.iter_mut().enumerate() {
-                *constrained |= tied.contains_key(&(grid.label, direction));
-            }
-        }
-        Ok(Structure::new(grids, self.elements.clone())?)
+        let grids = self.grids.iter().map(|grid| {
+            let constrained = [0, 1, 2].map(|d| grid.constrained[d] || tied.contains_key(&(grid.label, d)));
+            Grid { constrained, ..grid.clone() }
+        });
+        Ok(Structure::new(grids.collect(), self.elements.clone())?)
     }
 
     /// The equation of every dependent DOF, by grid and direction.
@@ -166,11 +139,10 @@ impl BulkData {
         ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie)).collect()
     }
 
-    /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of elements with
-    /// a density, given by their matrices.
+    /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of
+    /// elements with a density, given by their matrices. Masses on constrained DOF do not move.
     ///
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
-    /// Masses on constrained DOF do not move.
     ///
     /// # Errors
     /// [`Error::Empty`] when no mass can move.
@@ -188,29 +160,25 @@ impl BulkData {
         let (mut dof, mut columns, mut masses) = (Vec::new(), Vec::new(), Vec::new());
         for ((grid, direction), mass) in mass.into_iter().filter(|(_, mass)| *mass > 0.0) {
             let mut column = DVector::zeros(free.len());
-            let mut add = |grid, direction, coefficient| {
+            let own = StructuralDof { grid, direction };
+            let terms = match tie_of.get(&(grid, direction)) {
+                Some(tie) => tie.terms.iter().map(|(dof, a)| (*dof, -a / tie.coefficient)).collect(),
+                None => vec![(own, 1.0)],
+            };
+            for (term, coefficient) in terms {
                 // A constrained DOF does not move and adds nothing.
-                if let Some(row) = structure.free_dof_index(grid, direction) {
+                if let Some(row) = structure.free_dof_index(term.grid, term.direction) {
                     column[row] += coefficient;
                 }
-            };
-            match tie_of.get(&(grid, direction)) {
-                Some(tie) => {
-                    for (term, coefficient) in &tie.terms {
-                        add(term.grid, term.direction, -coefficient / tie.coefficient);
-                    }
-                }
-                None => add(grid, direction, 1.0),
             }
             if column.amax() > 0.0 {
-                dof.push(StructuralDof { grid, direction });
+                dof.push(own);
                 columns.push(column);
                 masses.push(mass);
             }
         }
         if columns.is_empty() {
-            let what = "degrees of freedom with mass";
-            return Err(Error::Empty { what }.into());
+            return Err(Error::Empty { what: "degrees of freedom with mass" }.into());
         }
         Ok(MassDof { dof, load_distribution: DMatrix::from_columns(&columns), mass: DVector::from_vec(masses) })
     }

@@ -9,19 +9,16 @@ const ALL_DIGITS: usize = 17;
 
 /// The value of a NASTRAN real, or `None` for anything else.
 ///
-/// A real has a decimal point; what tells it from an integer is nothing else. An exponent begins with `E`, `D` or
-/// its sign alone. Blanks count for nothing, so that `10.4  +6` is $1.04 \cdot 10^7$.
+/// Only its decimal point tells a real from an integer. An exponent begins with `E`, `D` or its sign alone. Blanks
+/// count for nothing, so that `10.4  +6` is $1.04 \cdot 10^7$.
 pub fn parse_real(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| *c != ' ').collect();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(&text);
     let mantissa_end = unsigned.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(unsigned.len());
     let (mantissa, exponent) = unsigned.split_at(mantissa_end);
     let (whole, fraction) = mantissa.split_once('.')?;
-    let exponent = match exponent.strip_prefix(['E', 'D', 'e', 'd']) {
-        Some(rest) => rest,
-        None if exponent.is_empty() => "0",
-        None => exponent,
-    };
+    let exponent = if exponent.is_empty() { "0" } else { exponent };
+    let exponent = exponent.strip_prefix(['E', 'D', 'e', 'd']).unwrap_or(exponent);
     // What is wrong with the digits on either side, the parser of Rust's own reals finds.
     let sign = if text.starts_with('-') { "-" } else { "" };
     let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}").parse().ok()?;
@@ -55,10 +52,7 @@ pub fn nearest_in_field(value: f64) -> f64 {
 /// The shortest NASTRAN form of a number given as `d.ddde±x`, plain where that is no longer than with an exponent.
 fn layout(scientific: &str) -> Option<String> {
     let (mantissa, exponent) = scientific.split_once('e')?;
-    let (sign, mantissa) = match mantissa.strip_prefix('-') {
-        Some(rest) => ("-", rest),
-        None => ("", mantissa),
-    };
+    let sign = if mantissa.starts_with('-') { "-" } else { "" };
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
     let digits = digits.trim_end_matches('0');
     if digits.is_empty() {

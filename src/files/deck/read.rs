@@ -1,12 +1,11 @@
 //! From cards to the model they describe.
 
-use super::card::Card;
-use super::constraints::{Constraints, known_grid};
+use super::card::{Card, Numbered};
+use super::constraints::Constraints;
 use super::continuation::join;
 use super::elements::{ElementCards, point_mass};
 use super::lines::sections;
 use super::model::{BulkData, PointMass};
-use super::numbered::Numbered;
 use crate::files::error::FileError;
 use crate::method::structure::Grid;
 use nalgebra::Vector3;
@@ -53,70 +52,43 @@ pub enum Reason {
 pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
     let (selected, lines) = sections(file, text)?;
     let mut unread = Vec::new();
+    let mut skip = |card: &Card, reason| unread.push(Unread { card: card.name.clone(), line: card.line, reason });
     let mut default: Option<Card> = None;
     let mut grids = Numbered::new();
-    let mut elements = ElementCards::new();
+    let mut elements = ElementCards::default();
     let mut masses = Numbered::new();
     let mut constraints = Constraints::new(selected);
     for card in join(&file.into(), lines)? {
-        let reason = match card.name.as_str() {
-            "GRID" => {
-                grids.insert(&card, 2, ())?;
-                continue;
-            }
-            "GRDSET" if default.is_some() => {
-                let expected = "one GRDSET card at most";
-                return Err(FileError::line(file, card.line, expected, "another"));
-            }
-            "GRDSET" => {
-                default = Some(card);
-                continue;
-            }
-            "CMASS2" | "CONM2" => {
-                masses.insert(&card, 2, point_mass(&card)?)?;
-                continue;
-            }
-            "EIGR" | "EIGRL" => continue,
-            "SPC1" | "MPC" if constraints.take(card.clone())? => continue,
-            "SPC1" | "MPC" => Reason::NotSelected,
-            _ if elements.take(&card)? => continue,
-            _ => Reason::Unknown,
-        };
-        let (card, line) = (card.name, card.line);
-        unread.push(Unread { card, line, reason });
+        match card.name.as_str() {
+            "GRID" => card.keep(2, (), &mut grids)?,
+            "GRDSET" if default.is_none() => default = Some(card),
+            "GRDSET" => return Err(FileError::line(file, card.line, "one GRDSET card at most", "another")),
+            "CMASS2" | "CONM2" => card.keep(2, point_mass(&card)?, &mut masses)?,
+            "EIGR" | "EIGRL" => {}
+            "SPC1" | "MPC" if constraints.take(&card)? => {}
+            "SPC1" | "MPC" => skip(&card, Reason::NotSelected),
+            _ if elements.take(&card)? => {}
+            _ => skip(&card, Reason::Unknown),
+        }
     }
-    let mut grids: BTreeMap<usize, Grid> = grids
-        .iter()
-        .map(|(label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)))
-        .collect::<Result<_, FileError>>()?;
+    let grids = grids.iter().map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
+    let mut grids = grids.collect::<Result<BTreeMap<usize, Grid>, FileError>>()?;
     constraints.constrain(&mut grids)?;
-    let masses = masses.iter().map(|(_, kept)| {
-        let field = if kept.card.name == "CMASS2" { 4 } else { 3 };
-        known_grid(&kept.card, field, &grids)?;
-        Ok(kept.value.clone())
+    let masses = masses.into_values().map(|kept| {
+        kept.card.referred(if kept.card.name == "CMASS2" { 4 } else { 3 }, &grids, "GRID")?;
+        Ok(kept.value)
     });
     let masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
-    let model = BulkData {
-        elements: elements.elements(&grids)?,
-        ties: constraints.ties(&grids)?,
-        masses,
-        grids: grids.into_values().collect(),
-    };
-    Ok(Deck { model, unread })
+    let (elements, ties) = (elements.elements(&grids)?, constraints.ties(&grids)?);
+    Ok(Deck { model: BulkData { grids: grids.into_values().collect(), elements, ties, masses }, unread })
 }
 
 /// A grid; what GRDSET says counts where its own card has blanks.
 fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
-    let chosen = |field: usize| match default {
-        Some(default) if card.text(field).is_empty() => default,
-        _ => card,
-    };
+    let chosen = |field: usize| default.filter(|_| card.text(field).is_empty()).unwrap_or(card);
     for field in [3, 7] {
         chosen(field).absent(field, "coordinate systems but the basic one")?;
     }
-    Ok(Grid {
-        label,
-        position: Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?),
-        constrained: chosen(8).directions(8)?,
-    })
+    let position = Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?);
+    Ok(Grid { label, position, constrained: chosen(8).directions(8)? })
 }

@@ -27,11 +27,10 @@ pub enum Task {
     Matrices,
 }
 
-/// A whole deck: executive control, case control and bulk data.
+/// A whole deck: executive control, case control and bulk data; `title` stands in the output's headings.
 ///
-/// What makes a run of NASTRAN-95 right is in the executive control: `BANDIT=-1` keeps the grids in the order of their
-/// numbers, and `DIAG 44` takes the decomposition that gives right answers (the default one of the 1995 release does not).
-/// `title` stands in the output's headings.
+/// `BANDIT=-1` keeps the grids in the order of their numbers, and `DIAG 44` takes the decomposition that gives right
+/// answers (the default one of the 1995 release does not).
 ///
 /// # Errors
 /// Those of [`bulk_data`].
@@ -44,30 +43,26 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
             (1, [1.0, 2.0], alter, "")
         }
     };
-    let ties = match model.ties.is_empty() {
-        true => String::new(),
-        false => format!("MPC = {SET}\n"),
-    };
+    let ties = if model.ties.is_empty() { String::new() } else { format!("MPC = {SET}\n") };
     let text = format!(
-        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n{alter}CEND\n\
+        "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n\
+         {alter}CEND\n\
          TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
         title.to_ascii_uppercase()
     );
     let mut cards = Cards { text, tag: 0 };
     cards.model(model)?;
-    let mut eigenvalues = vec![SET.into(), "INV".into(), lower.into(), upper.into()];
-    eigenvalues.extend([count.into(), count.into(), Entry::Blank, Entry::Blank]);
-    eigenvalues.push("MASS".into());
-    cards.put("EIGR", eigenvalues)?;
+    let method = [SET.into(), "INV".into(), lower.into(), upper.into(), count.into(), count.into()];
+    cards.put("EIGR", method.into_iter().chain([Entry::Blank, Entry::Blank, "MASS".into()]).collect())?;
     cards.text.push_str("ENDDATA\n");
     Ok(cards.text)
 }
 
 /// The bulk data alone, without a `BEGIN BULK` or `ENDDATA`.
 ///
-/// Grids have fields of 16 characters, other cards where 8 would lose digits; a number that needs more than 16
-/// characters is rounded to the nearest that fits (see [`super::number::large_real`]). Every element has a property card of its
-/// own number, every distinct material a MAT1 card.
+/// Grids have fields of 16 characters, other cards where 8 would lose digits; a number that needs more than 16 is
+/// rounded to the nearest that fits ([`large_real`]). Every element has a property card of its own number, every
+/// distinct material a MAT1 card.
 ///
 /// # Errors
 /// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
@@ -77,13 +72,11 @@ pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
     Ok(cards.text)
 }
 
-/// A field to be written.
+/// A field to be written: a label is the number of a grid, an element and so on, a word may be a list of components.
 #[derive(Clone)]
 enum Entry {
     Blank,
-    /// A number of a grid, an element and so on.
     Label(usize),
-    /// A word or a list of components.
     Word(String),
     Real(f64),
 }
@@ -115,7 +108,6 @@ struct Cards {
 }
 
 impl Cards {
-    /// All cards of a model.
     fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
         for grid in &model.grids {
             let mut entries = vec![grid.label.into(), Entry::Blank];
@@ -125,41 +117,30 @@ impl Cards {
         let mut materials: Vec<Material> = Vec::new();
         for element in &model.elements {
             let known = materials.iter().position(|m| *m == element.material);
-            let row = known.unwrap_or(materials.len());
-            if known.is_none() {
+            let row = known.unwrap_or_else(|| {
                 materials.push(element.material);
-            }
-            let mut connection = vec![Entry::Label(element.label); 2];
-            connection.extend(element.grids.iter().map(|&grid| Entry::Label(grid)));
-            let property = vec![element.label.into(), (row + 1).into(), element.size.into()];
-            for (connection_card, property_card, kind) in ELEMENT_CARDS {
-                if kind == element.kind {
-                    self.put(connection_card, connection.clone())?;
-                    self.put(property_card, property.clone())?;
-                }
+                materials.len() - 1
+            });
+            for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == element.kind) {
+                let labels = [element.label; 2].into_iter().chain(element.grids.iter().copied());
+                self.put(connection, labels.map(Entry::Label).collect())?;
+                self.put(property, vec![element.label.into(), (row + 1).into(), element.size.into()])?;
             }
         }
-        for (row, material) in materials.iter().enumerate() {
-            let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-            let (g, density) = (material.shear_modulus, material.density);
+        for (row, material) in materials.into_iter().enumerate() {
+            let Material { youngs_modulus: e, poissons_ratio: nu, shear_modulus: g, density } = material;
             let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-            let mut entries = vec![(row + 1).into(), e.into(), g.into(), nu.into()];
-            if is_derived {
-                entries[2] = Entry::Blank;
-            }
-            if density != 0.0 {
-                entries.push(density.into());
-            }
+            let shear = if is_derived { Entry::Blank } else { g.into() };
+            let mut entries = vec![(row + 1).into(), e.into(), shear, nu.into()];
+            entries.extend((density != 0.0).then_some(Entry::Real(density)));
             self.put("MAT1", entries)?;
         }
         for point in &model.masses {
             let (label, grid, mass) = (point.label.into(), point.grid.into(), point.mass.into());
             match point.direction {
-                Some(direction) => {
-                    self.put("CMASS2", vec![label, mass, grid, (direction + 1).into()])?;
-                }
-                None => self.put("CONM2", vec![label, grid, Entry::Blank, mass])?,
-            }
+                Some(direction) => self.put("CMASS2", vec![label, mass, grid, (direction + 1).into()]),
+                None => self.put("CONM2", vec![label, grid, Entry::Blank, mass]),
+            }?;
         }
         for tie in &model.ties {
             let own = std::iter::once((tie.dependent, tie.coefficient));
@@ -169,19 +150,17 @@ impl Cards {
                 if row > 0 && row % 2 == 0 {
                     entries.extend([Entry::Blank, Entry::Blank]);
                 }
-                entries.extend([dof.grid.into(), (dof.direction + 1).into()]);
-                entries.push(coefficient.into());
+                entries.extend([dof.grid.into(), (dof.direction + 1).into(), coefficient.into()]);
             }
             self.put("MPC", entries)?;
         }
         let alike = |a: &Grid, b: &Grid| a.constrained == b.constrained && a.label + 1 == b.label;
         for run in model.grids.chunk_by(alike) {
             let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
-            let named = ["1", "2", "3"].into_iter().zip(first.constrained);
-            let mut components: String =
-                named.filter_map(|(component, is_constrained)| is_constrained.then_some(component)).collect();
             // The rotations of every grid are constrained, for nothing here resists them.
-            components.push_str("456");
+            let named = ["1", "2", "3", "456"].into_iter().zip(first.constrained.into_iter().chain([true]));
+            let components = named.filter_map(|(component, is_constrained)| is_constrained.then_some(component));
+            let components = components.collect();
             let mut entries = vec![SET.into(), Entry::Word(components), first.label.into()];
             if run.len() > 1 {
                 entries.extend(["THRU".into(), last.label.into()]);
@@ -193,19 +172,15 @@ impl Cards {
 
     /// A card with fields of 8 characters if they hold every number exactly, of 16 otherwise.
     fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
-        let is_exact = |entry: &Entry| match entry {
-            Entry::Real(value) => exact_real(*value, SMALL_FIELD).is_some(),
-            _ => true,
-        };
-        let large = !entries.iter().all(is_exact);
+        let is_long = |entry: &Entry| matches!(entry, Entry::Real(x) if exact_real(*x, SMALL_FIELD).is_none());
+        let large = entries.iter().any(is_long);
         self.put_sized(name, entries, large)
     }
 
     fn put_sized(&mut self, name: &str, entries: Vec<Entry>, large: bool) -> Result<(), FileError> {
-        let (width, per_line, mark, plus) = if large {
-            (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*')
-        } else {
-            (SMALL_FIELD, FIELDS_PER_LINE, "", '+')
+        let (width, per_line, mark, plus) = match large {
+            true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*'),
+            false => (SMALL_FIELD, FIELDS_PER_LINE, "", '+'),
         };
         let written = entries.into_iter().enumerate().map(|entry| match entry {
             (_, Entry::Blank) => Ok(String::new()),

@@ -24,12 +24,11 @@ pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
     let base = bulk.first_free_label();
     let position: HashMap<usize, _> = bulk.grids.iter().map(|grid| (grid.label, grid.position)).collect();
     for (row, element) in bulk.elements.iter().enumerate() {
-        let mut grids = Vec::with_capacity(element.grids.len());
-        for corner in element.grids.iter().filter_map(|grid| position.get(grid)) {
-            let label = base + all.grids.len() - bulk.grids.len();
-            grids.push(label);
-            all.grids.push(Grid { label, position: *corner, constrained: [true; 3] });
-        }
+        let first = base + all.grids.len() - bulk.grids.len();
+        let corners = element.grids.iter().filter_map(|grid| position.get(grid));
+        let corners = (first..).zip(corners);
+        all.grids.extend(corners.map(|(label, &position)| Grid { label, position, constrained: [true; 3] }));
+        let grids = (first..).take(element.grids.len()).collect();
         all.elements.push(Element { label: base + row, grids, ..element.clone() });
     }
     all
@@ -49,19 +48,13 @@ pub(super) fn unit_stiffness(
     }
     let kgg = matrix(answer, "KGG", start)?;
     let structure = model.structure();
-    structure
-        .elements()
-        .iter()
-        .map(|element| {
-            let &(start, size) = block_of.get(&element.label).ok_or(Error::Unknown {
-                owner: "the deck".into(),
-                what: "element",
-                label: element.label,
-            })?;
-            let rows = free_rows(structure, element, start);
-            Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
-        })
-        .collect()
+    let unit = |element: &Element| {
+        let unknown = || Error::Unknown { owner: "the deck".into(), what: "element", label: element.label };
+        let &(start, size) = block_of.get(&element.label).ok_or_else(unknown)?;
+        let rows = free_rows(structure, element, start);
+        Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
+    };
+    structure.elements().iter().map(unit).collect()
 }
 
 /// Rows of KGG of an element's free DOF, its own grids beginning at `start`.
@@ -74,9 +67,8 @@ fn free_rows(structure: &Structure, element: &Element, start: usize) -> Vec<usiz
         .collect()
 }
 
-/// Refuses an answer whose assembled matrices are not those of the model it was asked about.
-///
-/// Elements are told apart by their place in KGG alone; this check is what makes that safe.
+/// Refuses an answer whose assembled matrices are not those of the model it was asked about: elements are told apart by
+/// their place in KGG alone, and this check is what makes that safe.
 pub(super) fn check_assembled(model: &FiniteElementModel, factors: &[f64], answer: &Matrices) -> Result<(), FileError> {
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
@@ -91,17 +83,12 @@ pub(super) fn check_assembled(model: &FiniteElementModel, factors: &[f64], answe
         let there = matrix(answer, name, free.len())?;
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
-        if difference <= limit {
-            return Ok(());
-        }
-        Err(FileError::SolverAnswer {
-            expected: format!("{name} to be {meaning} within {limit:.0e} of its largest entry"),
-            found: format!("them {difference:.1e} apart"),
-        })
+        let expected = || format!("{name} to be {meaning} within {limit:.0e} of its largest entry");
+        let wrong = || FileError::answer(expected(), format!("them {difference:.1e} apart"));
+        (difference <= limit).then_some(()).ok_or_else(wrong)
     };
-    let (sum, distributed) = ("the sum of its element matrices", "the masses the MPC equations distribute");
-    same("KAA", sum, stiffness, LARGEST_STIFFNESS_DIFFERENCE)?;
-    same("MAA", distributed, mass, LARGEST_MASS_DIFFERENCE)
+    same("KAA", "the sum of its element matrices", stiffness, LARGEST_STIFFNESS_DIFFERENCE)?;
+    same("MAA", "the masses the MPC equations distribute", mass, LARGEST_MASS_DIFFERENCE)
 }
 
 fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, FileError> {
@@ -110,6 +97,5 @@ fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatr
         Some(matrix) => format!("{} x {}", matrix.nrows(), matrix.ncols()),
         None => "none".to_owned(),
     };
-    let expected = format!("a matrix {name} of {size} rows and columns");
-    Err(FileError::SolverAnswer { expected, found })
+    Err(FileError::answer(format!("a matrix {name} of {size} rows and columns"), found))
 }

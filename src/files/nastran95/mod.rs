@@ -2,15 +2,13 @@
 //! inner loop here and the finite elements there.
 //!
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
-//! a second time, alone, on grids of its own that are all fixed: its matrix is then a block of KGG, while KAA and MAA are
-//! the structure's and nothing else. What is taken over is
+//! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
+//! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
+//! the mass nothing is taken over, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it,
+//! with the lumped mass of elements that have a density.
 //!
-//! - each element's stiffness, from its block of KGG; their sum is $K_S$, which must be NASTRAN's own assembled KAA;
-//! - nothing of the mass, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it, with the lumped
-//!   mass of elements that have a density.
-//!
-//! Appendix A, the eigensolution of the nine dynamic DOF and everything else is computed here from these matrices: $M_S$ is
-//! singular, and NASTRAN's own eigenvalues are good to five or six digits only.
+//! Appendix A, the eigensolution and everything else is computed here from these matrices: $M_S$ is singular, and
+//! NASTRAN's own eigenvalues are good to five or six digits only.
 //!
 //! NASTRAN-95 keeps coordinates, gages and material in single precision: its matrices differ from the crate's by up to
 //! 1.5e-7 of the largest entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
@@ -38,8 +36,7 @@ pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(60);
 
 /// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
 pub fn default_folder() -> PathBuf {
-    let home = std::env::home_dir().unwrap_or_default();
-    home.join(".cache/nastran95/nastran95/_data")
+    std::env::home_dir().unwrap_or_default().join(".cache/nastran95/nastran95/_data")
 }
 
 /// What a run leaves.
@@ -76,13 +73,11 @@ impl Nastran95 {
         Ok(Self { home, time_limit: DEFAULT_TIME_LIMIT, stop: Arc::default() })
     }
 
-    /// Runs a deck.
-    ///
-    /// All files of the run are in a temporary folder that is removed, however the run ends.
+    /// Runs a deck in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
-    /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`], [`FileError::SolverFatal`] with
-    /// NASTRAN's own message; [`FileError::File`].
+    /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`],
+    /// [`FileError::SolverFatal`] with NASTRAN's own message; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         process::run(self, deck)
     }
@@ -93,18 +88,15 @@ impl Nastran95 {
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
-        let text = answer.unit_15.ok_or_else(|| FileError::SolverAnswer {
-            expected: "matrices on Fortran unit 15".into(),
-            found: format!("none; printed last: {}", process::last_lines(&answer.printed)),
-        })?;
-        read_output5(&text)
+        let found = || format!("none; printed last: {}", process::last_lines(&answer.printed));
+        read_output5(&answer.unit_15.ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?)
     }
 
     /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when
-    /// KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
+    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
+    /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
     pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];

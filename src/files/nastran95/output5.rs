@@ -8,9 +8,8 @@ use std::collections::HashMap;
 /// Matrices by name, such as `KGG`.
 pub type Matrices = HashMap<String, DMatrix<f64>>;
 
-/// Width of the integers of a record.
+/// Widths of the integers of a record and of its reals, format D26.17.
 const INTEGER: usize = 8;
-/// Width of the reals, format D26.17.
 const REAL: usize = 26;
 /// Where a matrix's header has its sizes, and after them its name.
 const HEADER_SIZES: usize = 26;
@@ -30,9 +29,9 @@ const LARGEST: usize = 20_000;
 /// [`FileError::SolverAnswer`] naming the line for anything else.
 pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
-    let wrong = |line: usize, expected: &str| FileError::SolverAnswer {
-        expected: format!("{expected} in line {} of the OUTPUT5 file", line + 1),
-        found: lines.get(line).map_or("its end", |l| l.trim()).to_owned(),
+    let wrong = |line: usize, expected: &str| {
+        let expected = format!("{expected} in line {} of the OUTPUT5 file", line + 1);
+        FileError::answer(expected, lines.get(line).map_or("its end", |l| l.trim()))
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         let field = lines.get(line).and_then(|l| l.get(start..start + INTEGER));
@@ -43,8 +42,8 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     let mut current: Option<(String, DMatrix<f64>)> = None;
     let mut at = 1;
     while at < lines.len() {
-        let [column, first, last] = [0, 1, 2].map(|place| integer(at, place * INTEGER));
-        let (column, first, last) = (column?, first?, last?);
+        let number = |place: usize| integer(at, place * INTEGER);
+        let (column, first, last) = (number(0)?, number(1)?, number(2)?);
         at += 1;
         if column == 0 {
             matrices.extend(current.take());
@@ -69,10 +68,7 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
             let line = lines.get(at).ok_or_else(|| wrong(at, "reals"))?;
             let bytes = line.trim_end().as_bytes();
             for field in bytes.chunks(REAL) {
-                let value = std::str::from_utf8(field).ok();
-                // Of an exponent of three digits Fortran drops the letter.
-                let value = value.and_then(|text| parse_real(text.trim()));
-                match value {
+                match std::str::from_utf8(field).ok().and_then(|text| parse_real(text.trim())) {
                     Some(value) if row < last => matrix[(row, column - 1)] = value,
                     _ => return Err(wrong(at, "reals of the format D26.17, as many as rows")),
                 }

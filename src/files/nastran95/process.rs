@@ -8,9 +8,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// The program in its folder.
+/// The program and the rigid formats in its folder.
 pub(super) const PROGRAM: &str = "bin/nastrn";
-/// The rigid formats in its folder.
 pub(super) const RIGID_FORMATS: &str = "rf";
 /// How often a running program is looked at.
 const POLL: Duration = Duration::from_millis(5);
@@ -53,17 +52,10 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
         .env("RFDIR", solver.home.join(RIGID_FORMATS))
         .env("DIRCTY", scratch)
         .env("OPTPNM", "none");
-    for (variable, name) in
-        [("LOGNM", "log"), ("NPTPNM", "nptp"), ("DICTNM", "dict"), ("PLTNM", "plt"), ("PUNCHNM", "punch")]
-    {
-        command.env(variable, path(name));
-    }
-    for unit in 1..*UNITS.start() {
-        command.env(format!("SOF{unit}"), "none");
-    }
-    for unit in UNITS {
-        command.env(format!("FTN{unit}"), path(&format!("ftn{unit}")));
-    }
+    let files = [("LOGNM", "log"), ("NPTPNM", "nptp"), ("DICTNM", "dict"), ("PLTNM", "plt"), ("PUNCHNM", "punch")];
+    command.envs(files.map(|(variable, name)| (variable, path(name))));
+    command.envs((1..*UNITS.start()).map(|unit| (format!("SOF{unit}"), "none")));
+    command.envs(UNITS.map(|unit| (format!("FTN{unit}"), path(&format!("ftn{unit}")))));
     own_group(&mut command);
     let child = command.spawn().map_err(FileError::of_file(&program, "run"))?;
     let status = wait(solver, child, &program)?;
@@ -72,16 +64,10 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
         return Err(FileError::SolverFatal { message });
     }
     if !status.success() {
-        let errors = read(&path("errors"))?;
-        return Err(FileError::SolverCrashed {
-            status: status.to_string(),
-            message: last_lines(&format!("{printed}\n{errors}")),
-        });
+        let message = last_lines(&format!("{printed}\n{}", read(&path("errors"))?));
+        return Err(FileError::SolverCrashed { status: status.to_string(), message });
     }
-    let unit_15 = match path(ANSWER).is_file() {
-        true => Some(read(&path(ANSWER))?),
-        false => None,
-    };
+    let unit_15 = path(ANSWER).is_file().then(|| read(&path(ANSWER))).transpose()?;
     Ok(Answer { printed, unit_15 })
 }
 
@@ -90,16 +76,14 @@ fn wait(solver: &Nastran95, child: Child, program: &Path) -> Result<ExitStatus, 
     let mut running = Running(child);
     let start = Instant::now();
     loop {
-        let status = running.0.try_wait().map_err(FileError::of_file(program, "run"))?;
-        if let Some(status) = status {
+        if let Some(status) = running.0.try_wait().map_err(FileError::of_file(program, "run"))? {
             return Ok(status);
         }
         if solver.stop.load(Ordering::Relaxed) {
             return Err(FileError::SolverInterrupted);
         }
         if start.elapsed() >= solver.time_limit {
-            let seconds = solver.time_limit.as_secs_f64();
-            return Err(FileError::SolverTimeLimit { seconds });
+            return Err(FileError::SolverTimeLimit { seconds: solver.time_limit.as_secs_f64() });
         }
         std::thread::sleep(POLL);
     }
@@ -144,18 +128,14 @@ fn fatal_message(printed: &str) -> Option<String> {
     let first = lines.next()?;
     // A message ends with a blank line, or where the next one begins.
     let rest = lines.take(MESSAGE_LINES - 1).take_while(|line| !line.trim().is_empty() && !line.contains("***"));
-    let words = std::iter::once(first).chain(rest);
-    let words: Vec<&str> = words.flat_map(str::split_whitespace).collect();
-    let message = words.join(" ");
+    let words: Vec<&str> = std::iter::once(first).chain(rest).flat_map(str::split_whitespace).collect();
     // The first column is the printer's carriage control.
-    let message = message.trim_start_matches(['0', '1', '*', ' ']);
-    Some(message.to_owned())
+    Some(words.join(" ").trim_start_matches(['0', '1', '*', ' ']).to_owned())
 }
 
 /// The last lines that are not blank.
 pub(super) fn last_lines(text: &str) -> String {
-    let lines = text.lines().map(str::trim);
-    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
         last => last.join(" / "),

@@ -30,11 +30,7 @@ pub enum TipLoad {
 impl TipLoad {
     /// The grid that is loaded.
     pub fn grid(self) -> usize {
-        let line = match self {
-            Self::TrailingEdge => 0,
-            Self::LeadingEdge => 1,
-        };
-        upper_grid(line, STATIONS.len() - 1)
+        upper_grid(usize::from(self == Self::LeadingEdge), STATIONS.len() - 1)
     }
 }
 
@@ -67,26 +63,20 @@ impl DeltaWing {
         let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
         // The z of every grid named here is free, whatever the depths and sizes of the wing are.
         let row = |grid: usize| structure.free_dof_index(grid, Z);
-        let mut loads = DMatrix::zeros(structure.free_dof().len(), 1);
-        if let Some(row) = row(load.grid()) {
-            loads[row] = -self.tip_load;
-        }
-        let deflected = stiffness.solve(&loads)?;
-        let rows = MEASURED_GRIDS.iter().filter_map(|&grid| row(grid));
-        Ok(rows.map(|row| deflected[row]).collect())
+        let loaded = row(load.grid());
+        let at = |dof, _| if Some(dof) == loaded { -self.tip_load } else { 0.0 };
+        let deflected = stiffness.solve(&DMatrix::from_fn(structure.free_dof().len(), 1, at))?;
+        Ok(MEASURED_GRIDS.iter().filter_map(|&grid| Some(deflected[row(grid)?])).collect())
     }
 }
 
-/// What NASTRAN printed in 1995, what was measured, and what the analog computer gave: deflections at [`MEASURED_GRIDS`].
+/// Deflections at [`MEASURED_GRIDS`] that NASTRAN printed in 1995, that were measured, that the analog computer gave.
 ///
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_deflections() -> Result<PublishedTable, CaseError> {
-    PublishedTable::parse(
-        UNNUMBERED,
-        "paper/tables/delta_wing_deflections.csv",
-        include_str!("../../../paper/tables/delta_wing_deflections.csv"),
-    )
+    let text = include_str!("../../../paper/tables/delta_wing_deflections.csv");
+    PublishedTable::parse(UNNUMBERED, "paper/tables/delta_wing_deflections.csv", text)
 }
 
 /// The same for the lowest three modes.
@@ -94,9 +84,6 @@ pub fn known_deflections() -> Result<PublishedTable, CaseError> {
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_frequencies() -> Result<PublishedTable, CaseError> {
-    PublishedTable::parse(
-        UNNUMBERED,
-        "paper/tables/delta_wing_frequencies.csv",
-        include_str!("../../../paper/tables/delta_wing_frequencies.csv"),
-    )
+    let text = include_str!("../../../paper/tables/delta_wing_frequencies.csv");
+    PublishedTable::parse(UNNUMBERED, "paper/tables/delta_wing_frequencies.csv", text)
 }

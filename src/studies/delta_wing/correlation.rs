@@ -1,15 +1,15 @@
 //! The wing's gages recovered from its modes: the method on a larger, swept structure with a sparse $T$.
 //!
-//! The model is the wing with some gages wrong, in [`GROUPS`]; what is to be found are factors on the stiffness of all groups.
-//! Everything the scenario depends on stands here:
+//! The model is the wing with some gages wrong, in [`GROUPS`]; what is to be found are factors on the stiffness of all
+//! groups. Everything the scenario depends on stands here:
 //!
 //! - **Measured** is $z$ at the 19 upper grids that move. $T$ (86 × 19) selects them: one entry a column.
 //! - **Test modes** are ten of the lowest twelve of the right wing, with mass in all directions at all its 86 DOF
-//!   ([`DeltaWing::modes`]), sampled at the measured points: nothing of the model's own condensation is in them. Modes 8 and 9 are left out: at 372.3 and
-//!   378.2 Hz they are 1.6 % apart, and the wrong gages exchange and mix them.
-//! - **Mass**: the wing was weighed part by part, so that every element of the model has its true mass whatever its gage. The
-//!   dynamic mass is $B M_S B^t$, with the new $B$ of every pass; for the right gages its ten frequencies lie within 0.006 %
-//!   of those of the whole wing. Stiffness alone is corrected.
+//!   ([`DeltaWing::modes`]), sampled at the measured points: nothing of the model's own condensation is in them. Modes
+//!   8 and 9 are left out: at 372.3 and 378.2 Hz they are 1.6 % apart, and the wrong gages exchange and mix them.
+//! - **Mass**: the wing was weighed part by part, so that every element of the model has its true mass whatever its
+//!   gage. The dynamic mass is $B M_S B^t$, with the new $B$ of every pass; for the right gages its ten frequencies lie
+//!   within 0.006 % of those of the whole wing. Stiffness alone is corrected.
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 mod run;
@@ -19,8 +19,7 @@ pub use run::{Recovered, WingCorrelation, correlate_wing, correlate_wing_with};
 use super::DeltaWing;
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::model::FiniteElementModel;
-use crate::method::model::Parameter;
+use crate::method::model::{FiniteElementModel, Parameter};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::state::UpdateRule;
@@ -73,10 +72,10 @@ pub const TEST_MODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 10, 11, 12];
 /// Direction measured.
 const Z: usize = 2;
 
-/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after, and the same in the exact check.
+/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after and in the exact check.
 ///
-/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in
-/// modal coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
+/// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in modal
+/// coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
 /// pass more.
 pub fn settings() -> Settings {
     Settings {
@@ -111,19 +110,11 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
     });
     let structure = Structure::new(right.grids().to_vec(), elements.collect())?;
     let grids = measured_grids(&structure);
-    let mut load_distribution = DMatrix::zeros(structure.free_dof().len(), grids.len());
-    for (column, &grid) in grids.iter().enumerate() {
-        if let Some(row) = structure.free_dof_index(grid, Z) {
-            load_distribution[(row, column)] = 1.0;
-        }
-    }
-    let parameters = GROUPS.iter().map(|g| Parameter::group(g.name, g.elements));
-    FiniteElementModel::new(
-        structure,
-        load_distribution,
-        DMatrix::zeros(grids.len(), grids.len()),
-        parameters.collect(),
-    )
+    let dof = structure.free_dof();
+    let selects = |row: usize, column: usize| dof[row].grid == grids[column] && dof[row].direction == Z;
+    let t = DMatrix::from_fn(dof.len(), grids.len(), |row, column| f64::from(selects(row, column)));
+    let parameters = GROUPS.iter().map(|g| Parameter::group(g.name, g.elements)).collect();
+    FiniteElementModel::new(structure, t, DMatrix::zeros(grids.len(), grids.len()), parameters)
 }
 
 /// The test modes at the measured grids.
@@ -136,10 +127,7 @@ pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
     let lowest = whole.modes.lowest(highest)?;
     let modes = TEST_MODES.map(|mode| mode - 1);
     let grids = measured_grids(&wing.structure()?);
-    let at = |grid: usize| {
-        let mut dof = whole.dof.iter();
-        dof.position(|dof| dof.grid == grid && dof.direction == Z)
-    };
+    let at = |grid: usize| whole.dof.iter().position(|dof| dof.grid == grid && dof.direction == Z);
     let rows: Vec<usize> = grids.into_iter().filter_map(at).collect();
     let all = lowest.frequencies_hz();
     ModeSet::from_measured(&modes.map(|mode| all[mode]), &lowest.shapes.select_rows(&rows).select_columns(&modes))

@@ -1,16 +1,16 @@
 //! A second structure: the delta wing of NACA TN 3114, which nobody here can tune.
 //!
-//! MacNeal and Benscoter analyzed it on an electric analog computer, Zender tested it (NACA TN 3913), and NASA keeps it as
-//! NASTRAN's demonstration problem D01-01-1. Its planform is a rule. Grids lie on five lines along the span, at
+//! MacNeal and Benscoter analyzed it on an electric analog computer, Zender tested it (NACA TN 3913), and NASA keeps it
+//! as NASTRAN's demonstration problem D01-01-1. Its planform is a rule. Grids lie on five lines along the span, at
 //! $y = 0, 20, \dots, 80$ in forward of the trailing edge, where stations at $x = 0, 10, 30, 50, 70, 90$ in outboard of
 //! the root's center cross them behind the leading edge
 //!
 //! $$ x + y \le 110\ \text{in}, $$
 //!
 //! which is swept by 45°. The wing is a quarter of the whole: the other wing moves alike, and the lower surface is the
-//! upper one's mirror image and moves against it in the plane. So mid-plane grids keep to $z$, those of the upper surface at
-//! $x = 0$ to $y$ and $z$, and the wing is supported along $z$ where its upper surface crosses the side of the body,
-//! $x = 30$ in.
+//! upper one's mirror image and moves against it in the plane. So mid-plane grids keep to $z$, those of the upper
+//! surface at $x = 0$ to $y$ and $z$, and the wing is supported along $z$ where its upper surface crosses the side of
+//! the body, $x = 30$ in.
 //!
 //! Depths and sizes are data, in `paper/delta_wing.toml`; `paper/delta_wing.md` tells where they come from.
 //! [`correlation`] corrects a wing of wrong gages with modes of this one.
@@ -21,8 +21,9 @@ mod planform;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use crate::cases::error::CaseError;
+use crate::cases::error::{CaseError, read_toml};
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::Vector3;
 use planform::{
@@ -36,6 +37,9 @@ const FIRST_COVER: usize = 1;
 const FIRST_WEB: usize = 18;
 const FIRST_POST: usize = 60;
 const FIRST_CAP: usize = 100;
+
+/// Kind, grids and size of an element.
+type Member = (ElementKind, Vec<usize>, f64);
 
 /// Material, depths and sizes of the wing.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -79,11 +83,7 @@ impl DeltaWing {
     /// # Errors
     /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
-        let read: Self = toml::from_str(text).map_err(|source| CaseError::Toml {
-            name: name.to_owned(),
-            expected: "a delta wing: material, half depths and sizes",
-            source: Box::new(source),
-        })?;
+        let read: Self = read_toml(name, "a delta wing: material, half depths and sizes", text)?;
         let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
         let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
         let along_stations: Vec<usize> = (1..STATIONS.len()).map(|station| lines_at(station) - 1).collect();
@@ -93,21 +93,15 @@ impl DeltaWing {
             ("spanwise cap areas", &read.spanwise_cap_areas, &along_lines),
             ("chordwise cap areas", &read.chordwise_cap_areas, &along_stations),
         ] {
-            crate::method::linear_algebra::check_length(what, table.len(), lengths.len())?;
-            for (row, &length) in table.iter().zip(lengths) {
-                crate::method::linear_algebra::check_length(what, row.len(), length)?;
-            }
+            check_length(what, table.len(), lengths.len())?;
+            table.iter().zip(lengths).try_for_each(|(row, &length)| check_length(what, row.len(), length))?;
         }
-        crate::method::linear_algebra::check_length(
-            "leading-edge cap areas",
-            read.leading_edge_cap_areas.len(),
-            leading_edge().len() - 1,
-        )?;
+        check_length("leading-edge cap areas", read.leading_edge_cap_areas.len(), leading_edge().len() - 1)?;
         Ok(read)
     }
 
-    /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to 53)
-    /// and 60 rods (posts, 60 to 83, and caps, 100 to 135), numbered as NASA's deck numbers them.
+    /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to
+    /// 53) and 60 rods (posts, 60 to 83, and caps, 100 to 135), numbered as NASA's deck numbers them.
     ///
     /// # Errors
     /// Those of [`Material::isotropic`] and [`Structure::new`].
@@ -115,10 +109,9 @@ impl DeltaWing {
         let rods = Material::isotropic(self.youngs_modulus, self.poissons_ratio)?;
         let sheet = rods.with_density(self.sheet_density)?;
         let mut elements = Vec::new();
-        let mut put = |first: usize, members: Vec<(ElementKind, Vec<usize>, f64)>, material| {
-            for (row, (kind, grids, size)) in members.into_iter().enumerate() {
-                elements.push(Element { label: first + row, kind, grids, size, material });
-            }
+        let mut put = |first: usize, members: Vec<Member>, material| {
+            let members = (first..).zip(members);
+            elements.extend(members.map(|(label, (kind, grids, size))| Element { label, kind, grids, size, material }));
         };
         put(FIRST_COVER, self.covers(), sheet);
         put(FIRST_WEB, self.webs(), sheet);
@@ -131,17 +124,13 @@ impl DeltaWing {
         let mut grids = Vec::new();
         for (line, depths) in self.half_depths.iter().enumerate() {
             for (station, &depth) in depths.iter().enumerate() {
-                let (x, y) = (STATIONS[station], LINES[line]);
-                grids.push(Grid {
-                    label: mid_grid(line, station),
-                    position: Vector3::new(x, y, 0.0),
-                    constrained: [true, true, false],
-                });
-                grids.push(Grid {
-                    label: upper_grid(line, station),
-                    position: Vector3::new(x, y, depth),
-                    constrained: [station == 0, false, station == SUPPORTED_STATION],
-                });
+                let at = |label, z, constrained| {
+                    let position = Vector3::new(STATIONS[station], LINES[line], z);
+                    Grid { label, position, constrained }
+                };
+                let upper = [station == 0, false, station == SUPPORTED_STATION];
+                grids.push(at(mid_grid(line, station), 0.0, [true, true, false]));
+                grids.push(at(upper_grid(line, station), depth, upper));
             }
         }
         grids.sort_by_key(|grid| grid.label);
@@ -149,66 +138,48 @@ impl DeltaWing {
     }
 
     /// Between two lines a membrane in every bay, and a triangle where the leading edge cuts one.
-    fn covers(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+    fn covers(&self) -> Vec<Member> {
         let mut covers = Vec::new();
         for line in 1..LINES.len() {
             let (aft, forward) = (line - 1, line);
             for station in 1..stations_on(aft) {
                 let [root, tip] = [station - 1, station].map(|s| upper_grid(aft, s));
                 let inboard = upper_grid(forward, station - 1);
-                covers.push(if station < stations_on(forward) {
-                    let outboard = upper_grid(forward, station);
-                    let grids = vec![root, tip, outboard, inboard];
-                    (ElementKind::Membrane, grids, self.cover_gage)
-                } else {
-                    let grids = vec![root, tip, inboard];
-                    (ElementKind::Triangle, grids, self.cover_gage)
-                });
+                let (kind, grids) = match station < stations_on(forward) {
+                    true => (ElementKind::Membrane, vec![root, tip, upper_grid(forward, station), inboard]),
+                    false => (ElementKind::Triangle, vec![root, tip, inboard]),
+                };
+                covers.push((kind, grids, self.cover_gage));
             }
         }
         covers
     }
 
     /// Along the lines, along the stations but the first, and along the leading edge from the tip in.
-    fn webs(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
-        let mut sides = along_lines();
-        sides.extend(along_stations());
+    fn webs(&self) -> Vec<Member> {
+        let mut sides = [along_lines(), along_stations()].concat();
         sides.extend(leading_edge().windows(2).map(|pair| [pair[0], pair[1]]));
-        sides
-            .into_iter()
-            .map(|[a, b]| {
-                let grids = vec![a, b, b + SURFACE_STEP, a + SURFACE_STEP];
-                (ElementKind::ShearPanel, grids, self.web_gage)
-            })
-            .collect()
+        let web = |[a, b]: [usize; 2]| vec![a, b, b + SURFACE_STEP, a + SURFACE_STEP];
+        sides.into_iter().map(|side| (ElementKind::ShearPanel, web(side), self.web_gage)).collect()
     }
 
-    fn posts(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
+    fn posts(&self) -> Vec<Member> {
         let mut posts = Vec::new();
         for (line, areas) in self.post_areas.iter().enumerate() {
-            for (station, &area) in areas.iter().enumerate() {
-                let ends = vec![mid_grid(line, station), upper_grid(line, station)];
-                posts.push((ElementKind::Rod, ends, area));
-            }
+            let ends = |station| vec![mid_grid(line, station), upper_grid(line, station)];
+            posts.extend((0..).zip(areas).map(|(station, &area)| (ElementKind::Rod, ends(station), area)));
         }
         posts
     }
 
     /// Over the webs, those of the leading edge from the root out.
-    fn caps(&self) -> Vec<(ElementKind, Vec<usize>, f64)> {
-        let mut sides = along_lines();
-        sides.extend(along_stations());
+    fn caps(&self) -> Vec<Member> {
+        let mut sides = [along_lines(), along_stations()].concat();
         sides.extend(leading_edge().windows(2).rev().map(|pair| [pair[1], pair[0]]));
         let areas = (self.spanwise_cap_areas.iter().flatten())
             .chain(self.chordwise_cap_areas.iter().flatten())
             .chain(&self.leading_edge_cap_areas);
-        sides
-            .into_iter()
-            .zip(areas)
-            .map(|(ends, &area)| {
-                let ends = ends.map(|grid| grid + SURFACE_STEP).to_vec();
-                (ElementKind::Rod, ends, area)
-            })
-            .collect()
+        let cap = |ends: [usize; 2]| ends.map(|grid| grid + SURFACE_STEP).to_vec();
+        sides.into_iter().zip(areas).map(|(ends, &area)| (ElementKind::Rod, cap(ends), area)).collect()
     }
 }

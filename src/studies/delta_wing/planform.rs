@@ -15,14 +15,12 @@ pub(super) const SURFACE_STEP: usize = 10;
 
 /// How many stations a line has behind the leading edge.
 pub(super) fn stations_on(line: usize) -> usize {
-    let behind = |x: &&f64| **x + LINES[line] <= LEADING_EDGE;
-    STATIONS.iter().filter(behind).count()
+    STATIONS.iter().filter(|x| **x + LINES[line] <= LEADING_EDGE).count()
 }
 
 /// How many lines a station has behind the leading edge.
 pub(super) fn lines_at(station: usize) -> usize {
-    let behind = |y: &&f64| STATIONS[station] + **y <= LEADING_EDGE;
-    LINES.iter().filter(behind).count()
+    LINES.iter().filter(|y| STATIONS[station] + **y <= LEADING_EDGE).count()
 }
 
 /// Number of the grid in the mid-plane.
@@ -37,24 +35,14 @@ pub(super) fn upper_grid(line: usize, station: usize) -> usize {
 
 /// Mid-plane grids at the ends of every member along a line, line by line from the root out.
 pub(super) fn along_lines() -> Vec<[usize; 2]> {
-    let mut sides = Vec::new();
-    for line in 0..LINES.len() {
-        for station in 1..stations_on(line) {
-            sides.push([mid_grid(line, station - 1), mid_grid(line, station)]);
-        }
-    }
-    sides
+    let side = |line, station| [mid_grid(line, station - 1), mid_grid(line, station)];
+    (0..LINES.len()).flat_map(|line| (1..stations_on(line)).map(move |station| side(line, station))).collect()
 }
 
 /// The same along every station but the first: nothing shears the plane of symmetry.
 pub(super) fn along_stations() -> Vec<[usize; 2]> {
-    let mut sides = Vec::new();
-    for station in 1..STATIONS.len() {
-        for line in 1..lines_at(station) {
-            sides.push([mid_grid(line - 1, station), mid_grid(line, station)]);
-        }
-    }
-    sides
+    let side = |line, station| [mid_grid(line - 1, station), mid_grid(line, station)];
+    (1..STATIONS.len()).flat_map(|station| (1..lines_at(station)).map(move |line| side(line, station))).collect()
 }
 
 /// Mid-plane grids on the leading edge, from the tip in.

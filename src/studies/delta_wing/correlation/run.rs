@@ -15,8 +15,8 @@ pub struct Recovered {
     pub group: Group,
     /// The factor found on its first gage.
     pub factor: f64,
-    /// Its largest share of a test mode's generalized stiffness, $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$, in the first model: what of it
-    /// the test modes can see.
+    /// What the test modes can see of it: its largest share of a test mode's generalized stiffness in the first model,
+    /// $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$.
     pub share: f64,
 }
 
@@ -58,12 +58,12 @@ pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> R
     correlate_wing_with(wing, BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
-/// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name for
-/// the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that program's
-/// element stiffness.
+/// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name
+/// for the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that
+/// program's element stiffness.
 ///
-/// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a test
-/// knows nothing of the program that analyzes the model.
+/// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a
+/// test knows nothing of the program that analyzes the model.
 ///
 /// # Errors
 /// Those of `elements` and of [`correlate_wing`].
