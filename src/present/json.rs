@@ -93,14 +93,13 @@ pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> 
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
     let names: Vec<&str> = result.parameter_names.iter().map(String::as_str).collect();
-    let panels = result.case.panels.iter();
     let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor});
     Ok(json!({
         "case": result.case.number,
         "succeeded": result.succeeded(),
         "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
         "published_iterations": published_iterations(result)?,
-        "element_numbers": panels.map(|panel| panel.label).collect::<Value>(),
+        "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
         "test_gage_in": TEST_GAGE,
         "first_gages_in": result.case.first_gages(),
         "pass_gages_in": result.pass_gages,
@@ -157,8 +156,7 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 /// Those of [`document`].
 pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
-    let dof = modes.dof.iter();
-    let dof = dof.map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
+    let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
     document(json!({
         "dof": dof.collect::<Value>(),
         "frequencies_hz": scaled.frequencies_hz,

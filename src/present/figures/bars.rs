@@ -94,8 +94,7 @@ impl BarFigure {
             x += 38.0 + 7.2 * series.name.len() as f64;
         }
         if series().any(|series| series.values.iter().any(|(_, marked)| marked.is_some())) {
-            mark(area, (x + 8.0, 22.0), PUBLISHED)?;
-            write(area, &self.marked, (x + 20.0, 22.0), START)?;
+            marked(area, (x + 8.0, 22.0), PUBLISHED, &self.marked)?;
         }
         Ok(())
     }

@@ -92,12 +92,10 @@ impl HeatMap {
                 };
                 let (row, column) = (i as f64, j as f64);
                 let strength = (value.abs() / self.full).min(1.0);
-                let color = if value < 0.0 { VERMILION } else { BLUE };
-                let fill = between(WHITE, color, strength);
+                let fill = between(WHITE, if value < 0.0 { VERMILION } else { BLUE }, strength);
                 rectangle(area, at(row, column), at(row + 1.0, column + 1.0), fill)?;
                 let ink = if strength > 0.6 { WHITE } else { INK };
-                let center = at(row + 0.5, column + 0.5);
-                write(area, &self.write(value), center, small.color(ink))?;
+                write(area, &self.write(value), at(row + 0.5, column + 0.5), small.color(ink))?;
             }
         }
         let frame = corners((left, top), at(rows as f64, columns as f64));

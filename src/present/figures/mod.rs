@@ -29,3 +29,9 @@ pub struct Figure {
     /// The drawing.
     pub svg: String,
 }
+
+impl Figure {
+    fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
+        Self { name: name.to_owned(), caption: caption.into(), svg }
+    }
+}

@@ -38,38 +38,30 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The page.
 ///
 /// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) for damaged published tables.
+/// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
-    let mut sections = vec![
-        section("summary-section", "Summary", &summary_section(contents)?),
-        section("box", "The box", &box_section(contents)),
+    let mut parts = vec![
+        ("summary-section".to_owned(), "Summary".to_owned(), "Summary".to_owned(), summary_section(contents)?),
+        ("box".to_owned(), "The box".to_owned(), "The box".to_owned(), box_section(contents)),
     ];
-    let mut links =
-        vec![("summary-section".to_owned(), "Summary".to_owned()), ("box".to_owned(), "The box".to_owned())];
     for result in contents.results {
         let number = result.case.number;
-        let id = format!("case-{number}");
         let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
         let heading = format!("Case {number}: {}", about(number));
-        sections.push(section(&id, &heading, &body));
-        links.push((id, format!("Case {number}")));
+        parts.push((format!("case-{number}"), format!("Case {number}"), heading, body));
     }
-    for (id, link, heading, body) in [
+    let differences = section_of(include_str!("../../../paper/results.md"), "");
+    let why = "Where the results differ from the published ones, and why";
+    let others = [
         ("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
         ("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
         ("cost", "Iterations", "Iterations", table(&iteration_table(contents.results)?)),
-        (
-            "differences",
-            "Differences",
-            "Where the results differ from the published ones, and why",
-            section_of(include_str!("../../../paper/results.md"), ""),
-        ),
+        ("differences", "Differences", why, differences),
         ("made", "How it was made", "How it was made", made_section(contents)),
-    ] {
-        sections.push(section(id, heading, &body));
-        links.push((id.to_owned(), link.to_owned()));
-    }
-    let link = |(id, words): (String, String)| format!("<a href=\"#{id}\">{words}</a>\n");
+    ];
+    parts.extend(others.map(|(id, link, heading, body)| (id.to_owned(), link.to_owned(), heading.to_owned(), body)));
+    let links: String = parts.iter().map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n")).collect();
+    let sections: String = parts.iter().map(|(id, _, heading, body)| section(id, heading, body)).collect();
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -79,8 +71,8 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
          Four cases of the published example, every number beside the published one.</p>\n</header>\n\
          <nav aria-label=\"Contents\">\n{}</nav>\n<main>\n{}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
-        links.into_iter().map(link).collect::<String>(),
-        sections.concat(),
+        links,
+        sections,
     ))
 }
 
