@@ -2,7 +2,7 @@
 //!
 //! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors of
 //! a pass are totals since the first model, those of an iteration totals since the last exact solution. A number that is
-//! not finite is `null`.
+//! not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
 use super::tables::cases::published_iterations;
@@ -108,17 +108,11 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 }
 
 /// Runs with fewer modes.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
     document(json!({ "runs": runs }))
 }
 
 /// A comparison of matrix corrections.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     document(json!({ "comparison": comparison }))
 }
@@ -151,9 +145,6 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 
 /// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of
 /// `dof`.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
     let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));

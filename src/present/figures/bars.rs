@@ -67,9 +67,6 @@ fn fill(series: usize, count: usize) -> RGBColor {
 
 impl BarFigure {
     /// The figure as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         let height = HEAD + CHART * self.charts.len() as f64 + FOOT;
         svg(name, title, height, |area| self.on(area, height))

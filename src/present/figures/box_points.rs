@@ -47,9 +47,6 @@ fn structural(fixed: bool) -> Mark {
 
 impl BoxPoints {
     /// The figure as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
         svg("box_points", "The wing torque box: structural and dynamic points", 480.0, |area| self.on(area))
     }

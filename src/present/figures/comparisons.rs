@@ -11,9 +11,6 @@ use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Predict
 use nalgebra::DMatrix;
 
 /// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn comparison_figures(
     case: usize,
     runs: &[FewerModesRun],

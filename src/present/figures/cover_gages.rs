@@ -55,9 +55,6 @@ const ROW: f64 = 188.0;
 const HEAD: f64 = 40.0;
 
 /// The covers of the configurations as SVG.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(configurations: &[Configuration]) -> Result<String, PresentError> {
     let height = HEAD + ROW * configurations.len() as f64 + 62.0;
     let title = "Cover gages of the test configuration and of each case's first model";

@@ -54,9 +54,6 @@ const MARGINS: [f64; 4] = [72.0, 16.0, 88.0, 48.0];
 const HEIGHT: f64 = 450.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
     svg(name, title, HEIGHT, |area| on(area, passes))
 }

@@ -12,9 +12,6 @@ const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];
 const ROW: f64 = 24.0;
 
 /// The factors as SVG; `published` says what the published ones are.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(
     name: &str,
     title: &str,

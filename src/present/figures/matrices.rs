@@ -23,9 +23,6 @@ pub struct HeatMap {
 }
 
 /// A figure of matrices two by two, as large as there is room, with sentences below.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw_by_twos(name: &str, title: &str, maps: &[HeatMap], notes: &[&str]) -> Result<String, PresentError> {
     const ROOM: (f64, f64) = (297.0, 270.0);
     let down = 360.0 * maps.len().div_ceil(2) as f64;
@@ -44,9 +41,6 @@ pub fn draw_by_twos(name: &str, title: &str, maps: &[HeatMap], notes: &[&str]) -
 }
 
 /// A figure of derivatives: what each parameter does to each frequency, and to the error sum.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw_derivatives(
     name: &str,
     title: &str,

@@ -82,9 +82,6 @@ const HEAD: f64 = 62.0;
 
 impl NodeLines {
     /// The node lines in plan as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         svg(name, title, self.height(), |area| {
             head(area, "node lines of the")?;
@@ -97,9 +94,6 @@ impl NodeLines {
     }
 
     /// The mode shapes in the quasi-isometric view as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw_shapes(&self, name: &str, title: &str) -> Result<String, PresentError> {
         svg(name, title, self.height(), |area| {
             head(area, "mid-plane, root at the left:")?;
