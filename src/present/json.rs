@@ -1,8 +1,8 @@
 //! Results as JSON: every document begins with program, version and units, and a correlation always has the same form.
 //!
-//! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors of
-//! a pass are totals since the first model, those of an iteration totals since the last exact solution. A number that is
-//! not finite is `null`. Every function that writes a document has the errors of [`document`].
+//! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors
+//! of a pass are totals since the first model, those of an iteration totals since the last exact solution. A number
+//! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
 use super::tables::cases::published_iterations;

@@ -23,7 +23,8 @@ pub struct FolderArguments {
     quiet: bool,
 }
 
-/// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the tables.
+/// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
+/// tables.
 pub fn pictures(FolderArguments { out, quiet }: &FolderArguments, as_page: bool) -> Result<(), PresentError> {
     let say = |words: String| (!quiet).then(|| eprintln!("{words}"));
     let mut results = Vec::new();

@@ -48,8 +48,8 @@ const FOOT: f64 = 54.0;
 /// Most steps of the vertical axis.
 const MOST_STEPS: f64 = 6.0;
 
-/// Lower and upper end of an axis that holds all values with a little room; for errors of round-off alone it still has a
-/// length.
+/// Lower and upper end of an axis that holds all values with a little room; for errors of round-off alone it still has
+/// a length.
 fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((0.0, 1e-3), |(low, high), v| (v.min(low), v.max(high)));
     let room = 0.03 * (high - low);

@@ -66,8 +66,8 @@ impl BoxPoints {
         }
         for (row, point) in self.dynamic.iter().enumerate() {
             let (x, y) = view.place(*point);
-            // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the mid
-            // ones the tip's has no room beside it and a thin line leads to its number outside.
+            // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the
+            // mid ones the tip's has no room beside it and a thin line leads to its number outside.
             let (place, side) = match row {
                 1 => ((x + 4.0, y - 34.0), MIDDLE),
                 4 => ((x, y - 12.0), MIDDLE),

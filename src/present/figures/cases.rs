@@ -58,7 +58,8 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         let (errors, nodes) = [(" (Figure 5)", " (Figure 6)"), (" (Figure 7)", ""), (" (Figure 8)", "")][case - 1];
         let history = error_history::error_history(correlation, &result.case.settings);
         let caption = format!(
-            "errors against iteration{errors}. Between exact solutions the inner loop steps by perturbation; the gap at the end of a pass is what freezing the transformation cost"
+            "errors against iteration{errors}. Between exact solutions the inner loop steps by perturbation; the gap \
+            at the end of a pass is what freezing the transformation cost"
         );
         add("errors", "errors against iteration", &caption, &|name, title| error_history::draw(name, title, &history))?;
         let gages = gage_bars(result)?;
@@ -67,7 +68,8 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         let planform = Planform::of(&result.case.reconstruction);
         let modes = node_lines::node_lines(planform, &result.test, correlation)?;
         let caption = format!(
-            "node lines in plan{nodes}, root at the left. Displacements are interpolated along ribs as the load distribution does and linearly between ribs"
+            "node lines in plan{nodes}, root at the left. Displacements are interpolated along ribs as the load \
+            distribution does and linearly between ribs"
         );
         add("node_lines", "node lines", &caption, &|name, title| modes.draw(name, title))?;
         let caption = "mode shapes of the mid-plane, the largest displacement of each the same";
@@ -110,8 +112,8 @@ pub(super) fn numbers(count: usize) -> Vec<String> {
     (1..=count).map(|number| number.to_string()).collect()
 }
 
-/// Cross-orthogonality $V_F^t M V_G$ (4) and modal assurance criterion of the exact solutions before and after, analysis
-/// modes by test modes.
+/// Cross-orthogonality $V_F^t M V_G$ (4) and modal assurance criterion of the exact solutions before and after,
+/// analysis modes by test modes.
 ///
 /// # Errors
 /// [`WrongShape`](crate::method::error::Error::WrongShape) when shapes and mass do not fit.
@@ -136,8 +138,8 @@ pub fn mode_agreement(ends: [&Check; 2], test: &ModeSet, mass: &DMatrix<f64>) ->
 ///
 /// $$ \frac{\partial \ln f_i}{\partial \ln k_e} = \frac{V_i^t K_e V_i}{2\omega_i^2} $$
 ///
-/// with the mode paired with test mode $i$ (parameters × test modes), and that of the error sum, $\Delta e_e/0.001$ of (12),
-/// in the first iteration (parameters × 1).
+/// with the mode paired with test mode $i$ (parameters × test modes), and that of the error sum, $\Delta e_e/0.001$ of
+/// (12), in the first iteration (parameters × 1).
 ///
 /// # Errors
 /// Those of the model, its analysis and [`by_definition`].

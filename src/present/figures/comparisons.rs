@@ -39,21 +39,24 @@ pub fn comparison_figures(
         Figure::new(
             "truncation",
             format!(
-                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of analysis modes."
+                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of \
+                test modes and of analysis modes."
             ),
             truncated,
         ),
         Figure::new(
             "matrices_stiffness",
             format!(
-                "{lead} change of the dynamic stiffness entry by entry, the right one, by element factors, and by closed forms on the matrices."
+                "{lead} change of the dynamic stiffness entry by entry, the right one, by element factors, and by \
+                closed forms on the matrices."
             ),
             stiffness,
         ),
         Figure::new(
             "matrices_frequencies",
             format!(
-                "{lead} frequency errors of the box as tested and with every cover thicker, a set of gages that no correction was fitted to."
+                "{lead} frequency errors of the box as tested and with every cover thicker, a set of gages that no \
+                correction was fitted to."
             ),
             frequencies,
         ),
@@ -90,8 +93,8 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
     COSTS.into_iter().enumerate().map(map).collect()
 }
 
-/// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the stiffness
-/// before (d × d), all on one scale, so that a pale matrix is a small change.
+/// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the
+/// stiffness before (d × d), all on one scale, so that a pale matrix is a small change.
 pub fn stiffness_changes(comparison: &MatrixComparison) -> Vec<HeatMap> {
     // The first prediction is the start, which changes nothing.
     let models = comparison.predictions.iter().skip(1);

@@ -1,6 +1,8 @@
-//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's and the studies' from them.
+//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's and the studies' from
+//! them.
 //!
-//! The same data give the same bytes. What draws fails with [`PresentError::Drawing`](crate::present::PresentError::Drawing).
+//! The same data give the same bytes. What draws fails with
+//! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
 pub mod bars;
 pub mod box_elements;

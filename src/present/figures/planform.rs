@@ -1,15 +1,16 @@
 //! The box in plan, and the z displacement between its nine dynamic points.
 //!
 //! **Along a rib.** The mid point of a rib rides on Hermite's cubics between the spars
-//! ([`crate::cases::torque_box::load_distribution`]). Test modes hold three displacements of a rib, rear $w_r$, mid $w_m$ and
-//! front $w_f$, and no rotations: of all such cubics the one is taken whose ends turn by equal and opposite angles from the
-//! chord line, as in pure bending. Its cubic terms cancel:
+//! ([`crate::cases::torque_box::load_distribution`]). Test modes hold three displacements of a rib, rear $w_r$, mid
+//! $w_m$ and front $w_f$, and no rotations: of all such cubics the one is taken whose ends turn by equal and opposite
+//! angles from the chord line, as in pure bending. Its cubic terms cancel:
 //!
 //! $$ w(\xi) = (1-\xi) w_r + \xi w_f + \kappa \xi(1-\xi), \qquad
 //!    \kappa = \frac{w_m - (1-\xi_m) w_r - \xi_m w_f}{\xi_m(1-\xi_m)} $$
 //!
-//! with $\xi$ from the rear spar and $\xi_m$ the mid point's. What the rotations would add is known in the model: below 4
-//! percent of the largest displacement in modes 1 to 5 of the cases, up to 31 percent in the chordwise bending of 6 and 8.
+//! with $\xi$ from the rear spar and $\xi_m$ the mid point's. What the rotations would add is known in the model: below
+//! 4 percent of the largest displacement in modes 1 to 5 of the cases, up to 31 percent in the chordwise bending of 6
+//! and 8.
 //!
 //! **Between ribs** the displacement is linear along lines of equal $\xi$, and zero at the root. In the inboard bay a
 //! node line is therefore straight.
@@ -97,8 +98,8 @@ impl Planform {
 
     /// Node lines: where the displacement vanishes away from the root, as polylines.
     ///
-    /// In a bay between ribs with displacements $a(\xi)$ and $b(\xi)$ the line is $\eta = a/(a-b)$ of the way from the one
-    /// to the other wherever they differ in sign, and so it begins and ends at their zeros or at a spar.
+    /// In a bay between ribs with displacements $a(\xi)$ and $b(\xi)$ the line is $\eta = a/(a-b)$ of the way from the
+    /// one to the other wherever they differ in sign, and so it begins and ends at their zeros or at a spar.
     pub fn node_lines(&self, shape: &[f64; 9]) -> Vec<Vec<PlanPoint>> {
         let ribs = self.rib_shapes(shape);
         let mut lines = Vec::new();

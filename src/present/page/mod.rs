@@ -1,6 +1,7 @@
 //! The report as one web page that needs nothing beside it: tables, figures, assumptions, fit, and what made it.
 //!
-//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written once.
+//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
+//! once.
 
 mod html;
 
@@ -95,7 +96,8 @@ fn summary_section(contents: &Contents) -> Result<String, PresentError> {
     for result in results {
         for anomaly in &result.anomalies {
             body += &format!(
-                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, far outside the limits. Look for a modeling error there.</p>\n",
+                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, \
+                far outside the limits. Look for a modeling error there.</p>\n",
                 result.case.number,
                 escaped(&anomaly.parameter),
                 anomaly.factor
@@ -124,7 +126,8 @@ fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     let is_published = |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
     let runs: Vec<FewerModesRun> = contents.fewer_modes.iter().filter(is_published).cloned().collect();
     let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
-    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest analysis modes.</p>\n";
+    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest \
+    analysis modes.</p>\n";
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
 }
 
@@ -133,13 +136,16 @@ fn matrices_section(contents: &Contents) -> Result<String, PresentError> {
     let comparison = contents.matrices;
     let mut tables = matrices::knowledge_tables(comparison);
     tables.push(matrices::factor_table(&Case::new(comparison.case)?, comparison));
-    let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made after the test.</p>\n";
+    let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes \
+    exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made \
+    after the test.</p>\n";
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["matrices_"]))
 }
 
 fn made_section(contents: &Contents) -> String {
     format!(
-        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; frequency in hertz. The same command gives the same page.</p>\n",
+        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; \
+        frequency in hertz. The same command gives the same page.</p>\n",
         escaped(contents.command)
     )
 }

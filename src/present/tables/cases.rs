@@ -143,14 +143,14 @@ pub fn fit_table(fit: &Fit) -> Table {
     let (case, stage, mode) = &fit.largest_at;
     let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
     let title = "The reconstructed box: computed frequencies at published gages against published";
-    let mut table = Table::new("fit", title, "Column")
-        .columns(["RMS", "Largest"], "%")
-        .note(format!(
-            "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement with everything else is evidence.",
-            100.0 * fit.rms,
-            100.0 * fit.largest,
-            in_words(stage),
-        ));
+    let mut table = Table::new("fit", title, "Column").columns(["RMS", "Largest"], "%").note(format!(
+        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper \
+            printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them \
+            is calibration and agreement with everything else is evidence.",
+        100.0 * fit.rms,
+        100.0 * fit.largest,
+        in_words(stage),
+    ));
     for column in &fit.columns {
         let differences: Vec<f64> = column.differences().collect();
         let largest = differences.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));

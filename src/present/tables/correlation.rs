@@ -24,8 +24,8 @@ pub fn last_check(correlation: &Correlation) -> &Check {
     correlation.passes.last().map_or(&correlation.initial, |pass| &pass.check)
 }
 
-/// Frequencies of exact solutions beside those of the test by the numbers of its modes, and both RMS errors; `adapt` may
-/// add a published table and change labels and digits.
+/// Frequencies of exact solutions beside those of the test by the numbers of its modes, and both RMS errors; `adapt`
+/// may add a published table and change labels and digits.
 pub(super) fn frequencies<'a>(
     table: Table,
     test_hz: &'a [f64],
@@ -102,7 +102,8 @@ pub fn factor_table(name: &str, title: &str, factors: &[JudgedFactor], bounds: R
     far.sort_by(|a, b| b.computed.abs().total_cmp(&a.computed.abs()));
     for factor in far {
         table = table.note(format!(
-            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error there.",
+            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error \
+            there.",
             factor.parameter, factor.computed
         ));
     }

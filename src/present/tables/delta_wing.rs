@@ -95,7 +95,10 @@ fn group_table(run: &WingCorrelation) -> Table {
         .column("First gage error", "%")
         .columns(["True factor", "Found"], "")
         .columns(["Last gage error", "Largest share"], "%")
-        .note("Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the stiffness of any test mode.");
+        .note(
+            "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: \
+        of the stiffness of any test mode.",
+        );
     for group in &run.groups {
         let [truth, found] = [group.true_factor(), group.factor].map(|factor| Cell::number(factor, Digits::Fixed(4)));
         let [last, share] = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));

@@ -42,7 +42,11 @@ pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table
     let paper = PublishedTable::number(9)?;
     let inner = "frequencies and errors by the inner loop (Table 9)";
     let exact = "frequencies and errors by eigensolution at the gages found";
-    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note("The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the paper prints is read as these.");
+    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note(
+        "The inner loop's \
+    own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the \
+    paper prints is read as these.",
+    );
     table_9.notes.extend(remarks(Some(&paper)));
     let mut tables = vec![table_9, frequency_table("table_9_exact", exact, &five, None, |run| &run.exact)];
     for (paper, test_modes) in GAGE_TABLES {
@@ -139,8 +143,8 @@ pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     tables
 }
 
-/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies and
-/// shapes beside all test modes.
+/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies
+/// and shapes beside all test modes.
 pub(in crate::present) fn costs(run: &FewerModesRun) -> [f64; 4] {
     let exact = &run.exact_all_modes;
     [run.shear_gage_rms, run.membrane_gage_rms, exact.frequency_rms, exact.shape_rms]

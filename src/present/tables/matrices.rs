@@ -21,7 +21,9 @@ pub fn knowledge_tables(comparison: &MatrixComparison) -> Vec<Table> {
     vec![
         frequency_table(comparison, "as tested", tested, |p| &p.as_tested),
         frequency_table(comparison, "after a change", changed, |p| &p.after_change).note(format!(
-            "The change: every cover thicker by {COVER_DOUBLER:.3} in, which no test has seen. The model corrected by elements is analyzed anew; to the corrected matrices the change of the uncorrected model's stiffness is added."
+            "The change: every cover thicker by {COVER_DOUBLER:.3} in, which no test has seen. The model corrected by \
+            elements is analyzed anew; to the corrected matrices the change of the uncorrected model's stiffness is \
+            added."
         )),
         distance_table(comparison),
     ]
@@ -55,9 +57,12 @@ fn frequency_table(
 
 fn distance_table(comparison: &MatrixComparison) -> Table {
     let title = format!("Case {}: distance of the stiffness from the true one", comparison.case);
-    let mut table = Table::new("matrix_distance", title, "Model")
-        .columns(["Left", "Beyond elements", "Mass coupling"], "%")
-        .note("Left: what separates the stiffness from the true one, in the norm that the matrix corrections make smallest, of what did at the start. Beyond elements: the part of the change that no factors on the elements could make. Mass coupling: largest mass put between two points that had none between them.");
+    let mut table =
+        Table::new("matrix_distance", title, "Model").columns(["Left", "Beyond elements", "Mass coupling"], "%").note(
+            "Left: what separates the stiffness from the true one, in the norm that the matrix corrections make \
+        smallest, of what did at the start. Beyond elements: the part of the change that no factors on the elements \
+        could make. Mass coupling: largest mass put between two points that had none between them.",
+        );
     for prediction in &comparison.predictions {
         let change = &prediction.mass_change;
         let below = (0..change.len()).flat_map(|i| (0..i).map(move |j| (i, j)));

@@ -5,8 +5,8 @@ use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Panel, TEST_GAGE};
 use crate::present::table::{Cell, Digits, Table};
 
-/// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), and its values in the order
-/// of the rows.
+/// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), and its values in the
+/// order of the rows.
 pub(super) type Stage<'a> = (String, &'a [f64]);
 
 /// What stands in a table of stages: a column of targets, then two for each stage, its values and their errors.
@@ -90,8 +90,8 @@ impl<'a> Stages<'a> {
         table
     }
 
-    /// Adds a row with one error for each stage, fractions written in percent; the published row of that name, if there is
-    /// one, is written with low lines and small letters: `frequency_rms` for `frequency RMS`.
+    /// Adds a row with one error for each stage, fractions written in percent; the published row of that name, if there
+    /// is one, is written with low lines and small letters: `frequency_rms` for `frequency RMS`.
     pub fn add_errors(
         &self,
         table: &mut Table,
