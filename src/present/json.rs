@@ -1,8 +1,8 @@
 //! Results as JSON: every document begins with program, version and units, and a correlation always has the same form.
 //!
-//! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors of
-//! a pass are totals since the first model, those of an iteration totals since the last exact solution. A number that is
-//! not finite is `null`.
+//! Errors are fractions (RMS and sums alike), gages inches, frequencies hertz in the order of the test modes. Factors
+//! of a pass are totals since the first model, those of an iteration totals since the last exact solution. A number
+//! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
 use super::tables::cases::published_iterations;
@@ -93,14 +93,13 @@ pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> 
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
     let names: Vec<&str> = result.parameter_names.iter().map(String::as_str).collect();
-    let panels = result.case.panels.iter();
     let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor});
     Ok(json!({
         "case": result.case.number,
         "succeeded": result.succeeded(),
         "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
         "published_iterations": published_iterations(result)?,
-        "element_numbers": panels.map(|panel| panel.label).collect::<Value>(),
+        "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
         "test_gage_in": TEST_GAGE,
         "first_gages_in": result.case.first_gages(),
         "pass_gages_in": result.pass_gages,
@@ -109,17 +108,11 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 }
 
 /// Runs with fewer modes.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
     document(json!({ "runs": runs }))
 }
 
 /// A comparison of matrix corrections.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     document(json!({ "comparison": comparison }))
 }
@@ -152,13 +145,9 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 
 /// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of
 /// `dof`.
-///
-/// # Errors
-/// Those of [`document`].
 pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let scaled = UnitShapes::new(modes, count);
-    let dof = modes.dof.iter();
-    let dof = dof.map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
+    let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
     document(json!({
         "dof": dof.collect::<Value>(),
         "frequencies_hz": scaled.frequencies_hz,

@@ -16,26 +16,17 @@ const PUBLISHED: &str = "  published";
 /// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below
 /// itself with the columns that are left. (One label or cell wider than the page alone is left whole.)
 pub fn text(tables: &[Table]) -> String {
-    let mut paragraphs = Vec::new();
-    if tables.iter().any(Table::is_published) {
-        paragraphs.push("Computed numbers, the published ones in rows of their own below them.".into());
-    }
-    for table in tables {
-        paragraphs.push(wrapped(&table.title));
-        paragraphs.extend(grids(table));
-        paragraphs.extend(table.notes.iter().map(|note| wrapped(note)));
-    }
-    paragraphs.join("\n\n") + "\n"
+    let head = "Computed numbers, the published ones in rows of their own below them.";
+    paragraphs(tables, head, |table| {
+        let notes = table.notes.iter().map(|note| wrapped(note));
+        std::iter::once(wrapped(&table.title)).chain(grids(table)).chain(notes).collect()
+    })
 }
 
 /// Tables as Markdown; each computed number has the published one behind it in parentheses.
 pub fn markdown(tables: &[Table]) -> String {
-    let mut paragraphs = Vec::new();
-    if tables.iter().any(Table::is_published) {
-        paragraphs.push("Computed numbers, the published ones behind them in parentheses.".into());
-    }
-    for table in tables {
-        paragraphs.push(format!("## {}", table.title));
+    let head = "Computed numbers, the published ones behind them in parentheses.";
+    paragraphs(tables, head, |table| {
         let headings = table.columns.iter().map(|column| match column.unit {
             "" => column.name.clone(),
             unit => format!("{}, {unit}", column.name),
@@ -50,9 +41,15 @@ pub fn markdown(tables: &[Table]) -> String {
             });
             lines.push(line(&row.label, cells.collect()));
         }
-        paragraphs.push(lines.join("\n"));
-        paragraphs.extend(table.notes.iter().cloned());
-    }
+        let notes = table.notes.iter().cloned();
+        [format!("## {}", table.title), lines.join("\n")].into_iter().chain(notes).collect()
+    })
+}
+
+/// Paragraphs of every table, below a line about published numbers where there are any.
+fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) -> String {
+    let head = tables.iter().any(Table::is_published).then(|| head.to_owned());
+    let paragraphs: Vec<String> = head.into_iter().chain(tables.iter().flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
 }
 
@@ -69,10 +66,8 @@ pub fn csv(tables: &[Table]) -> String {
                     Cell::Number { computed, published, .. } => (ten_digits(*computed), *published),
                 };
                 let published = published.map_or_else(String::new, |value| value.to_string());
-                let [name, label, heading] = [&table.name, &row.label, &column.name];
-                let fields = [name, label, heading, column.unit, &computed, &published];
-                out += &fields.map(quoted).join(",");
-                out.push('\n');
+                let fields = [&table.name, &row.label, &column.name, column.unit, &computed, &published];
+                out += &(fields.map(quoted).join(",") + "\n");
             }
         }
     }
@@ -81,17 +76,13 @@ pub fn csv(tables: &[Table]) -> String {
 
 /// A field of CSV, in quotes if it holds what would end it.
 fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
+    let ends = field.contains([',', '"', '\n', '\r']);
+    if ends { format!("\"{}\"", field.replace('"', "\"\"")) } else { field.to_owned() }
 }
 
 /// Ten significant digits in the shortest form that keeps them.
 fn ten_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    rounded.to_string()
+    format!("{value:.9e}").parse().unwrap_or(value).to_string()
 }
 
 /// A column of text: lines of its heading, and its cells with the published ones between them where a row has any.
@@ -103,11 +94,9 @@ struct TextColumn {
 
 impl TextColumn {
     fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
-        let length = |text: &String| text.chars().count();
-        let widest = cells.iter().map(length).max().unwrap_or(0);
-        let word = name.split(' ').map(|word| word.chars().count()).max();
         let least = if name.contains(' ') { LEAST } else { 0 };
-        let width = widest.max(word.unwrap_or(0)).max(unit.chars().count()).max(least);
+        let words = cells.iter().map(String::as_str).chain(name.split(' ')).chain([unit]);
+        let width = words.map(|word| word.chars().count()).fold(least, usize::max);
         let mut heading = lines(name, width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
         Self { heading, cells, width }
@@ -158,16 +147,12 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
     let high = all().map(|column| column.heading.len()).max().unwrap_or(0);
     // Headings stand on the rule: the shorter ones begin lower.
     let heading = |column: &TextColumn, at: usize| {
-        let from = high - column.heading.len();
-        let words = at.checked_sub(from).and_then(|row| column.heading.get(row));
-        words.cloned().unwrap_or_default()
+        (at + column.heading.len()).checked_sub(high).map_or_else(String::new, |row| column.heading[row].clone())
     };
     let mut lines: Vec<String> = (0..high).map(|at| line(&heading(label, at), &|column| heading(column, at))).collect();
-    let width = label.width + columns.iter().map(|c| GAP + c.width).sum::<usize>();
-    let rule = "─".repeat(width);
+    let rule = "─".repeat(label.width + columns.iter().map(|column| GAP + column.width).sum::<usize>());
     lines.push(rule.clone());
-    let rows = label.cells.iter().enumerate();
-    lines.extend(rows.map(|(row, name)| line(name, &|column| column.cells[row].clone())));
+    lines.extend((0..label.cells.len()).map(|row| line(&label.cells[row], &|column| column.cells[row].clone())));
     lines.push(rule);
     lines.join("\n")
 }
@@ -182,10 +167,7 @@ fn lines(words: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
         match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
             _ => lines.push(word.to_owned()),
         }
     }

@@ -5,7 +5,6 @@ use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::fit::fit;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
-use corfem::method::model::FiniteElementModel;
 use corfem::present::table::counted;
 use corfem::present::{PresentError, json, tables};
 use std::path::PathBuf;
@@ -37,10 +36,7 @@ pub struct CasesArguments {
 pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::of(&arguments.solver)?;
-    let numbers = match arguments.cases.as_slice() {
-        [] => &CASES[..],
-        named => named,
-    };
+    let numbers = if arguments.cases.is_empty() { &CASES[..] } else { &arguments.cases };
     let mut results = Vec::new();
     for &number in numbers {
         let mut case = Case::on(number, reconstruction.clone())?;
@@ -50,8 +46,7 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }
-        let elements =
-            |model: &FiniteElementModel, factors: &[f64]| Ok::<_, PresentError>(solver.elements(model, factors)?);
+        let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
         results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !arguments.quiet {
                 eprintln!(
@@ -64,7 +59,10 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
         })?);
     }
     let fit = fit(&reconstruction)?;
-    let tables = tables::cases::all_tables(&results, &fit)?;
+    let mut tables = tables::cases::all_tables(&results, &fit)?;
+    if arguments.cases.is_empty() {
+        tables.push(tables::table_1::root_error_table()?);
+    }
     arguments.output.write(&tables, || json::cases(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

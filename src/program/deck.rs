@@ -48,12 +48,8 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     let mut factors = vec![1.0; model.parameters().len()];
     if arguments.pass > 0 {
         let passes = run_case(&case, |_, _| ())?.correlation.passes;
-        factors = match passes.get(arguments.pass - 1) {
-            Some(pass) => pass.factors.clone(),
-            None => {
-                return Err(Error::TooMany { what: "pass", available: passes.len(), requested: arguments.pass }.into());
-            }
-        };
+        let none = Error::TooMany { what: "pass", available: passes.len(), requested: arguments.pass };
+        factors = passes.get(arguments.pass - 1).ok_or(none)?.factors.clone();
     }
     let modes = model.modes(&factors)?;
     let frequencies = modes.frequencies_hz();

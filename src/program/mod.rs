@@ -10,9 +10,10 @@ mod studies;
 use cases::CasesArguments;
 use clap::{Parser, Subcommand};
 use deck::{DeckArguments, ModesArguments};
+use output::OutputArguments;
 use pictures::FolderArguments;
 use std::process::ExitCode;
-use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments};
+use studies::{DeltaWingArguments, MatricesArguments};
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -20,7 +21,7 @@ const NOT_CONVERGED: u8 = 3;
 /// Corrects a finite element model until its frequencies and mode shapes agree with a ground vibration test.
 ///
 /// Without a command it does what `corfem cases` does: it correlates the paper's four cases on its wing torque box
-/// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones.
+/// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones, and Table 1.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
 struct Arguments {
@@ -39,10 +40,10 @@ Results go to standard output, progress to standard error.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers
+    /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers, and Table 1
     Cases(CasesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
-    FewerModes(FewerModesArguments),
+    FewerModes(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
@@ -66,8 +67,8 @@ pub fn run() -> ExitCode {
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
-        Some(Command::Figures(arguments)) => pictures::figures(&arguments).map(|()| true),
-        Some(Command::Report(arguments)) => pictures::report(&arguments).map(|()| true),
+        Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false).map(|()| true),
+        Some(Command::Report(arguments)) => pictures::pictures(&arguments, true).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
     };

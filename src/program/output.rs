@@ -80,9 +80,8 @@ pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
 
 /// Writes files into a folder, all of them or none: they are written elsewhere beside it first. A new folder then takes
 /// its place in one move; in an old one each file does, once every place is known to be free for a file.
-pub fn put_all(folder: &Path, files: &[(String, &str)]) -> Result<(), PresentError> {
+pub fn put_all(folder: &Path, files: &[(String, String)]) -> Result<(), PresentError> {
     let failed = |path: &Path| FileError::of_file(path, "write");
-    // A bare name has an empty parent, which is the present folder.
     let beside = folder.parent().unwrap_or(Path::new(""));
     let scratch = tempfile::tempdir_in(beside).map_err(failed(folder))?;
     // The scratch folder is its owner's alone; one made in it has the rights any new folder has.

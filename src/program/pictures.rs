@@ -2,18 +2,17 @@
 
 use super::output::put_all;
 use clap::Args;
-use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs};
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{CASES, Case, CaseResult, run_case};
+use corfem::cases::{CASES, Case, run_case};
 use corfem::present::PresentError;
-use corfem::present::figures::{Figure, case_figures, comparison_figures};
+use corfem::present::figures::{case_figures, comparison_figures};
 use corfem::present::page::{Contents, page};
 use corfem::present::table::counted;
-use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::path::PathBuf;
 
-/// Arguments of `corfem figures` and of `corfem report`.
 #[derive(Debug, Args)]
 pub struct FolderArguments {
     /// Write into this folder, made if it is new
@@ -24,60 +23,35 @@ pub struct FolderArguments {
     quiet: bool,
 }
 
-/// Everything there is to show.
-struct Runs {
-    cases: Vec<CaseResult>,
-    fewer_modes: Vec<FewerModesRun>,
-    matrices: MatrixComparison,
-    figures: Vec<Figure>,
-}
-
-impl Runs {
-    fn new(quiet: bool) -> Result<Self, PresentError> {
-        let mut cases = Vec::new();
-        for number in CASES {
-            let result = run_case(&Case::new(number)?, |_, _| {})?;
-            if !quiet {
-                let passes = counted(result.correlation.passes.len(), "pass", "passes");
-                eprintln!("case {number}: {passes}");
-            }
-            cases.push(result);
-        }
-        let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
-        let matrices = compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?;
-        let mut figures = case_figures(&cases)?;
-        figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes, &matrices)?);
-        Ok(Self { cases, fewer_modes, matrices, figures })
+/// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
+/// tables.
+pub fn pictures(FolderArguments { out, quiet }: &FolderArguments, as_page: bool) -> Result<(), PresentError> {
+    let say = |words: String| (!quiet).then(|| eprintln!("{words}"));
+    let mut results = Vec::new();
+    for number in CASES {
+        let result = run_case(&Case::new(number)?, |_, _| {})?;
+        say(format!("case {number}: {}", counted(result.correlation.passes.len(), "pass", "passes")));
+        results.push(result);
     }
-}
-
-/// Runs the four cases and what is compared with them, and writes the figures.
-pub fn figures(arguments: &FolderArguments) -> Result<(), PresentError> {
-    let runs = Runs::new(arguments.quiet)?;
-    let figures = runs.figures.iter();
-    let files: Vec<(String, &str)> =
-        figures.map(|figure| (format!("{}.svg", figure.name), figure.svg.as_str())).collect();
-    put_all(&arguments.out, &files)?;
-    if !arguments.quiet {
-        eprintln!("{} files in {}", files.len(), arguments.out.display());
-    }
-    Ok(())
-}
-
-/// Runs the four cases and what is compared with them, and writes the report.
-pub fn report(arguments: &FolderArguments) -> Result<(), PresentError> {
-    let runs = Runs::new(arguments.quiet)?;
-    let html = page(&Contents {
-        results: &runs.cases,
-        fit: &fit(&Reconstruction::embedded()?)?,
-        fewer_modes: &runs.fewer_modes,
-        matrices: &runs.matrices,
-        figures: &runs.figures,
-        command: &format!("corfem report --out {}", arguments.out.display()),
-    })?;
-    put_all(&arguments.out, &[("report.html".to_owned(), &html)])?;
-    if !arguments.quiet {
-        eprintln!("{}", arguments.out.join("report.html").display());
+    let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
+    let matrices = compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?;
+    let mut figures = case_figures(&results)?;
+    figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes, &matrices)?);
+    if as_page {
+        let html = page(&Contents {
+            results: &results,
+            fit: &fit(&Reconstruction::embedded()?)?,
+            fewer_modes: &fewer_modes,
+            matrices: &matrices,
+            figures: &figures,
+            command: &format!("corfem report --out {}", out.display()),
+        })?;
+        put_all(out, &[("report.html".to_owned(), html)])?;
+        say(out.join("report.html").display().to_string());
+    } else {
+        let files: Vec<_> = figures.into_iter().map(|figure| (figure.name + ".svg", figure.svg)).collect();
+        put_all(out, &files)?;
+        say(format!("{} files in {}", files.len(), out.display()));
     }
     Ok(())
 }

@@ -2,7 +2,6 @@
 
 use clap::{Args, ValueEnum};
 use corfem::cases::BUILT_IN;
-use corfem::files::error::FileError;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::FiniteElementModel;
 use corfem::present::PresentError;
@@ -32,19 +31,14 @@ enum SolverArgument {
     Nastran95,
 }
 
-/// What analyzes a model.
-pub enum Solver {
-    /// The elements of this program.
-    BuiltIn,
-    /// NASTRAN-95.
-    Nastran95(Nastran95),
-}
+/// What analyzes a model: NASTRAN-95, or without it the elements of this program.
+pub struct Solver(Option<Nastran95>);
 
 impl Solver {
     /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
     pub fn of(arguments: &SolverArguments) -> Result<Self, PresentError> {
         if let SolverArgument::BuiltIn = arguments.solver {
-            return Ok(Self::BuiltIn);
+            return Ok(Self(None));
         }
         let folder = arguments.nastran.clone().unwrap_or_else(default_folder);
         let mut nastran = Nastran95::in_folder(&folder)?;
@@ -53,22 +47,17 @@ impl Solver {
             // A program that cannot be told to stop still does its work.
             let _ = signal_hook::flag::register(signal, Arc::clone(&nastran.stop));
         }
-        Ok(Self::Nastran95(nastran))
+        Ok(Self(Some(nastran)))
     }
 
     /// Its name in reports.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::BuiltIn => BUILT_IN,
-            Self::Nastran95(_) => NAME,
-        }
+        if self.0.is_some() { NAME } else { BUILT_IN }
     }
 
     /// The model with the solver's elements, at the given factors on the parameters.
-    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
-        match self {
-            Self::BuiltIn => Ok(model.clone()),
-            Self::Nastran95(nastran) => nastran.elements(model, factors),
-        }
+    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, PresentError> {
+        let elements = self.0.as_ref().map(|nastran| nastran.elements(model, factors));
+        Ok(elements.unwrap_or_else(|| Ok(model.clone()))?)
     }
 }

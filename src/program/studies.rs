@@ -5,17 +5,10 @@ use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::Case;
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
-use corfem::method::model::FiniteElementModel;
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing_with;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
-
-#[derive(Debug, Args)]
-pub struct FewerModesArguments {
-    #[command(flatten)]
-    output: OutputArguments,
-}
 
 #[derive(Debug, Args)]
 pub struct MatricesArguments {
@@ -38,11 +31,11 @@ pub struct DeltaWingArguments {
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
-pub fn fewer_modes(arguments: &FewerModesArguments) -> Result<(), PresentError> {
+pub fn fewer_modes(output: &OutputArguments) -> Result<(), PresentError> {
     let case = Case::new(PUBLISHED_CASE)?;
     let (published, all) = (published_runs(&case)?, all_runs(&case)?);
     let tables = tables::fewer_modes::fewer_modes_tables(&case, &published, &all)?;
-    arguments.output.write(&tables, || json::fewer_modes(&all))
+    output.write(&tables, || json::fewer_modes(&all))
 }
 
 /// Corrects a case by elements and by matrices and writes what either knows afterwards.
@@ -57,9 +50,7 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let elements =
-        |model: &FiniteElementModel, factors: &[f64]| Ok::<_, PresentError>(solver.elements(model, factors)?);
-    let run = correlate_wing_with(&wing, solver.name(), elements, |_, _| {})?;
+    let run = correlate_wing_with(&wing, solver.name(), |model, factors| solver.elements(model, factors), |_, _| {})?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
     arguments.output.write(&tables, || json::delta_wing(&wing, &run))?;
     Ok(run.correlation.converged)

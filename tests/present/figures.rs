@@ -12,7 +12,7 @@ use corfem::present::figures::planform::Planform;
 use corfem::present::figures::{Figure, case_figures, comparison_figures};
 use corfem::present::table::{Cell, Column, Table};
 use corfem::present::tables::cases::{factor_table, frequency_table, gage_table, iteration_table, unlimited_factors};
-use corfem::present::tables::correlation::{Verdict, last_check};
+use corfem::present::tables::correlation::{Judgment, last_check};
 use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::sync::OnceLock;
 
@@ -85,17 +85,17 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
                 1 => "Initial error".to_owned(),
                 later => format!("Pass {} error", later - 1),
             };
-            same(&pass.inner[0].errors, &before);
-            same(&pass.check.errors, &format!("Pass {number} error"));
-            assert_eq!(pass.inner[0].iteration, iterations);
+            same(&pass.inner[0], &before);
+            same(&pass.check, &format!("Pass {number} error"));
+            assert_eq!(pass.from, iterations);
             let count = cell(&counts, &case, &format!("Pass {number}"), "").0;
             iterations += count as usize;
             assert_eq!(pass.inner.len(), count as usize + 1);
-            assert_eq!((pass.inner[count as usize].iteration, pass.check.iteration), (iterations, iterations));
+            assert_eq!(pass.to(), iterations);
             assert_eq!(pass.tolerance, if number == 1 { 0.025 } else { 0.015 });
             let steps = &result.correlation.passes[row].inner.iterations;
-            for (moment, step) in pass.inner[1..].iter().zip(steps) {
-                assert_eq!(moment.errors, step.errors);
+            for (errors, step) in pass.inner[1..].iter().zip(steps) {
+                assert_eq!(*errors, step.errors);
             }
         }
     }
@@ -245,8 +245,8 @@ fn unlimited_factors_are_those_of_the_table_with_the_published_one() {
         assert_eq!((factor.computed, factor.published), (computed, published));
         let is_faulty = factor.parameter == "8";
         assert_eq!(factor.published, is_faulty.then_some(60.0));
-        assert_eq!(factor.verdict == Verdict::Anomaly, is_faulty);
+        assert_eq!(factor.judgment == Judgment::Anomaly, is_faulty);
         let is_within = (0.55..=1.50).contains(&computed);
-        assert_eq!(factor.verdict == Verdict::Within, is_within);
+        assert_eq!(factor.judgment == Judgment::Within, is_within);
     }
 }

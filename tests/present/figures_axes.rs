@@ -37,16 +37,16 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
     let moments = |history: &[PassHistory]| -> Vec<f64> {
         let passes = history.iter();
         let moments = passes.flat_map(|pass| pass.inner.iter().chain([&pass.check]));
-        moments.map(|moment| moment.errors.sum()).collect()
+        moments.map(|errors| errors.sum()).collect()
     };
     let largest = moments(&history).into_iter().fold(0.0, f64::max);
     // A tenth of room is left above the largest: with 45 % at 50, and 46 % at 100.
     for (wanted, last) in [(0.46, 100.0), (0.45, 50.0), (0.05, 10.0)] {
         let mut scaled = history.clone();
         for pass in &mut scaled {
-            for moment in pass.inner.iter_mut().chain([&mut pass.check]) {
-                moment.errors.frequency *= wanted / largest;
-                moment.errors.shape *= wanted / largest;
+            for errors in pass.inner.iter_mut().chain([&mut pass.check]) {
+                errors.frequency *= wanted / largest;
+                errors.shape *= wanted / largest;
             }
         }
         let found = ticks(&scaled);

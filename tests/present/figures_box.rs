@@ -5,7 +5,7 @@ use crate::present::figures::results;
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::method::structure::ElementKind;
-use corfem::present::figures::box_elements::{Layer, box_elements};
+use corfem::present::figures::box_elements::Layer;
 use corfem::present::figures::box_points::box_points;
 use corfem::present::figures::cover_gages::cover_gages;
 use nalgebra::DVector;
@@ -14,12 +14,12 @@ use nalgebra::DVector;
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let case = &results()[0].case;
     let data = box_points(case).expect("a box");
-    let numbers: Vec<usize> = data.structural.iter().map(|point| point.grid).collect();
+    let numbers: Vec<usize> = data.structural.iter().map(|point| point.label).collect();
     assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
     for point in &data.structural {
-        assert_eq!(point.fixed, point.grid >= 13);
+        assert_eq!(point.constrained, [point.label >= 13; 3]);
         let position: [f64; 3] = point.position.into();
-        assert_eq!(position, case.reconstruction.grids[&point.grid]);
+        assert_eq!(position, case.reconstruction.grids[&point.label]);
     }
     assert_eq!(data.edges.len(), 28, "24 edges that rods run along, and four in the root");
     assert!(data.edges.iter().all(|[from, to]| from < to));
@@ -44,16 +44,12 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
 #[test]
 fn box_elements_are_the_models_in_three_layers() {
     let case = &results()[1].case;
-    let data = box_elements(case).expect("a box");
     let model = case.model().expect("a model");
-    assert_eq!(data.len(), 39);
-    for (drawn, element) in data.iter().zip(model.structure().elements()) {
-        assert_eq!((drawn.label, drawn.kind), (element.label, element.kind));
-        assert_eq!(drawn.corners, model.structure().corners(element));
-    }
+    let structure = model.structure();
+    assert_eq!(structure.elements().len(), 39);
     let on = |layer| {
-        let here = data.iter().filter(move |drawn| drawn.layer == layer);
-        here.map(|drawn| drawn.label).collect::<Vec<_>>()
+        let here = structure.elements().iter().filter(|element| Layer::of(&structure.corners(element)) == layer);
+        here.map(|element| element.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
     assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);
@@ -68,12 +64,12 @@ fn cover_gages_are_those_of_table_2() {
     let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
     let data = cover_gages(&cases);
     let table = PublishedTable::number(2).expect("it reads");
-    let names: Vec<&str> = data.iter().map(|c| c.name.as_str()).collect();
+    let names: Vec<&str> = data.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
-    for (number, configuration) in data.iter().enumerate() {
-        let labels: Vec<usize> = configuration.covers.iter().map(|cover| cover.label).collect();
+    for (number, (_, covers)) in data.iter().enumerate() {
+        let labels: Vec<usize> = covers.iter().map(|cover| cover.label).collect();
         assert_eq!(labels, [2, 4, 8, 9, 11, 15]);
-        for cover in &configuration.covers {
+        for cover in covers {
             assert_eq!(cover.upper, [4, 9, 15].contains(&cover.label));
             assert_eq!(cover.corners.len(), 4);
             let row = cover.label.to_string();

@@ -48,8 +48,8 @@ const FOOT: f64 = 54.0;
 /// Most steps of the vertical axis.
 const MOST_STEPS: f64 = 6.0;
 
-/// Lower and upper end of an axis that holds all values with a little room; for errors of round-off alone it still has a
-/// length.
+/// Lower and upper end of an axis that holds all values with a little room; for errors of round-off alone it still has
+/// a length.
 fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((0.0, 1e-3), |(low, high), v| (v.min(low), v.max(high)));
     let room = 0.03 * (high - low);
@@ -67,9 +67,6 @@ fn fill(series: usize, count: usize) -> RGBColor {
 
 impl BarFigure {
     /// The figure as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         let height = HEAD + CHART * self.charts.len() as f64 + FOOT;
         svg(name, title, height, |area| self.on(area, height))
@@ -94,8 +91,7 @@ impl BarFigure {
             x += 38.0 + 7.2 * series.name.len() as f64;
         }
         if series().any(|series| series.values.iter().any(|(_, marked)| marked.is_some())) {
-            mark(area, (x + 8.0, 22.0), PUBLISHED)?;
-            write(area, &self.marked, (x + 20.0, 22.0), START)?;
+            marked(area, (x + 8.0, 22.0), PUBLISHED, &self.marked)?;
         }
         Ok(())
     }

@@ -4,26 +4,16 @@ use super::canvas::*;
 use super::planform::Planform;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
+use crate::method::structure::Grid;
 use crate::present::PresentError;
 use nalgebra::Vector3;
 use plotters::style::WHITE;
 
-/// A structural grid point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StructuralPoint {
-    /// Its number.
-    pub grid: usize,
-    /// Position, in: x aft, y outboard, z up.
-    pub position: Vector3<f64>,
-    /// Whether it is constrained in all directions.
-    pub fixed: bool,
-}
-
 /// What the figure shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoxPoints {
-    /// The sixteen structural points.
-    pub structural: Vec<StructuralPoint>,
+    /// The sixteen structural points, constrained in all directions or in none.
+    pub structural: Vec<Grid>,
     /// The nine dynamic points at mid-depth, in; z motion alone.
     pub dynamic: Vec<Vector3<f64>>,
     /// Edges of the panels, as grids.
@@ -35,64 +25,49 @@ pub struct BoxPoints {
 /// # Errors
 /// Those of [`Case::model`].
 pub fn box_points(case: &Case) -> Result<BoxPoints, PresentError> {
-    let model = case.model()?;
-    let structural: Vec<StructuralPoint> = model
-        .structure()
-        .grids()
-        .iter()
-        .map(|grid| StructuralPoint { grid: grid.label, position: grid.position, fixed: grid.constrained == [true; 3] })
-        .collect();
-    let dynamic =
-        Planform::of(&case.reconstruction).dynamic_points().into_iter().map(|[x, y]| Vector3::new(x, y, 0.0)).collect();
-    let mut edges: Vec<[usize; 2]> = Vec::new();
+    let structural = case.model()?.structure().grids().to_vec();
+    let dynamic = Planform::of(&case.reconstruction).dynamic_points();
+    let mut edges = Vec::new();
     for panel in &case.panels {
-        for (k, &from) in panel.grids.iter().enumerate() {
-            let to = panel.grids[(k + 1) % panel.grids.len()];
+        for (&from, &to) in panel.grids.iter().zip(panel.grids.iter().cycle().skip(1)) {
             let edge = [from.min(to), from.max(to)];
             if !edges.contains(&edge) {
                 edges.push(edge);
             }
         }
     }
-    Ok(BoxPoints { structural, dynamic, edges })
+    Ok(BoxPoints { structural, dynamic: dynamic.into_iter().map(|[x, y]| Vector3::new(x, y, 0.0)).collect(), edges })
 }
 
 const DYNAMIC: Mark = Mark(Form::Square, 4.5, Some(VERMILION), Pen(VERMILION, 1.2, Dash::Solid));
 
 fn structural(fixed: bool) -> Mark {
-    let fill = if fixed { INK } else { WHITE };
-    Mark(Form::Circle, 4.0, Some(fill), Pen::solid(BLUE, 1.6))
+    Mark(Form::Circle, 4.0, Some(if fixed { INK } else { WHITE }), Pen::solid(BLUE, 1.6))
 }
 
 impl BoxPoints {
     /// The figure as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self) -> Result<String, PresentError> {
-        let title = "The wing torque box: structural and dynamic points";
-        svg("box_points", title, 480.0, |area| self.on(area))
+        svg("box_points", "The wing torque box: structural and dynamic points", 480.0, |area| self.on(area))
     }
 
     fn on(&self, area: &Area) -> Drawn {
-        let positions: Vec<_> = self.structural.iter().map(|point| point.position).collect();
+        let positions: Vec<_> = self.structural.iter().map(|grid| grid.position).collect();
         let view = View::fitted(&positions, DEPTH_DRAWN, [40.0, 24.0, 680.0, 420.0]);
-        let point = |grid: usize| self.structural.iter().find(|point| point.grid == grid);
+        let grid = |label: usize| self.structural.iter().find(|grid| grid.label == label);
+        let is_fixed = |grid: &Grid| grid.constrained == [true; 3];
         // The view looks down at the upper covers, the rear spar and the root: lower front points lie behind.
-        let is_hidden = |point: &StructuralPoint| point.grid.is_multiple_of(4) && !point.fixed;
+        let is_hidden = |grid: &Grid| grid.label.is_multiple_of(4) && !is_fixed(grid);
         for &[from, to] in &self.edges {
-            if let (Some(a), Some(b)) = (point(from), point(to)) {
-                let pen = match is_hidden(a) || is_hidden(b) {
-                    true => Pen::solid(SILVER, 0.9),
-                    false => Pen::solid(INK, 1.1),
-                };
-                line(area, &[view.place(a.position), view.place(b.position)], pen)?;
+            if let (Some(a), Some(b)) = (grid(from), grid(to)) {
+                let (color, width) = if is_hidden(a) || is_hidden(b) { (SILVER, 0.9) } else { (INK, 1.1) };
+                line(area, &[view.place(a.position), view.place(b.position)], Pen::solid(color, width))?;
             }
         }
         for (row, point) in self.dynamic.iter().enumerate() {
             let (x, y) = view.place(*point);
-            // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the mid
-            // ones the tip's has no room beside it and a thin line leads to its number outside.
+            // Rear points are numbered to the right and front ones to the left, but where a line passes there; of the
+            // mid ones the tip's has no room beside it and a thin line leads to its number outside.
             let (place, side) = match row {
                 1 => ((x + 4.0, y - 34.0), MIDDLE),
                 4 => ((x, y - 12.0), MIDDLE),
@@ -101,37 +76,30 @@ impl BoxPoints {
                 _ => ((x - 9.0, y), END),
             };
             if row == 1 {
-                let lead = [(x, y), (x + 3.0, y - 27.0)];
-                line(area, &lead, Pen::solid(VERMILION, 0.8))?;
+                line(area, &[(x, y), (x + 3.0, y - 27.0)], Pen::solid(VERMILION, 0.8))?;
             }
             mark(area, (x, y), DYNAMIC)?;
-            let letters = side.small().color(VERMILION);
-            write(area, &format!("D{}", row + 1), place, letters)?;
+            write(area, &format!("D{}", row + 1), place, side.small().color(VERMILION))?;
         }
-        for point in &self.structural {
-            let (x, y) = view.place(point.position);
-            mark(area, (x, y), structural(point.fixed))?;
+        for grid in &self.structural {
+            let (x, y) = view.place(grid.position);
+            mark(area, (x, y), structural(is_fixed(grid)))?;
             // Away from the lines: rear points are numbered to the lower right, front ones above or below.
-            let (place, side) = match point.grid % 4 {
+            let (place, side) = match grid.label % 4 {
                 1 | 2 => ((x + 8.0, y + 11.0), START),
                 3 => ((x - 2.0, y - 15.0), MIDDLE),
                 _ => ((x, y + 16.0), MIDDLE),
             };
-            write(area, &point.grid.to_string(), place, side.bold().color(BLUE))?;
+            write(area, &grid.label.to_string(), place, side.bold().color(BLUE))?;
+        }
+        for (y, form, words) in [
+            (400.0, structural(false), "structural point: x, y and z motion"),
+            (420.0, structural(true), "structural point, fixed"),
+            (440.0, DYNAMIC, "dynamic point at mid-depth: z motion"),
+        ] {
+            marked(area, (430.0, y), form, words)?;
         }
         let note = format!("Depth drawn {DEPTH_DRAWN:.0} times as large as the plan.");
-        for (row, (form, words)) in [
-            (structural(false), "structural point: x, y and z motion"),
-            (structural(true), "structural point, fixed"),
-            (DYNAMIC, "dynamic point at mid-depth: z motion"),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let y = 400.0 + 20.0 * row as f64;
-            mark(area, (430.0, y), form)?;
-            write(area, words, (442.0, y), START)?;
-        }
         write(area, &note, (425.0, 462.0), START)?;
         axes(area, (70.0, 90.0))
     }
@@ -147,8 +115,7 @@ pub(super) fn axes(area: &Area, origin: Place) -> Drawn {
     ] {
         let (x, y) = view.place(5.0 * direction);
         line(area, &[origin, (x, y)], Pen::solid(INK, 1.2))?;
-        let end = Mark(Form::Circle, 1.8, Some(INK), Pen::solid(INK, 1.0));
-        mark(area, (x, y), end)?;
+        mark(area, (x, y), Mark(Form::Circle, 1.8, Some(INK), Pen::solid(INK, 1.0)))?;
         write(area, name, (x + shift.0, y + shift.1), letters.small())?;
     }
     Ok(())

@@ -15,7 +15,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 const UNITS: f64 = 10.0;
 /// Every figure's width, px.
 pub(super) const WIDTH: f64 = 760.0;
-/// Faces asked for, the last being whatever the reader has.
+/// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
 const LETTER_SCALE: f64 = 1.24;
@@ -97,17 +97,13 @@ const fn letters(across: HPos) -> Letters {
     Letters { height: 13.0, color: INK, weight: FontStyle::Normal, across, upward: false }
 }
 
-/// Letters that begin at their place.
 pub(super) const START: Letters = letters(HPos::Left);
-/// Letters that are centered on their place.
 pub(super) const MIDDLE: Letters = letters(HPos::Center);
-/// Letters that end at their place.
 pub(super) const END: Letters = letters(HPos::Right);
 
 impl Letters {
     pub fn bold(self) -> Self {
-        let weight = FontStyle::Bold;
-        Self { weight, ..self }
+        Self { weight: FontStyle::Bold, ..self }
     }
 
     pub fn small(self) -> Self {
@@ -123,11 +119,9 @@ impl Letters {
     }
 
     pub fn upward(self) -> Self {
-        let upward = true;
-        Self { upward, ..self }
+        Self { upward: true, ..self }
     }
 
-    /// In the library's terms.
     pub fn style(self) -> TextStyle<'static> {
         let height = UNITS * LETTER_SCALE * self.height;
         let mut font = FontDesc::new(FontFamily::Name(FACE), height, self.weight);
@@ -146,19 +140,19 @@ pub(super) fn svg(
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<String, PresentError> {
     let mut drawn = String::new();
-    let size = (units(WIDTH).unsigned_abs(), units(height).unsigned_abs());
+    let (across, down) = (units(WIDTH).unsigned_abs(), units(height).unsigned_abs());
     {
-        let area = SVGBackend::with_string(&mut drawn, size).into_drawing_area();
+        let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
             .and_then(|()| draw(&area))
             .and_then(|()| area.present())
             .map_err(|error| PresentError::Drawing { figure: name.to_owned(), found: error.to_string() })?;
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
-    let (across, down) = size;
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     Ok(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} \
+        {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
     ))
 }
 
@@ -175,8 +169,7 @@ pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
 /// A polygon, filled and with its outline.
 pub(super) fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pen: Pen) -> Drawn {
     if let Some(fill) = fill {
-        let points: Vec<(i32, i32)> = corners.iter().copied().map(place).collect();
-        area.draw(&Polygon::new(points, fill.filled()))?;
+        area.draw(&Polygon::new(corners.iter().copied().map(place).collect::<Vec<_>>(), fill.filled()))?;
     }
     let closed: Vec<Place> = corners.iter().chain(corners.first()).copied().collect();
     line(area, &closed, pen)
@@ -200,11 +193,9 @@ pub(super) fn bar(area: &Area, from: Place, to: Place, fill: RGBColor) -> Drawn 
 pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) -> Drawn {
     let corners = match form {
         Form::Circle => {
-            let (at, radius) = (place(at), units(size));
-            if let Some(fill) = fill {
-                area.draw(&Circle::new(at, radius, fill.filled()))?;
-            }
-            return area.draw(&Circle::new(at, radius, pen.style()));
+            let circle = |style: ShapeStyle| area.draw(&Circle::new(place(at), units(size), style));
+            fill.map_or(Ok(()), |fill| circle(fill.filled()))?;
+            return circle(pen.style());
         }
         Form::Square => [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
         Form::Diamond => [(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)],
@@ -213,13 +204,17 @@ pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) ->
     polygon(area, &corners, fill, pen)
 }
 
-/// Part of their height by which the library sets centered letters too high.
-const SET_HIGH: f64 = 0.1;
-
-pub(super) fn write(area: &Area, text: &str, at: Place, letters: Letters) -> Drawn {
-    let lower = SET_HIGH * letters.height;
-    let at = if letters.upward { (at.0 + lower, at.1) } else { (at.0, at.1 + lower) };
+pub(super) fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) -> Drawn {
+    // The library sets centered letters too high by a tenth of their height.
+    let lower = 0.1 * letters.height;
+    let at = if letters.upward { (x + lower, y) } else { (x, y + lower) };
     area.draw(&Text::new(text.to_owned(), place(at), letters.style()))
+}
+
+/// A mark of a legend with what it means.
+pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
+    mark(area, at, form)?;
+    write(area, words, (at.0 + 12.0, at.1), START)
 }
 
 /// The name of a vertical axis, along the left edge.
@@ -230,28 +225,22 @@ pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
 /// A published value on a bar.
 pub(super) const PUBLISHED: Mark = Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(INK, 0.9, Dash::Solid));
 
-/// A number as it stands on a figure, with the sign for minus.
+/// A number with the sign for minus.
 pub(super) fn signed(text: String) -> String {
     text.replace('-', "−")
 }
 
 /// A chart with room for its axes: left, right, top and bottom margins, px.
-pub(super) fn chart<'a, 'b>(
-    area: &'a Area<'b>,
-    [left, right, top, bottom]: [f64; 4],
-) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
+pub(super) fn chart<'a, 'b>(area: &'a Area<'b>, margins: [f64; 4]) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
+    let [left, right, top, bottom] = margins.map(units);
     let mut chart = ChartBuilder::on(area);
-    chart
-        .margin_right(units(right))
-        .margin_top(units(top))
-        .x_label_area_size(units(bottom))
-        .y_label_area_size(units(left));
+    chart.margin_right(right).margin_top(top).x_label_area_size(bottom).y_label_area_size(left);
     chart
 }
 
-/// A chart built on an area: its axes in the style of all figures, to be drawn, and where a point of it lies.
 pub(super) type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
 
+/// Axes in the style of all figures, to be drawn.
 pub(super) fn axes<'a, 'b, 'c, X, Y>(chart: &'c mut Chart<'a, 'b, X, Y>) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
 where
     X: Ranged<ValueType = f64> + ValueFormatter<f64>,
@@ -267,11 +256,12 @@ where
     mesh
 }
 
-pub(super) fn placed<X, Y>(chart: &Chart<'_, '_, X, Y>, x: f64, y: f64) -> Place
-where
-    X: Ranged<ValueType = f64>,
-    Y: Ranged<ValueType = f64>,
-{
+/// Where a point of a chart lies.
+pub(super) fn placed(
+    chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
+    x: f64,
+    y: f64,
+) -> Place {
     let (x, y) = chart.plotting_area().map_coordinate(&(x, y));
     (f64::from(x) / UNITS, f64::from(y) / UNITS)
 }

@@ -22,66 +22,44 @@ use nalgebra::DMatrix;
 /// Those of the figures' data; [`PresentError::Drawing`].
 pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
-    let mut add = |name: &str, caption: &str, svg: String| {
-        figures.push(Figure { name: name.to_owned(), caption: caption.to_owned(), svg });
-    };
-    if let Some(first) = results.first() {
-        add(
-            "box_points",
-            "The wing torque box with its structural and dynamic points (the paper's Figure 2).",
-            box_points::box_points(&first.case)?.draw()?,
-        );
-        add(
-            "box_elements",
-            "The box taken apart, its elements numbered (Figure 3).",
-            box_elements::draw(&box_elements::box_elements(&first.case)?)?,
-        );
+    if let Some(CaseResult { case, .. }) = results.first() {
+        let caption = "The wing torque box with its structural and dynamic points (the paper's Figure 2).";
+        figures.push(Figure::new("box_points", caption, box_points::box_points(case)?.draw()?));
+        let caption = "The box taken apart, its elements numbered (Figure 3).";
+        figures.push(Figure::new("box_elements", caption, box_elements::draw(case)?));
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
-    add(
-        "cover_gages",
-        "Cover gages of the test configuration and of each first model (Figure 4); root at the left.",
-        cover_gages::draw(&cover_gages::cover_gages(&cases))?,
-    );
+    let caption = "Cover gages of the test configuration and of each first model (Figure 4); root at the left.";
+    figures.push(Figure::new("cover_gages", caption, cover_gages::draw(&cover_gages::cover_gages(&cases))?));
     for result in results {
-        figures.extend(figures_of(result)?);
+        add_figures_of(result, &mut figures)?;
     }
     Ok(figures)
 }
 
-/// A drawing that is given its name and title.
-type Draw<'a> = &'a dyn Fn(&str, &str) -> Result<String, PresentError>;
-
-/// The figures of one case: of its passes or, in Case 4, of its single iteration; and its derivatives.
-fn figures_of(result: &CaseResult) -> Result<Vec<Figure>, PresentError> {
+/// Adds the figures of one case: of its passes or, in Case 4, of its single iteration; and its derivatives.
+fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
+    type Draw<'a> = &'a dyn Fn(&str, &str) -> Result<String, PresentError>;
     let case = result.case.number;
-    let mut figures = Vec::new();
     let mut add = |name: &str, title: &str, caption: &str, draw: Draw| {
         let name = format!("case_{case}_{name}");
         let svg = draw(&name, &format!("Case {case}: {title}"))?;
-        let caption = format!("Case {case}: {caption}.");
-        figures.push(Figure { name, caption, svg });
+        figures.push(Figure::new(&name, format!("Case {case}: {caption}."), svg));
         Ok::<_, PresentError>(())
     };
     let correlation = &result.correlation;
     if case == CASES[3] {
-        let asked = unlimited_factors(result);
-        let limits = result.case.settings.inner.factor_range;
-        add(
-            "factors",
-            "unlimited stiffness change factors",
-            "what the first iteration asks of every panel before any limit, on a linear scale",
-            &|name, title| factors::draw(name, title, &asked, limits, "published (“about 60”)"),
-        )?;
+        let (asked, limits) = (unlimited_factors(result), result.case.settings.inner.factor_range);
+        let caption = "what the first iteration asks of every panel before any limit, on a linear scale";
+        add("factors", "unlimited stiffness change factors", caption, &|name, title| {
+            factors::draw(name, title, &asked, limits, "published (“about 60”)")
+        })?;
     } else {
-        let (errors, nodes) = match case {
-            1 => (" (Figure 5)", " (Figure 6)"),
-            2 => (" (Figure 7)", ""),
-            _ => (" (Figure 8)", ""),
-        };
+        let (errors, nodes) = [(" (Figure 5)", " (Figure 6)"), (" (Figure 7)", ""), (" (Figure 8)", "")][case - 1];
         let history = error_history::error_history(correlation, &result.case.settings);
         let caption = format!(
-            "errors against iteration{errors}. Between exact solutions the inner loop steps by perturbation; the gap at the end of a pass is what freezing the transformation cost"
+            "errors against iteration{errors}. Between exact solutions the inner loop steps by perturbation; the gap \
+            at the end of a pass is what freezing the transformation cost"
         );
         add("errors", "errors against iteration", &caption, &|name, title| error_history::draw(name, title, &history))?;
         let gages = gage_bars(result)?;
@@ -90,25 +68,24 @@ fn figures_of(result: &CaseResult) -> Result<Vec<Figure>, PresentError> {
         let planform = Planform::of(&result.case.reconstruction);
         let modes = node_lines::node_lines(planform, &result.test, correlation)?;
         let caption = format!(
-            "node lines in plan{nodes}, root at the left. Displacements are interpolated along ribs as the load distribution does and linearly between ribs"
+            "node lines in plan{nodes}, root at the left. Displacements are interpolated along ribs as the load \
+            distribution does and linearly between ribs"
         );
         add("node_lines", "node lines", &caption, &|name, title| modes.draw(name, title))?;
         let caption = "mode shapes of the mid-plane, the largest displacement of each the same";
         add("mode_shapes", "mode shapes", caption, &|name, title| modes.draw_shapes(name, title))?;
         let ends = [&correlation.initial, last_check(correlation)];
         let maps = mode_agreement(ends, &result.test, &result.case.reconstruction.mass())?;
-        let title = "analysis against test modes before and after";
         let caption = "cross-orthogonality and modal assurance criterion of analysis and test modes";
-        add("agreement", title, caption, &|name, title| {
+        add("agreement", "analysis against test modes before and after", caption, &|name, title| {
             let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
             draw_by_twos(name, title, &maps, &[note])
         })?;
     }
     let maps = derivatives(result)?;
-    let title = "derivatives of the first model";
     let caption = "derivatives of the frequencies and of the error sum at the first model";
-    add("derivatives", title, caption, &|name, title| draw_derivatives(name, title, &maps))?;
-    Ok(figures)
+    let draw: Draw = &|name, title| draw_derivatives(name, title, &maps);
+    add("derivatives", "derivatives of the first model", caption, draw)
 }
 
 /// Gage errors of a case by panel, at the start and after every pass.
@@ -116,21 +93,14 @@ fn figures_of(result: &CaseResult) -> Result<Vec<Figure>, PresentError> {
 /// # Errors
 /// Those of [`gage_errors`].
 pub fn gage_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
-    let panels = result.case.panels.iter();
-    let mut series: Vec<Series> =
-        gage_errors(result)?.into_iter().map(|(name, values)| Series { name: name.to_lowercase(), values }).collect();
+    let mut stages = gage_errors(result)?;
     // The start is given: nothing is to be compared there.
-    for (_, published) in series.iter_mut().take(1).flat_map(|start| &mut start.values) {
-        *published = None;
-    }
-    let chart = Bars {
-        heading: String::new(),
-        groups: panels.map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind))).collect(),
-        series,
-        divided: None,
-    };
+    stages[0].1.iter_mut().for_each(|(_, published)| *published = None);
+    let series = stages.into_iter().map(|(name, values)| Series { name: name.to_lowercase(), values }).collect();
+    let panels = result.case.panels.iter();
+    let groups = panels.map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind))).collect();
     Ok(BarFigure {
-        charts: vec![chart],
+        charts: vec![Bars { heading: String::new(), groups, series, divided: None }],
         across: "panel: S shear, M membrane".to_owned(),
         up: "gage error, percent of 0.010 in".to_owned(),
         marked: "published, on the bar of its pass".to_owned(),
@@ -142,19 +112,16 @@ pub(super) fn numbers(count: usize) -> Vec<String> {
     (1..=count).map(|number| number.to_string()).collect()
 }
 
-/// Cross-orthogonality $V_F^t M V_G$ (4) and modal assurance criterion of the exact solutions before and after, analysis
-/// modes by test modes.
+/// Cross-orthogonality $V_F^t M V_G$ (4) and modal assurance criterion of the exact solutions before and after,
+/// analysis modes by test modes.
 ///
 /// # Errors
 /// [`WrongShape`](crate::method::error::Error::WrongShape) when shapes and mass do not fit.
 pub fn mode_agreement(ends: [&Check; 2], test: &ModeSet, mass: &DMatrix<f64>) -> Result<[HeatMap; 4], PresentError> {
-    let map = |title: &str, values: DMatrix<f64>| HeatMap {
-        title: title.to_owned(),
-        rows: ("analysis mode".to_owned(), numbers(values.nrows())),
-        columns: ("test mode".to_owned(), numbers(values.ncols())),
-        values: values.map(Some),
-        full: 1.0,
-        written: (100.0, 0),
+    let map = |title: &str, values: DMatrix<f64>| {
+        let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
+        let columns = ("test mode".to_owned(), numbers(values.ncols()));
+        HeatMap { title: title.to_owned(), rows, columns, values: values.map(Some), full: 1.0, written: (100.0, 0) }
     };
     let [before, after] = ends.map(|check| &check.modes);
     let cross = |modes: &ModeSet| cross_orthogonality(modes, test, mass);
@@ -171,8 +138,8 @@ pub fn mode_agreement(ends: [&Check; 2], test: &ModeSet, mass: &DMatrix<f64>) ->
 ///
 /// $$ \frac{\partial \ln f_i}{\partial \ln k_e} = \frac{V_i^t K_e V_i}{2\omega_i^2} $$
 ///
-/// with the mode paired with test mode $i$ (parameters × test modes), and that of the error sum, $\Delta e_e/0.001$ of (12),
-/// in the first iteration (parameters × 1).
+/// with the mode paired with test mode $i$ (parameters × test modes), and that of the error sum, $\Delta e_e/0.001$ of
+/// (12), in the first iteration (parameters × 1).
 ///
 /// # Errors
 /// Those of the model, its analysis and [`by_definition`].

@@ -11,51 +11,54 @@ use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Predict
 use nalgebra::DMatrix;
 
 /// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn comparison_figures(
     case: usize,
     runs: &[FewerModesRun],
     comparison: &MatrixComparison,
 ) -> Result<Vec<Figure>, PresentError> {
     let (corrected, given) = (comparison.case, comparison.test_modes);
-    let figure = |name: &str, caption: String, svg| Figure { name: name.to_owned(), caption, svg };
+    let truncated = draw_by_twos(
+        "truncation",
+        &format!("Case {case}: errors with fewer modes"),
+        &truncation(runs),
+        &["RMS error in percent after one pass, by exact solution; each matrix has a scale of its own."],
+    )?;
+    let stiffness = draw_by_twos(
+        "matrices_stiffness",
+        &format!("Case {corrected}: change of the dynamic stiffness, entry by entry"),
+        &stiffness_changes(comparison),
+        &[
+            "Percent of the root of the two diagonal entries before; an empty cell rounds to zero.",
+            "Blue is positive, red negative.",
+        ],
+    )?;
+    let title = format!("Case {corrected}: frequency errors of the corrected models");
+    let frequencies = predictions(comparison).draw("matrices_frequencies", &title)?;
+    let lead = format!("Case {corrected} corrected with {given} test modes:");
     Ok(vec![
-        figure(
+        Figure::new(
             "truncation",
             format!(
-                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of analysis modes."
+                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of \
+                test modes and of analysis modes."
             ),
-            draw_by_twos(
-                "truncation",
-                &format!("Case {case}: errors with fewer modes"),
-                &truncation(runs),
-                &["RMS error in percent after one pass, by exact solution; each matrix has a scale of its own."],
-            )?,
+            truncated,
         ),
-        figure(
+        Figure::new(
             "matrices_stiffness",
             format!(
-                "Case {corrected} corrected with {given} test modes: change of the dynamic stiffness entry by entry, the right one, by element factors, and by closed forms on the matrices."
+                "{lead} change of the dynamic stiffness entry by entry, the right one, by element factors, and by \
+                closed forms on the matrices."
             ),
-            draw_by_twos(
-                "matrices_stiffness",
-                &format!("Case {corrected}: change of the dynamic stiffness, entry by entry"),
-                &stiffness_changes(comparison),
-                &[
-                    "Percent of the root of the two diagonal entries before; an empty cell rounds to zero.",
-                    "Blue is positive, red negative.",
-                ],
-            )?,
+            stiffness,
         ),
-        figure(
+        Figure::new(
             "matrices_frequencies",
             format!(
-                "Case {corrected} corrected with {given} test modes: frequency errors of the box as tested and with every cover thicker, a set of gages that no correction was fitted to."
+                "{lead} frequency errors of the box as tested and with every cover thicker, a set of gages that no \
+                correction was fitted to."
             ),
-            predictions(comparison)
-                .draw("matrices_frequencies", &format!("Case {corrected}: frequency errors of the corrected models"))?,
+            frequencies,
         ),
     ])
 }
@@ -90,8 +93,8 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
     COSTS.into_iter().enumerate().map(map).collect()
 }
 
-/// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the stiffness
-/// before (d × d), all on one scale, so that a pale matrix is a small change.
+/// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the
+/// stiffness before (d × d), all on one scale, so that a pale matrix is a small change.
 pub fn stiffness_changes(comparison: &MatrixComparison) -> Vec<HeatMap> {
     // The first prediction is the start, which changes nothing.
     let models = comparison.predictions.iter().skip(1);
@@ -99,11 +102,11 @@ pub fn stiffness_changes(comparison: &MatrixComparison) -> Vec<HeatMap> {
     let full = entries.fold(0.0, |most: f64, entry| most.max(entry.abs()));
     let map = |model: &Prediction| {
         let rows = &model.stiffness_change;
-        let labels = || ("dynamic point".to_owned(), numbers(rows.len()));
+        let labels = ("dynamic point".to_owned(), numbers(rows.len()));
         HeatMap {
             title: model.model.to_owned(),
-            rows: labels(),
-            columns: labels(),
+            rows: labels.clone(),
+            columns: labels,
             values: DMatrix::from_fn(rows.len(), rows.len(), |i, j| Some(rows[i][j])),
             full,
             written: (100.0, 0),

@@ -4,7 +4,7 @@ use super::canvas::*;
 use super::planform::PlanPoint;
 use super::view::Plan;
 use crate::cases::Case;
-use crate::cases::torque_box::TEST_GAGE;
+use crate::cases::torque_box::{Panel, TEST_GAGE};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use plotters::style::{RGBColor, WHITE};
@@ -24,21 +24,15 @@ pub struct Cover {
     pub corners: Vec<PlanPoint>,
 }
 
-/// The covers of one configuration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Configuration {
-    /// `Case 1`, or `GVT` for the test configuration.
-    pub name: String,
-    /// Its six covers.
-    pub covers: Vec<Cover>,
-}
+/// A configuration, `Case 1` or `GVT` for the test's, with its six covers.
+pub type Configuration = (String, Vec<Cover>);
 
 /// Cover gages of the test configuration and of the given cases.
 pub fn cover_gages(cases: &[Case]) -> Vec<Configuration> {
-    let covers = |case: &Case, test: bool| {
-        let corner = |grid: &usize| case.reconstruction.grids.get(grid).copied();
-        let panels = case.panels.iter().filter_map(|panel| {
-            let corners: Vec<[f64; 3]> = panel.grids.iter().filter_map(corner).collect();
+    let covers = |case: &Case, test: bool| -> Vec<Cover> {
+        let cover = |panel: &Panel| {
+            let grids = &case.reconstruction.grids;
+            let corners: Vec<[f64; 3]> = panel.grids.iter().filter_map(|grid| grids.get(grid).copied()).collect();
             let upper = corners.iter().all(|[_, _, z]| *z > 0.0);
             let lower = corners.iter().all(|[_, _, z]| *z < 0.0);
             (upper || lower).then(|| Cover {
@@ -48,24 +42,19 @@ pub fn cover_gages(cases: &[Case]) -> Vec<Configuration> {
                 upper,
                 corners: corners.iter().map(|&[x, y, _]| [x, y]).collect(),
             })
-        });
-        panels.collect()
+        };
+        case.panels.iter().filter_map(cover).collect()
     };
-    let configuration = |name: String, case: &Case, test: bool| Configuration { name, covers: covers(case, test) };
-    let test = cases.first().map(|first| configuration("GVT".to_owned(), first, true));
-    let starts = cases.iter().map(|case| configuration(format!("Case {}", case.number), case, false));
+    let test = cases.first().map(|first| ("GVT".to_owned(), covers(first, true)));
+    let starts = cases.iter().map(|case| (format!("Case {}", case.number), covers(case, false)));
     test.into_iter().chain(starts).collect()
 }
 
-/// Height of one configuration's row, px.
+/// Height of one configuration's row and above the rows, px.
 const ROW: f64 = 188.0;
-/// Height above the rows, px.
 const HEAD: f64 = 40.0;
 
 /// The covers of the configurations as SVG.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(configurations: &[Configuration]) -> Result<String, PresentError> {
     let height = HEAD + ROW * configurations.len() as f64 + 62.0;
     let title = "Cover gages of the test configuration and of each case's first model";
@@ -76,7 +65,7 @@ fn on(area: &Area, configurations: &[Configuration]) -> Drawn {
     write(area, "Upper covers", (255.0, 22.0), MIDDLE.bold())?;
     write(area, "Lower covers", (585.0, 22.0), MIDDLE.bold())?;
     let mut top = HEAD;
-    for Configuration { name, covers } in configurations {
+    for (name, covers) in configurations {
         write(area, name, (14.0, top + 0.5 * ROW), START.bold())?;
         let corners: Vec<PlanPoint> = covers.iter().flat_map(|c| c.corners.clone()).collect();
         for cover in covers {
@@ -88,17 +77,13 @@ fn on(area: &Area, configurations: &[Configuration]) -> Drawn {
     }
     let text = "In each panel: element number, S shear panel or M membrane, and gage in inches.";
     write(area, text, (14.0, top + 16.0), START)?;
-    for (row, (text, gage)) in [
-        ("thinner than in the test", 0.5 * TEST_GAGE),
-        ("as in the test (0.010 in)", TEST_GAGE),
-        ("thicker than in the test", 1.5 * TEST_GAGE),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let left = 14.0 + 200.0 * row as f64;
+    for (left, text, part) in [
+        (14.0, "thinner than in the test", 0.5),
+        (214.0, "as in the test (0.010 in)", 1.0),
+        (414.0, "thicker than in the test", 1.5),
+    ] {
         let swatch = corners((left, top + 32.0), (left + 22.0, top + 46.0));
-        polygon(area, &swatch, Some(shade(gage)), Pen::solid(INK, 0.8))?;
+        polygon(area, &swatch, Some(shade(part * TEST_GAGE)), Pen::solid(INK, 0.8))?;
         write(area, text, (left + 30.0, top + 39.0), START)?;
     }
     Ok(())
@@ -114,17 +99,14 @@ fn draw_cover(area: &Area, cover: &Cover, plan: &Plan) -> Drawn {
         Some(ElementKind::Membrane) => " M",
         Some(_) => " S",
     };
-    let name = format!("{}{kind}", cover.label);
-    write(area, &name, (x, y - 7.0), MIDDLE.small().bold())?;
+    write(area, &format!("{}{kind}", cover.label), (x, y - 7.0), MIDDLE.small().bold())?;
     // A gage in inches, with the decimals it needs.
     let decimals = if cover.gage < 0.001 { 4 } else { 3 };
-    let gage = format!("{:.decimals$}", cover.gage);
-    write(area, &gage, (x, y + 7.0), MIDDLE.small())
+    write(area, &format!("{:.decimals$}", cover.gage), (x, y + 7.0), MIDDLE.small())
 }
 
 /// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.
 fn shade(gage: f64) -> RGBColor {
     let excess = (2.0 * (gage / TEST_GAGE - 1.0)).clamp(-1.0, 1.0);
-    let full = if excess < 0.0 { SKY } else { ORANGE };
-    between(WHITE, full, 0.85 * excess.abs())
+    between(WHITE, if excess < 0.0 { SKY } else { ORANGE }, 0.85 * excess.abs())
 }

@@ -2,50 +2,41 @@
 
 use super::canvas::*;
 use crate::method::error_sum::Errors;
-use crate::method::outer_loop::{Correlation, Settings};
+use crate::method::outer_loop::{Correlation, Pass, Settings};
 use crate::present::PresentError;
 use plotters::prelude::{BindKeyPoints, IntoLogRange, RGBColor, WHITE};
 
-/// Errors at one place of the history.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
-    /// Accepted iterations since the start of the first pass.
-    pub iteration: usize,
-    /// SRSS errors there, fractions.
-    pub errors: Errors,
-}
-
-/// One pass.
+/// The SRSS errors of one pass, fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassHistory {
-    /// The exact solution it starts from, then every iteration by perturbation.
-    pub inner: Vec<Moment>,
-    /// The exact check at its end.
-    pub check: Moment,
+    /// Accepted iterations before it.
+    pub from: usize,
+    /// Errors of the exact solution it starts from, then after every iteration by perturbation.
+    pub inner: Vec<Errors>,
+    /// Errors of the exact check at its end.
+    pub check: Errors,
     /// Its tolerance on the error sum, a fraction.
     pub tolerance: f64,
 }
 
 /// The history of a correlation with its settings.
 pub fn error_history(correlation: &Correlation, settings: &Settings) -> Vec<PassHistory> {
-    let mut iteration = 0;
-    let mut passes = Vec::new();
-    for pass in &correlation.passes {
-        let errors = pass.inner.iterations.iter().map(|step| step.errors);
-        let errors = std::iter::once(pass.inner.start).chain(errors);
-        let moment = |(step, errors)| Moment { iteration: iteration + step, errors };
-        let inner: Vec<Moment> = errors.enumerate().map(moment).collect();
-        iteration += pass.inner.iterations.len();
-        passes.push(PassHistory {
-            inner,
-            check: Moment { iteration, errors: pass.check.errors },
-            tolerance: match passes.len() {
-                0 => settings.inner.tolerance,
-                _ => settings.later_inner_tolerance,
-            },
-        });
+    let mut from = 0;
+    let history = |(row, pass): (usize, &Pass)| {
+        let steps = pass.inner.iterations.iter().map(|step| step.errors);
+        let inner: Vec<Errors> = std::iter::once(pass.inner.start).chain(steps).collect();
+        let tolerance = if row == 0 { settings.inner.tolerance } else { settings.later_inner_tolerance };
+        from += inner.len() - 1;
+        PassHistory { from: from + 1 - inner.len(), inner, check: pass.check.errors, tolerance }
+    };
+    correlation.passes.iter().enumerate().map(history).collect()
+}
+
+impl PassHistory {
+    /// Accepted iterations at its end.
+    pub fn to(&self) -> usize {
+        self.from + self.inner.len() - 1
     }
-    passes
 }
 
 /// The three errors as drawn: name, value, color, form and dash.
@@ -63,29 +54,22 @@ const MARGINS: [f64; 4] = [72.0, 16.0, 88.0, 48.0];
 const HEIGHT: f64 = 450.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
     svg(name, title, HEIGHT, |area| on(area, passes))
 }
 
 /// The ticks that just hold every error, percent.
 fn bounds(passes: &[PassHistory]) -> (f64, f64) {
-    let moments = || passes.iter().flat_map(|pass| pass.inner.iter().chain([&pass.check]));
-    let values = || {
-        let each = |moment: &Moment| SERIES.map(|(_, value, ..)| 100.0 * value(&moment.errors));
-        moments().flat_map(each)
-    };
-    let least = values().fold(f64::INFINITY, f64::min);
-    let most = values().fold(0.0, f64::max);
+    let errors = passes.iter().flat_map(|pass| pass.inner.iter().chain([&pass.check]));
+    let values = errors.flat_map(|errors| SERIES.map(|(_, value, ..)| 100.0 * value(errors)));
+    let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
     let below = TICKS.iter().rev().find(|tick| **tick < 0.9 * least);
     let above = TICKS.iter().find(|tick| **tick > 1.1 * most);
     (*below.unwrap_or(&TICKS[0]), *above.unwrap_or(&TICKS[9]))
 }
 
 fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
-    let last = passes.last().map_or(0, |pass| pass.check.iteration);
+    let last = passes.last().map_or(0, PassHistory::to);
     let (low, high) = bounds(passes);
     let ticks = TICKS.iter().copied().filter(|tick| (low..=high).contains(tick));
     let range = (low..high).log_scale().with_key_points(ticks.collect());
@@ -99,11 +83,8 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
         .draw()?;
     let place = |iteration: usize, percent: f64| placed(&chart, iteration as f64, percent);
     for (row, pass) in passes.iter().enumerate() {
-        let from = pass.inner.first().map_or(0, |moment| moment.iteration);
-        let to = pass.check.iteration;
+        let (from, to, tolerance, number) = (pass.from, pass.to(), 100.0 * pass.tolerance, row + 1);
         let (begin, end) = (place(from, high), place(to, high));
-        let tolerance = 100.0 * pass.tolerance;
-        let number = row + 1;
         let name = match end.0 - begin.0 {
             wide if wide > 180.0 => format!("pass {number} (tolerance {tolerance:.1} %)"),
             wide if wide > 50.0 => format!("pass {number}"),
@@ -111,43 +92,37 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
         };
         write(area, &name, (0.5 * (begin.0 + end.0), begin.1 - 11.0), MIDDLE)?;
         line(area, &[place(to, low), end], Pen::dashed(GRAY, 1.0))?;
-        let level = [place(from, tolerance), place(to, tolerance)];
-        line(area, &level, Pen::solid(GRAY, 1.4))?;
+        line(area, &[place(from, tolerance), place(to, tolerance)], Pen::solid(GRAY, 1.4))?;
     }
-    let middle = 0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]);
-    name_upright(area, "SRSS error, percent (log scale)", middle)?;
+    name_upright(area, "SRSS error, percent (log scale)", 0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]))?;
     // Lines first, so that no line crosses the open marks of exact solutions.
     for (_, value, color, form, dash) in SERIES {
-        let at = |moment: &Moment| place(moment.iteration, 100.0 * value(&moment.errors));
-        let pen = Pen::solid(color, 1.0);
+        let at = |iteration: usize, errors: &Errors| place(iteration, 100.0 * value(errors));
         for pass in passes {
-            let points: Vec<Place> = pass.inner.iter().map(at).collect();
+            let points: Vec<Place> = (pass.from..).zip(&pass.inner).map(|(row, errors)| at(row, errors)).collect();
             line(area, &points, Pen(color, 1.8, dash))?;
-            for &point in points.iter().skip(1) {
-                mark(area, point, Mark(form, 2.6, Some(color), pen))?;
+            for &point in &points[1..] {
+                mark(area, point, Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)))?;
             }
         }
-        let start = passes.first().and_then(|pass| pass.inner.first());
-        for exact in start.into_iter().chain(passes.iter().map(|pass| &pass.check)) {
-            mark(area, at(exact), Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
+        let start = passes.first().map(|pass| at(pass.from, &pass.inner[0]));
+        for exact in start.into_iter().chain(passes.iter().map(|pass| at(pass.to(), &pass.check))) {
+            mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
         }
     }
     legend(area)
 }
 
 fn legend(area: &Area) -> Drawn {
-    let left = MARGINS[0];
-    let mut x = left;
+    let (left, mut x) = (MARGINS[0], MARGINS[0]);
     for (name, _, color, form, dash) in SERIES {
         line(area, &[(x, 18.0), (x + 34.0, 18.0)], Pen(color, 1.8, dash))?;
-        let pen = Pen::solid(color, 1.0);
-        mark(area, (x + 17.0, 18.0), Mark(form, 2.6, Some(color), pen))?;
+        mark(area, (x + 17.0, 18.0), Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)))?;
         write(area, name, (x + 41.0, 18.0), START)?;
         x += 58.0 + 7.2 * name.len() as f64;
     }
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
-    mark(area, (x + 8.0, 18.0), open)?;
-    write(area, "large, open: exact solution", (x + 20.0, 18.0), START)?;
+    marked(area, (x + 8.0, 18.0), open, "large, open: exact solution")?;
     line(area, &[(left, 42.0), (left + 34.0, 42.0)], Pen::solid(GRAY, 1.4))?;
     write(area, "tolerance of the pass on the sum", (left + 41.0, 42.0), START)
 }

@@ -4,7 +4,7 @@ use super::canvas::*;
 use crate::method::model::Range;
 use crate::present::PresentError;
 use crate::present::table::Digits;
-use crate::present::tables::correlation::{JudgedFactor, Verdict};
+use crate::present::tables::correlation::{JudgedFactor, Judgment};
 use plotters::style::WHITE;
 
 /// Margins of the plot: left, right, top, bottom, px.
@@ -12,9 +12,6 @@ const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];
 const ROW: f64 = 24.0;
 
 /// The factors as SVG; `published` says what the published ones are.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw(
     name: &str,
     title: &str,
@@ -58,7 +55,7 @@ fn on(area: &Area, factors: &[JudgedFactor], limits: Range, published: &str) -> 
         let row = row as f64 + 0.5;
         let (x, y) = place(low, row);
         write(area, &factor.parameter, (x - 8.0, y), END)?;
-        let is_anomaly = factor.verdict == Verdict::Anomaly;
+        let is_anomaly = factor.judgment == Judgment::Anomaly;
         let color = if is_anomaly { VERMILION } else { INK };
         let tip = place(factor.computed, row);
         line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
@@ -79,8 +76,7 @@ fn on(area: &Area, factors: &[JudgedFactor], limits: Range, published: &str) -> 
     }
     if factors.iter().any(|factor| factor.published.is_some()) {
         let (x, y) = (place(high, 0.0).0 - 230.0, upper.1 - 13.0);
-        mark(area, (x, y), diamond)?;
-        write(area, published, (x + 12.0, y), START)?;
+        marked(area, (x, y), diamond, published)?;
     }
     Ok(())
 }

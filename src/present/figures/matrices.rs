@@ -23,9 +23,6 @@ pub struct HeatMap {
 }
 
 /// A figure of matrices two by two, as large as there is room, with sentences below.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw_by_twos(name: &str, title: &str, maps: &[HeatMap], notes: &[&str]) -> Result<String, PresentError> {
     const ROOM: (f64, f64) = (297.0, 270.0);
     let down = 360.0 * maps.len().div_ceil(2) as f64;
@@ -44,9 +41,6 @@ pub fn draw_by_twos(name: &str, title: &str, maps: &[HeatMap], notes: &[&str]) -
 }
 
 /// A figure of derivatives: what each parameter does to each frequency, and to the error sum.
-///
-/// # Errors
-/// [`PresentError::Drawing`].
 pub fn draw_derivatives(
     name: &str,
     title: &str,
@@ -92,12 +86,10 @@ impl HeatMap {
                 };
                 let (row, column) = (i as f64, j as f64);
                 let strength = (value.abs() / self.full).min(1.0);
-                let color = if value < 0.0 { VERMILION } else { BLUE };
-                let fill = between(WHITE, color, strength);
+                let fill = between(WHITE, if value < 0.0 { VERMILION } else { BLUE }, strength);
                 rectangle(area, at(row, column), at(row + 1.0, column + 1.0), fill)?;
                 let ink = if strength > 0.6 { WHITE } else { INK };
-                let center = at(row + 0.5, column + 0.5);
-                write(area, &self.write(value), center, small.color(ink))?;
+                write(area, &self.write(value), at(row + 0.5, column + 0.5), small.color(ink))?;
             }
         }
         let frame = corners((left, top), at(rows as f64, columns as f64));

@@ -1,6 +1,8 @@
-//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's and the studies' from them.
+//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's and the studies' from
+//! them.
 //!
-//! The same data give the same bytes.
+//! The same data give the same bytes. What draws fails with
+//! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
 pub mod bars;
 pub mod box_elements;
@@ -28,4 +30,10 @@ pub struct Figure {
     pub caption: String,
     /// The drawing.
     pub svg: String,
+}
+
+impl Figure {
+    fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
+        Self { name: name.to_owned(), caption: caption.into(), svg }
+    }
 }

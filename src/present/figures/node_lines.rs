@@ -1,7 +1,7 @@
 //! Mode shapes and node lines of the test, the first model and the correlated one (Figure 6).
 
 use super::canvas::*;
-use super::planform::{PlanPoint, Planform, RibShape};
+use super::planform::{PlanPoint, Planform};
 use super::view::{Plan, View};
 use crate::method::linear_algebra::check_shape;
 use crate::method::model::Check;
@@ -40,18 +40,15 @@ pub struct NodeLines {
 /// [`WrongShape`](crate::method::error::Error::WrongShape) unless the modes have nine DOF.
 pub fn node_lines(planform: Planform, test: &ModeSet, correlation: &Correlation) -> Result<NodeLines, PresentError> {
     let paired = |check: &Check| pairing::paired(&check.modes, &check.pairing);
-    let last = paired(last_check(correlation));
-    let states = [test.clone(), paired(&correlation.initial), last];
+    let states = [test.clone(), paired(&correlation.initial), paired(last_check(correlation))];
     check_shape("mode shapes", &test.shapes, 9, test.len())?;
     let state = |modes: &ModeSet, mode: usize| {
         let column = modes.shapes.column(mode);
-        let largest = column.amax();
-        let shape = std::array::from_fn(|dof| column[dof] / largest);
+        let shape = std::array::from_fn(|dof| column[dof] / column.amax());
         ModeState { frequency_hz: modes.frequencies_hz()[mode], shape, node_lines: planform.node_lines(&shape) }
     };
-    let modes = 0..test.len();
-    let modes = modes.map(|mode| [0, 1, 2].map(|which| state(&states[which], mode)));
-    Ok(NodeLines { modes: modes.collect(), planform })
+    let modes = (0..test.len()).map(|mode| states.each_ref().map(|modes| state(modes, mode))).collect();
+    Ok(NodeLines { modes, planform })
 }
 
 /// A thick pale line, a dashed and a thin one can lie on each other and all be seen.
@@ -75,8 +72,7 @@ fn head(area: &Area, what: &str) -> Drawn {
         write(area, name, (x + 43.0, 20.0), START)?;
         x += 72.0 + 6.8 * name.len() as f64;
     }
-    let words = "frequencies in Hz: test | initial | correlated";
-    write(area, words, (14.0, 44.0), START)
+    write(area, "frequencies in Hz: test | initial | correlated", (14.0, 44.0), START)
 }
 
 /// Modes side by side.
@@ -86,9 +82,6 @@ const HEAD: f64 = 62.0;
 
 impl NodeLines {
     /// The node lines in plan as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         svg(name, title, self.height(), |area| {
             head(area, "node lines of the")?;
@@ -101,9 +94,6 @@ impl NodeLines {
     }
 
     /// The mode shapes in the quasi-isometric view as SVG.
-    ///
-    /// # Errors
-    /// [`PresentError::Drawing`].
     pub fn draw_shapes(&self, name: &str, title: &str) -> Result<String, PresentError> {
         svg(name, title, self.height(), |area| {
             head(area, "mid-plane, root at the left:")?;
@@ -119,11 +109,9 @@ impl NodeLines {
         for (mode, states) in self.modes.iter().enumerate() {
             let x = CELL.0 * (mode % ACROSS) as f64 + 14.0;
             let y = HEAD + CELL.1 * (mode / ACROSS) as f64;
-            let name = format!("Mode {}", mode + 1);
-            write(area, &name, (x, y + 14.0), START.bold())?;
-            let hertz = |state: &ModeState| Digits::Significant(4).write(state.frequency_hz);
-            let frequencies = states.each_ref().map(hertz).join(" | ");
-            write(area, &frequencies, (x + 58.0, y + 14.0), START.small())?;
+            write(area, &format!("Mode {}", mode + 1), (x, y + 14.0), START.bold())?;
+            let hertz = states.each_ref().map(|state| Digits::Significant(4).write(state.frequency_hz));
+            write(area, &hertz.join(" | "), (x + 58.0, y + 14.0), START.small())?;
             draw(mode, (x, y + 26.0))?;
         }
         Ok(())
@@ -131,8 +119,7 @@ impl NodeLines {
 
     fn plan(&self, area: &Area, mode: usize, (left, top): Place) -> Drawn {
         let form = &self.planform;
-        let room = [left, top, CELL.0 - 34.0, CELL.1 - 44.0];
-        let plan = Plan::fitted(form.ribs.as_flattened(), room);
+        let plan = Plan::fitted(form.ribs.as_flattened(), [left, top, CELL.0 - 34.0, CELL.1 - 44.0]);
         let place = |point: PlanPoint| plan.place(point);
         let thin = Pen::solid(GRAY, 1.0);
         for rib in &form.ribs {
@@ -150,27 +137,22 @@ impl NodeLines {
         }
         for (at, value) in form.dynamic_points().into_iter().zip(states[0].shape) {
             let fill = if value > 0.0 { GRAY } else { WHITE };
-            let size = 1.5 + 3.5 * value.abs().sqrt();
-            mark(area, place(at), point(size, fill))?;
+            mark(area, place(at), point(1.5 + 3.5 * value.abs().sqrt(), fill))?;
         }
         Ok(())
     }
 
     fn bent(&self, area: &Area, mode: usize, (left, top): Place) -> Drawn {
-        let corners = self.planform.ribs.as_flattened();
-        let corners: Vec<_> = corners.iter().map(|&[x, y]| Vector3::new(x, y, 0.0)).collect();
+        let corners = self.planform.ribs.iter().flatten();
+        let corners: Vec<_> = corners.map(|&[x, y]| Vector3::new(x, y, 0.0)).collect();
         // The largest displacement is drawn as long as a sixth of the span.
         let span = corners.iter().map(|corner| corner.y).fold(0.0, f64::max);
         let room = [left, top + 12.0, CELL.0 - 26.0, CELL.1 - 52.0];
         let view = View::fitted(&corners, span / 6.0, room);
-        let flat = |[x, y]: PlanPoint, z: f64| view.place(Vector3::new(x, y, z));
-        let still = Planform::rib_shapes(&self.planform, &[0.0; 9]);
-        for points in self.mesh(&still, &flat) {
-            line(area, &points, Pen::solid(PALE, 1.0))?;
-        }
-        for (state, (_, pen)) in self.modes[mode].iter().zip(pens()) {
-            let ribs = self.planform.rib_shapes(&state.shape);
-            for points in self.mesh(&ribs, &flat) {
+        let still = ([0.0; 9], Pen::solid(PALE, 1.0));
+        let bent = self.modes[mode].iter().zip(pens()).map(|(state, (_, pen))| (state.shape, pen));
+        for (shape, pen) in std::iter::once(still).chain(bent) {
+            for points in self.mesh(&shape, &view) {
                 line(area, &points, pen)?;
             }
         }
@@ -178,13 +160,14 @@ impl NodeLines {
     }
 
     /// Ribs and spars displaced; one inch of the view for a displacement of one.
-    fn mesh(&self, ribs: &[RibShape; 4], flat: &dyn Fn(PlanPoint, f64) -> Place) -> Vec<Vec<Place>> {
+    fn mesh(&self, shape: &[f64; 9], view: &View) -> Vec<Vec<Place>> {
         const PARTS: usize = 12;
-        let at = |rib: usize, xi: f64| flat(self.planform.on_rib(rib, xi), ribs[rib].at(xi));
-        let along = |rib| {
-            let parts = 0..=PARTS;
-            parts.map(|part| at(rib, part as f64 / PARTS as f64)).collect()
+        let ribs = self.planform.rib_shapes(shape);
+        let at = |rib: usize, xi: f64| {
+            let [x, y] = self.planform.on_rib(rib, xi);
+            view.place(Vector3::new(x, y, ribs[rib].at(xi)))
         };
+        let along = |rib| (0..=PARTS).map(|part| at(rib, part as f64 / PARTS as f64)).collect();
         let across = |xi| (0..ribs.len()).map(|rib| at(rib, xi)).collect();
         let spars = [0.0, self.planform.mid_chord_fraction, 1.0];
         (0..ribs.len()).map(along).chain(spars.map(across)).collect()

@@ -1,17 +1,16 @@
 //! The box in plan, and the z displacement between its nine dynamic points.
 //!
-//! **Along a rib.** The load distribution of the box ([`crate::cases::torque_box::load_distribution`]) lets the mid point of a rib
-//! ride on Hermite's cubics between the spars. Test modes hold three displacements of a rib, rear $w_r$, mid $w_m$ and front
-//! $w_f$, and not the rotations at its ends; of all such cubics the one is taken whose ends turn by equal and opposite
+//! **Along a rib.** The mid point of a rib rides on Hermite's cubics between the spars
+//! ([`crate::cases::torque_box::load_distribution`]). Test modes hold three displacements of a rib, rear $w_r$, mid
+//! $w_m$ and front $w_f$, and no rotations: of all such cubics the one is taken whose ends turn by equal and opposite
 //! angles from the chord line, as in pure bending. Its cubic terms cancel:
 //!
 //! $$ w(\xi) = (1-\xi) w_r + \xi w_f + \kappa \xi(1-\xi), \qquad
 //!    \kappa = \frac{w_m - (1-\xi_m) w_r - \xi_m w_f}{\xi_m(1-\xi_m)} $$
 //!
-//! with $\xi$ from the rear spar and $\xi_m$ the mid point's. Every other cubic through the three adds a multiple of
-//! $\xi(\xi-\xi_m)(\xi-1)$ and, with the mid point halfway, bends more. What the rotations would add can be seen where they are
-//! known, in the model: in modes 1 to 5 of the cases it is below 4 percent of the largest displacement, in the chordwise bending of
-//! modes 6 and 8 up to 31 percent.
+//! with $\xi$ from the rear spar and $\xi_m$ the mid point's. What the rotations would add is known in the model: below
+//! 4 percent of the largest displacement in modes 1 to 5 of the cases, up to 31 percent in the chordwise bending of 6
+//! and 8.
 //!
 //! **Between ribs** the displacement is linear along lines of equal $\xi$, and zero at the root. In the inboard bay a
 //! node line is therefore straight.
@@ -63,8 +62,8 @@ impl RibShape {
         // Without real roots they are NaN, which lies nowhere between the spars.
         let root = (slope * slope + 4.0 * curvature * rear).sqrt();
         let larger = -0.5 * (slope + slope.signum() * root);
-        let mut zeros: Vec<f64> =
-            [-larger / curvature, rear / larger].into_iter().filter(|xi| (0.0..=1.0).contains(xi)).collect();
+        let mut zeros = vec![-larger / curvature, rear / larger];
+        zeros.retain(|xi| (0.0..=1.0).contains(xi));
         zeros.sort_by(f64::total_cmp);
         zeros.dedup();
         zeros
@@ -74,14 +73,10 @@ impl RibShape {
 impl Planform {
     /// The plan of a box: the ends of a rib are its upper grids.
     pub fn of(reconstruction: &Reconstruction) -> Self {
-        let at = |grid: usize| {
-            let [x, y, _] = reconstruction.grids.get(&grid).copied().unwrap_or_default();
-            [x, y]
-        };
-        Self {
-            ribs: std::array::from_fn(|rib| [at(4 * rib + 1), at(4 * rib + 3)]),
-            mid_chord_fraction: reconstruction.mid_chord_fraction,
-        }
+        let position = |grid: usize| reconstruction.grids.get(&grid).copied().unwrap_or_default();
+        let end = |grid| [position(grid)[0], position(grid)[1]];
+        let ribs = std::array::from_fn(|rib| [end(4 * rib + 1), end(4 * rib + 3)]);
+        Self { ribs, mid_chord_fraction: reconstruction.mid_chord_fraction }
     }
 
     /// The place at a fraction of the chord of a rib.
@@ -97,48 +92,37 @@ impl Planform {
 
     /// Displacement along the ribs from the nine dynamic points, the root's zero.
     pub fn rib_shapes(&self, shape: &[f64; 9]) -> [RibShape; RIBS] {
-        std::array::from_fn(|rib| {
-            let values = match shape.get(3 * rib..3 * rib + 3) {
-                Some(values) => [values[0], values[1], values[2]],
-                None => [0.0; 3],
-            };
-            RibShape::through(values, self.mid_chord_fraction)
-        })
+        let values = |rib: usize| shape.as_chunks::<3>().0.get(rib).copied().unwrap_or_default();
+        std::array::from_fn(|rib| RibShape::through(values(rib), self.mid_chord_fraction))
     }
 
     /// Node lines: where the displacement vanishes away from the root, as polylines.
     ///
-    /// In a bay between ribs with displacements $a(\xi)$ and $b(\xi)$ the line is $\eta = a/(a-b)$ of the way from the one
-    /// to the other wherever they differ in sign, and so it begins and ends at their zeros or at a spar.
+    /// In a bay between ribs with displacements $a(\xi)$ and $b(\xi)$ the line is $\eta = a/(a-b)$ of the way from the
+    /// one to the other wherever they differ in sign, and so it begins and ends at their zeros or at a spar.
     pub fn node_lines(&self, shape: &[f64; 9]) -> Vec<Vec<PlanPoint>> {
         let ribs = self.rib_shapes(shape);
         let mut lines = Vec::new();
         for bay in 0..RIBS - 2 {
             let (a, b) = (ribs[bay], ribs[bay + 1]);
-            let mut ends = vec![0.0, 1.0];
-            ends.extend(a.zeros());
-            ends.extend(b.zeros());
+            let mut ends = [vec![0.0, 1.0], a.zeros(), b.zeros()].concat();
             ends.sort_by(f64::total_cmp);
-            for stretch in ends.windows(2) {
-                let (from, to) = (stretch[0], stretch[1]);
+            for (from, to) in ends.iter().zip(&ends[1..]) {
                 let middle = 0.5 * (from + to);
-                if a.at(middle) * b.at(middle) < 0.0 {
-                    lines.push(
-                        (0..=PARTS)
-                            .map(|part| {
-                                let xi = from + (to - from) * part as f64 / PARTS as f64;
-                                let eta = (a.at(xi) / (a.at(xi) - b.at(xi))).clamp(0.0, 1.0);
-                                toward(self.on_rib(bay, xi), self.on_rib(bay + 1, xi), eta)
-                            })
-                            .collect(),
-                    );
+                if a.at(middle) * b.at(middle) >= 0.0 {
+                    continue;
                 }
+                let point = |part: usize| {
+                    let xi = from + (to - from) * part as f64 / PARTS as f64;
+                    let eta = (a.at(xi) / (a.at(xi) - b.at(xi))).clamp(0.0, 1.0);
+                    toward(self.on_rib(bay, xi), self.on_rib(bay + 1, xi), eta)
+                };
+                lines.push((0..=PARTS).map(point).collect());
             }
         }
         let last = RIBS - 2;
-        for xi in ribs[last].zeros() {
-            lines.push(vec![self.on_rib(last, xi), self.on_rib(RIBS - 1, xi)]);
-        }
+        let inboard = |xi| vec![self.on_rib(last, xi), self.on_rib(RIBS - 1, xi)];
+        lines.extend(ribs[last].zeros().into_iter().map(inboard));
         lines
     }
 }

@@ -33,10 +33,8 @@ impl View {
     /// Outboard goes right and up, aft right and down, up goes up.
     pub fn place(&self, at: Vector3<f64>) -> Place {
         let (sin, cos) = RISE.to_radians().sin_cos();
-        (
-            self.origin.0 + self.scale * cos * (at.y + at.x),
-            self.origin.1 + self.scale * (sin * (at.x - at.y) - self.heights * at.z),
-        )
+        let y = sin * (at.x - at.y) - self.heights * at.z;
+        (self.origin.0 + self.scale * cos * (at.y + at.x), self.origin.1 + self.scale * y)
     }
 }
 
@@ -63,8 +61,8 @@ impl Plan {
 /// Scale and origin that bring places at unit scale into a room.
 fn fit(places: &[Place], [left, top, width, height]: Room) -> (f64, Place) {
     let bounds = |coordinate: fn(&Place) -> f64| {
-        let values = || places.iter().map(coordinate);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        places.iter().map(coordinate).fold(ends, |(low, high), value| (value.min(low), value.max(high)))
     };
     let (x_low, x_high) = bounds(|place| place.0);
     let (y_low, y_high) = bounds(|place| place.1);

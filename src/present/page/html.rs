@@ -40,8 +40,7 @@ pub(super) fn table(table: &Table) -> String {
     body += "</tr></thead>\n<tbody>\n";
     for row in &table.rows {
         let cells: String = row.cells.iter().map(cell).collect();
-        let label = escaped(&row.label);
-        body += &format!("<tr><th scope=\"row\">{label}</th>{cells}</tr>\n");
+        body += &format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(&row.label));
     }
     let mut out = scrolling(&table.title, &(body + "</tbody>\n</table>"));
     for note in &table.notes {
@@ -51,9 +50,7 @@ pub(super) fn table(table: &Table) -> String {
 }
 
 fn cell(cell: &Cell) -> String {
-    let published = cell
-        .published()
-        .map_or_else(String::new, |published| format!(" <span class=\"published\">({published})</span>"));
+    let published = cell.published().map(|it| format!(" <span class=\"published\">({it})</span>")).unwrap_or_default();
     format!("<td>{}{published}</td>", escaped(&cell.computed()))
 }
 
@@ -71,9 +68,7 @@ pub(super) fn section_of(markdown: &str, heading: &str) -> String {
         Event::Start(Tag::Table(alignment)) => {
             vec![Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()), Event::Start(Tag::Table(alignment))]
         }
-        Event::End(TagEnd::Table) => {
-            vec![Event::End(TagEnd::Table), Event::Html("</div>".into())]
-        }
+        Event::End(TagEnd::Table) => vec![Event::End(TagEnd::Table), Event::Html("</div>".into())],
         Event::Start(Tag::Heading { id, classes, attrs, .. }) => {
             vec![Event::Start(Tag::Heading { level: HeadingLevel::H3, id, classes, attrs })]
         }

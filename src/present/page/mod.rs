@@ -1,6 +1,7 @@
 //! The report as one web page that needs nothing beside it: tables, figures, assumptions, fit, and what made it.
 //!
-//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written once.
+//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
+//! once.
 
 mod html;
 
@@ -38,38 +39,30 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The page.
 ///
 /// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) for damaged published tables.
+/// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
-    let mut sections = vec![
-        section("summary-section", "Summary", &summary_section(contents)?),
-        section("box", "The box", &box_section(contents)),
+    let mut parts = vec![
+        ("summary-section".to_owned(), "Summary".to_owned(), "Summary".to_owned(), summary_section(contents)?),
+        ("box".to_owned(), "The box".to_owned(), "The box".to_owned(), box_section(contents)),
     ];
-    let mut links =
-        vec![("summary-section".to_owned(), "Summary".to_owned()), ("box".to_owned(), "The box".to_owned())];
     for result in contents.results {
         let number = result.case.number;
-        let id = format!("case-{number}");
         let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
         let heading = format!("Case {number}: {}", about(number));
-        sections.push(section(&id, &heading, &body));
-        links.push((id, format!("Case {number}")));
+        parts.push((format!("case-{number}"), format!("Case {number}"), heading, body));
     }
-    for (id, link, heading, body) in [
+    let differences = section_of(include_str!("../../../paper/results.md"), "");
+    let why = "Where the results differ from the published ones, and why";
+    let others = [
         ("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
         ("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
         ("cost", "Iterations", "Iterations", table(&iteration_table(contents.results)?)),
-        (
-            "differences",
-            "Differences",
-            "Where the results differ from the published ones, and why",
-            section_of(include_str!("../../../paper/results.md"), ""),
-        ),
+        ("differences", "Differences", why, differences),
         ("made", "How it was made", "How it was made", made_section(contents)),
-    ] {
-        sections.push(section(id, heading, &body));
-        links.push((id.to_owned(), link.to_owned()));
-    }
-    let link = |(id, words): (String, String)| format!("<a href=\"#{id}\">{words}</a>\n");
+    ];
+    parts.extend(others.map(|(id, link, heading, body)| (id.to_owned(), link.to_owned(), heading.to_owned(), body)));
+    let links: String = parts.iter().map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n")).collect();
+    let sections: String = parts.iter().map(|(id, _, heading, body)| section(id, heading, body)).collect();
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -79,8 +72,8 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
          Four cases of the published example, every number beside the published one.</p>\n</header>\n\
          <nav aria-label=\"Contents\">\n{}</nav>\n<main>\n{}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
-        links.into_iter().map(link).collect::<String>(),
-        sections.concat(),
+        links,
+        sections,
     ))
 }
 
@@ -103,7 +96,8 @@ fn summary_section(contents: &Contents) -> Result<String, PresentError> {
     for result in results {
         for anomaly in &result.anomalies {
             body += &format!(
-                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, far outside the limits. Look for a modeling error there.</p>\n",
+                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, \
+                far outside the limits. Look for a modeling error there.</p>\n",
                 result.case.number,
                 escaped(&anomaly.parameter),
                 anomaly.factor
@@ -132,7 +126,8 @@ fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     let is_published = |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
     let runs: Vec<FewerModesRun> = contents.fewer_modes.iter().filter(is_published).cloned().collect();
     let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
-    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest analysis modes.</p>\n";
+    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest \
+    analysis modes.</p>\n";
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
 }
 
@@ -141,13 +136,16 @@ fn matrices_section(contents: &Contents) -> Result<String, PresentError> {
     let comparison = contents.matrices;
     let mut tables = matrices::knowledge_tables(comparison);
     tables.push(matrices::factor_table(&Case::new(comparison.case)?, comparison));
-    let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made after the test.</p>\n";
+    let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes \
+    exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made \
+    after the test.</p>\n";
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["matrices_"]))
 }
 
 fn made_section(contents: &Contents) -> String {
     format!(
-        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; frequency in hertz. The same command gives the same page.</p>\n",
+        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; \
+        frequency in hertz. The same command gives the same page.</p>\n",
         escaped(contents.command)
     )
 }

@@ -2,7 +2,7 @@
 
 use super::correlation::{self, JudgedFactor, checks, frequencies, judged_factors, solver_note};
 use super::stages::{Stages, stage_title};
-use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks};
+use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{TEST_GAGE, gage_rms};
@@ -11,9 +11,6 @@ use crate::method::error_sum::Errors;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
-
-/// The one factor the paper quotes: about 60, for the faulty cover of Case 4.
-const QUOTED_FACTOR: (usize, &str, f64) = (4, "8", 60.0);
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
 fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, PresentError> {
@@ -26,17 +23,17 @@ fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<Publishe
 /// An empty table of a case, named by the paper's number if it has one.
 fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label: &'static str) -> Table {
     let case = result.case.number;
-    let (name, number) = match paper {
-        Some(table) => (format!("table_{}", table.number), format!(" (Table {})", table.number)),
-        None => (format!("case_{case}_{what}"), String::new()),
-    };
-    Table::new(name, format!("Case {case}: {what} and errors{number}"), label)
+    let title = format!("Case {case}: {what} and errors");
+    match paper.map(|table| table.number) {
+        Some(number) => Table::new(format!("table_{number}"), format!("{title} (Table {number})"), label),
+        None => Table::new(format!("case_{case}_{what}"), title, label),
+    }
 }
 
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
 ///
 /// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
+/// [`PresentError::Case`] if the published table were damaged, as for all tables of this module.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let paper = published([3, 5, 7], result)?;
     let test = result.test.frequencies_hz();
@@ -59,40 +56,32 @@ fn gage_stages(result: &CaseResult) -> Vec<(String, Vec<f64>)> {
 pub type GageStage = (String, Vec<(f64, Option<f64>)>);
 
 /// Gage errors of a case at the start and after every pass.
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
 pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, PresentError> {
     let paper = published([4, 6, 8], result)?;
     let stage = |(stage, gages): (String, Vec<f64>)| {
         let heading = format!("{stage}_percent");
         let panels = gages.iter().zip(&result.case.panels).map(|(gage, panel)| {
-            let row = panel.label.to_string();
-            let printed = paper.as_ref().and_then(|paper| paper.value(&row, &heading));
+            let printed = paper.as_ref().and_then(|paper| paper.value(&panel.label.to_string(), &heading));
             (100.0 * (gage / TEST_GAGE - 1.0), printed)
         });
-        let panels = panels.collect();
-        (stage_title(&stage), panels)
+        (stage_title(&stage), panels.collect())
     };
     Ok(gage_stages(result).into_iter().map(stage).collect())
 }
 
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
 pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let paper = published([4, 6, 8], result)?;
     let panels = &result.case.panels;
     let gages = gage_stages(result);
-    let found = gages.iter().map(|(name, gages)| (name.clone(), &gages[..]));
-    let mut stages = Stages::of_gages(panels, found.collect());
+    let found = gages.iter().map(|(name, gages)| (name.clone(), &gages[..])).collect();
+    let mut stages = Stages::of_gages(panels, found);
     stages.paper = paper.as_ref();
     let mut table = stages.fill(named(result, paper.as_ref(), "gages", "Element")).note(KINDS);
-    for (row, kind) in [("shear_rms", ElementKind::ShearPanel), ("membrane_rms", ElementKind::Membrane)] {
+    for (label, kind) in [("shear RMS", ElementKind::ShearPanel), ("membrane RMS", ElementKind::Membrane)] {
         if panels.iter().any(|panel| panel.kind == kind) {
             let errors = gages.iter().map(|(_, gages)| Some(gage_rms(panels, gages, kind)));
-            stages.add_errors(&mut table, &in_words(row), Some(row), PERCENT, errors);
+            stages.add_errors(&mut table, label, PERCENT, errors);
         }
     }
     table.notes.extend(remarks(paper.as_ref()));
@@ -103,21 +92,16 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
 pub fn unlimited_factors(result: &CaseResult) -> Vec<JudgedFactor> {
     let bounds = result.case.settings.inner.factor_range;
     let mut factors = judged_factors(&result.parameter_names, result.unlimited_factors(), bounds);
-    for factor in &mut factors {
-        let (case, parameter, quoted) = QUOTED_FACTOR;
-        let is_quoted = (case, parameter) == (result.case.number, &factor.parameter);
-        factor.published = is_quoted.then_some(quoted);
-    }
+    // The paper quotes one factor: about 60, for the faulty cover of Case 4.
+    let faulty = factors.iter_mut().find(|factor| (result.case.number, &factor.parameter[..]) == (4, "8"));
+    faulty.into_iter().for_each(|factor| factor.published = Some(60.0));
     factors
 }
 
 /// Unlimited stiffness change factors of the first iteration, and the elements they give away.
 pub fn factor_table(result: &CaseResult) -> Table {
     let case = result.case.number;
-    let kind = match result.case.grouping {
-        Grouping::Elements => "element",
-        Grouping::Substructures => "group",
-    };
+    let kind = if result.case.grouping == Grouping::Elements { "element" } else { "group" };
     correlation::factor_table(
         &format!("case_{case}_factors"),
         &format!("Case {case}: unlimited stiffness change factors, first iteration"),
@@ -128,35 +112,27 @@ pub fn factor_table(result: &CaseResult) -> Table {
 }
 
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
 pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, PresentError> {
     let paper = PublishedTable::number(13)?;
-    let is_papers = result.case.grouping == Grouping::Elements;
-    let row = result.case.number.to_string();
-    let printed = |pass: usize| paper.value(&row, &format!("pass_{pass}_iterations"));
-    let passes = 1..=result.correlation.passes.len();
-    Ok(passes.map(|pass| printed(pass).filter(|_| is_papers)).collect())
+    let (row, is_papers) = (result.case.number.to_string(), result.case.grouping == Grouping::Elements);
+    let printed = |pass: usize| paper.value(&row, &format!("pass_{pass}_iterations")).filter(|_| is_papers);
+    Ok((1..=result.correlation.passes.len()).map(printed).collect())
+}
+
+/// Iterations of every pass.
+fn iterations(result: &CaseResult) -> impl Iterator<Item = usize> {
+    result.correlation.passes.iter().map(|pass| pass.inner.iterations.len())
 }
 
 /// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if the published table were damaged.
 pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
-    let passes = |result: &CaseResult| result.correlation.passes.len();
-    let most = results.iter().map(passes).max().unwrap_or(0);
+    let most = results.iter().map(|result| result.correlation.passes.len()).max().unwrap_or(0);
     let title = "Inner loop iterations per pass (Table 13)";
     let mut table = Table::new("table_13", title, "Case").columns((1..=most).map(|pass| format!("Pass {pass}")), "");
     for result in results {
-        let passes = result.correlation.passes.iter();
-        let counts = passes.map(|pass| pass.inner.iterations.len() as f64);
-        let printed = published_iterations(result)?;
-        let cells = counts.zip(printed).map(|(n, printed)| Cell::beside(n, Digits::Fixed(0), printed));
-        let missing = most - result.correlation.passes.len();
-        let blanks = std::iter::repeat_n(Cell::Blank, missing);
-        table.row(result.case.number, cells.chain(blanks));
+        let counts = iterations(result).map(|count| count as f64).zip(published_iterations(result)?);
+        let cells = counts.map(|(count, printed)| Cell::beside(count, Digits::Fixed(0), printed));
+        table.row(result.case.number, cells.chain(std::iter::repeat(Cell::Blank)).take(most));
     }
     table.notes = remarks(Some(&PublishedTable::number(13)?));
     Ok(table)
@@ -167,28 +143,24 @@ pub fn fit_table(fit: &Fit) -> Table {
     let (case, stage, mode) = &fit.largest_at;
     let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
     let title = "The reconstructed box: computed frequencies at published gages against published";
-    let mut table = Table::new("fit", title, "Column")
-        .columns(["RMS", "Largest"], "%")
-        .note(format!(
-            "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement with everything else is evidence.",
-            100.0 * fit.rms,
-            100.0 * fit.largest,
-            in_words(stage),
-        ));
+    let mut table = Table::new("fit", title, "Column").columns(["RMS", "Largest"], "%").note(format!(
+        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper \
+            printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them \
+            is calibration and agreement with everything else is evidence.",
+        100.0 * fit.rms,
+        100.0 * fit.largest,
+        in_words(stage),
+    ));
     for column in &fit.columns {
-        let squares: f64 = column.differences().map(|d| d * d).sum();
-        let largest = column.differences().max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let rms = (squares / column.frequencies_hz.len() as f64).sqrt();
-        let cells = [rms, largest.unwrap_or(0.0)].map(|value| Cell::percent(value, RMS_PERCENT));
+        let differences: Vec<f64> = column.differences().collect();
+        let largest = differences.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let cells = [rms(&differences), largest.unwrap_or(0.0)].map(|value| Cell::percent(value, RMS_PERCENT));
         table.row(format!("Case {} {}", column.case, in_words(&column.column)), cells);
     }
     table
 }
 
 /// Every table of a run, in the order of the report.
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
 pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
     let mut tables = Vec::new();
     for result in results {
@@ -200,9 +172,6 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
 }
 
 /// The tables of one case: frequencies, gages, and in Case 4 what its single iteration asks for.
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
 pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     tables.extend((result.case.number == CASES[3]).then(|| factor_table(result)));
@@ -210,9 +179,6 @@ pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
 }
 
 /// First and last RMS errors and the iterations of every case, with the published ones.
-///
-/// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) for damaged published tables.
 pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     let title = "RMS errors over nine modes, first and last model";
     let mut table = Table::new("summary", title, "Case")
@@ -227,18 +193,14 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
         ];
         let rms = |row: &str, value: fn(&Errors) -> f64| {
             ends.map(|(stage, errors)| {
-                let heading = format!("{stage}_percent");
-                let printed = paper.as_ref().and_then(|paper| paper.value(row, &heading));
+                let printed = paper.as_ref().and_then(|paper| paper.value(row, &format!("{stage}_percent")));
                 Cell::beside(100.0 * value(errors), RMS_PERCENT, printed)
             })
         };
-        let passes = result.correlation.passes.iter();
-        let counts: Vec<String> = passes.map(|pass| pass.inner.iterations.len().to_string()).collect();
+        let counts: Vec<String> = iterations(result).map(|count| count.to_string()).collect();
         let words = [counts.join(", "), outcome(result)].map(Cell::text);
-        let frequency = rms("frequency_rms", Errors::frequency_rms);
-        let shape = rms("shape_rms", Errors::shape_rms);
-        let cells = frequency.into_iter().chain(shape).chain(words);
-        table.row(result.case.number, cells);
+        let [frequency, shape] = [rms("frequency_rms", Errors::frequency_rms), rms("shape_rms", Errors::shape_rms)];
+        table.row(result.case.number, frequency.into_iter().chain(shape).chain(words));
     }
     Ok(table)
 }

@@ -5,8 +5,7 @@ use super::stages::Stages;
 use crate::cases::{BUILT_IN, anomalies};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
-use crate::method::model::Check;
-use crate::method::model::Range;
+use crate::method::model::{Check, Range};
 use crate::method::outer_loop::Correlation;
 use crate::present::table::{Cell, Digits, Table};
 
@@ -22,43 +21,33 @@ pub(super) fn checks(correlation: &Correlation) -> Checks<'_> {
 
 /// The exact solution at the end: of the last pass, or the initial one without any.
 pub fn last_check(correlation: &Correlation) -> &Check {
-    let last = correlation.passes.last();
-    last.map_or(&correlation.initial, |pass| &pass.check)
+    correlation.passes.last().map_or(&correlation.initial, |pass| &pass.check)
 }
 
-/// Frequencies of a correlation beside those of the test, and both RMS errors, for every exact solution.
-///
-/// Rows are the test modes by number from one, frequencies those of the paired analysis modes.
-pub fn frequency_table(name: &str, title: &str, test_hz: &[f64], run: &Correlation) -> Table {
-    frequencies(Table::new(name, title, "Mode"), test_hz, &checks(run), |_| ())
-}
-
-/// The same for chosen exact solutions; `adapt` may add a published table and change labels and digits.
+/// Frequencies of exact solutions beside those of the test by the numbers of its modes, and both RMS errors; `adapt`
+/// may add a published table and change labels and digits.
 pub(super) fn frequencies<'a>(
     table: Table,
     test_hz: &'a [f64],
     checks: &'a Checks,
     adapt: impl FnOnce(&mut Stages<'a>),
 ) -> Table {
-    let found = checks.iter();
-    let found = found.map(|(name, check)| (name.clone(), &check.frequencies_hz[..]));
+    let found = checks.iter().map(|(name, check)| (name.clone(), &check.frequencies_hz[..]));
     let mut stages = Stages::of_modes(test_hz.len(), test_hz, found.collect());
     adapt(&mut stages);
     let mut table = stages.fill(table);
-    type Rms = fn(&Errors) -> f64;
-    for (label, row, rms) in [
-        ("frequency RMS", "frequency_rms", Errors::frequency_rms as Rms),
-        ("shape RMS", "shape_rms", Errors::shape_rms),
-    ] {
+    for (label, rms) in
+        [("frequency RMS", Errors::frequency_rms as fn(&Errors) -> f64), ("shape RMS", Errors::shape_rms)]
+    {
         let errors = checks.iter().map(|(_, check)| Some(rms(&check.errors)));
-        stages.add_errors(&mut table, label, Some(row), RMS_PERCENT, errors);
+        stages.add_errors(&mut table, label, RMS_PERCENT, errors);
     }
     table
 }
 
 /// What is to be thought of an unlimited factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Judgment {
     /// It lies within the bounds of one iteration.
     Within,
     /// It lies outside them.
@@ -77,23 +66,19 @@ pub struct JudgedFactor {
     /// The one printed for it elsewhere.
     pub published: Option<f64>,
     /// What is to be thought of it.
-    pub verdict: Verdict,
+    pub judgment: Judgment,
 }
 
 /// Unlimited factors with what is to be thought of each; nothing is published for them.
 pub fn judged_factors(names: &[String], factors: &[f64], bounds: Range) -> Vec<JudgedFactor> {
     let far = anomalies(names, factors, bounds);
-    let judged = |(name, &computed): (&String, &f64)| JudgedFactor {
-        parameter: name.clone(),
-        computed,
-        published: None,
-        verdict: if far.iter().any(|anomaly| anomaly.parameter == *name) {
-            Verdict::Anomaly
-        } else if bounds.contains(computed) {
-            Verdict::Within
-        } else {
-            Verdict::Limited
-        },
+    let judged = |(name, &computed): (&String, &f64)| {
+        let judgment = match far.iter().any(|anomaly| anomaly.parameter == *name) {
+            true => Judgment::Anomaly,
+            false if bounds.contains(computed) => Judgment::Within,
+            false => Judgment::Limited,
+        };
+        JudgedFactor { parameter: name.clone(), computed, published: None, judgment }
     };
     names.iter().zip(factors).map(judged).collect()
 }
@@ -102,23 +87,23 @@ pub fn judged_factors(names: &[String], factors: &[f64], bounds: Range) -> Vec<J
 /// parameters are, such as `element`.
 pub fn factor_table(name: &str, title: &str, factors: &[JudgedFactor], bounds: Range, kind: &str) -> Table {
     let mut table = Table::new(name, title, "Parameter")
-        .column("Factor", "")
-        .column("Verdict", "")
+        .columns(["Factor", "Verdict"], "")
         .note(format!("Bounds of one iteration: {:.2} to {:.2}.", bounds.lower, bounds.upper));
     for factor in factors {
-        let verdict = match factor.verdict {
-            Verdict::Within => "within bounds",
-            Verdict::Limited => "limited",
-            Verdict::Anomaly => "anomaly",
+        let verdict = match factor.judgment {
+            Judgment::Within => "within bounds",
+            Judgment::Limited => "limited",
+            Judgment::Anomaly => "anomaly",
         };
         let number = Cell::beside(factor.computed, Digits::Fixed(1), factor.published);
         table.row(&factor.parameter, [number, Cell::text(verdict)]);
     }
-    let mut far: Vec<&JudgedFactor> = factors.iter().filter(|f| f.verdict == Verdict::Anomaly).collect();
+    let mut far: Vec<&JudgedFactor> = factors.iter().filter(|f| f.judgment == Judgment::Anomaly).collect();
     far.sort_by(|a, b| b.computed.abs().total_cmp(&a.computed.abs()));
     for factor in far {
         table = table.note(format!(
-            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error there.",
+            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error \
+            there.",
             factor.parameter, factor.computed
         ));
     }

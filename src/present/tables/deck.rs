@@ -22,17 +22,14 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
         Table::new("frequencies", title, "Mode").column("Frequency", "Hz").column("Generalized mass", "lbf·s²/in");
     table.notes = deck.unread.iter().map(not_read).collect();
     for (mode, frequency) in scaled.frequencies_hz.iter().enumerate() {
-        let mass = Cell::number(scaled.masses[mode], MASS);
-        table.row(mode + 1, [Cell::number(*frequency, FREQUENCY), mass]);
+        table.row(mode + 1, [Cell::number(*frequency, FREQUENCY), Cell::number(scaled.masses[mode], MASS)]);
     }
     let mut tables = vec![table];
     for (part, shapes) in scaled.shapes.chunks(MODES_PER_TABLE).enumerate() {
-        let first = MODES_PER_TABLE * part + 1;
-        let last = first + shapes.len() - 1;
+        let (first, last) = (MODES_PER_TABLE * part + 1, MODES_PER_TABLE * part + shapes.len());
         let title = format!("Shapes of modes {first} to {last}, largest component one");
-        let headings = (first..=last).map(|mode| format!("Mode {mode}"));
-        let name = format!("shapes_{first}_to_{last}");
-        let mut table = Table::new(name, title, "Grid").columns(headings, "");
+        let mut table = Table::new(format!("shapes_{first}_to_{last}"), title, "Grid")
+            .columns((first..=last).map(|mode| format!("Mode {mode}")), "");
         for (row, dof) in modes.dof.iter().enumerate() {
             let label = format!("{} {}", dof.grid, DIRECTIONS[dof.direction]);
             table.row(label, shapes.iter().map(|shape| Cell::number(shape[row], SHAPE)));
@@ -68,11 +65,9 @@ impl UnitShapes {
         // Shapes come with unit generalized mass and a positive largest component.
         let unit = |shape: nalgebra::DVectorView<f64>| {
             let largest = shape.amax();
-            let components = shape.iter().map(|component| component / largest);
-            (largest.powi(-2), components.collect())
+            (largest.powi(-2), shape.iter().map(|component| component / largest).collect())
         };
-        let columns = modes.modes.shapes.column_iter().take(count);
-        let (masses, shapes) = columns.map(unit).unzip();
+        let (masses, shapes) = modes.modes.shapes.column_iter().take(count).map(unit).unzip();
         Self { frequencies_hz, masses, shapes }
     }
 }

@@ -18,7 +18,7 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 /// All tables: deflections under both loads, frequencies, and the correlation's groups, frequencies and passes.
 ///
 /// # Errors
-/// Those of the wing's analyses; [`CaseError::Table`](crate::cases::error::CaseError::Table) if what others found were damaged.
+/// Those of the wing's analyses; [`PresentError::Case`] if what others found were damaged.
 pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, PresentError> {
     let passes = "Delta wing with wrong gages: passes";
     Ok(vec![
@@ -95,13 +95,14 @@ fn group_table(run: &WingCorrelation) -> Table {
         .column("First gage error", "%")
         .columns(["True factor", "Found"], "")
         .columns(["Last gage error", "Largest share"], "%")
-        .note("Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the stiffness of any test mode.");
+        .note(
+            "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: \
+        of the stiffness of any test mode.",
+        );
     for group in &run.groups {
-        let factors = [group.true_factor(), group.factor];
-        let factors = factors.map(|factor| Cell::number(factor, Digits::Fixed(4)));
-        let ends = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));
-        let first = Cell::percent(group.first_error(), PERCENT);
-        table.row(group.group.name, [first].into_iter().chain(factors).chain(ends));
+        let [truth, found] = [group.true_factor(), group.factor].map(|factor| Cell::number(factor, Digits::Fixed(4)));
+        let [last, share] = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));
+        table.row(group.group.name, [Cell::percent(group.first_error(), PERCENT), truth, found, last, share]);
     }
     table
 }
@@ -110,8 +111,7 @@ fn test_mode_table(run: &WingCorrelation) -> Table {
     let title = "Delta wing with wrong gages: frequencies and errors";
     let checks = vec![("start".to_owned(), &run.correlation.initial), ("end".to_owned(), last_check(&run.correlation))];
     let test = run.test.frequencies_hz();
-    let table = Table::new("delta_wing_test_modes", title, "Mode");
-    let mut table = frequencies(table, &test, &checks, |stages| {
+    let mut table = frequencies(Table::new("delta_wing_test_modes", title, "Mode"), &test, &checks, |stages| {
         stages.target = "Test";
         stages.labels = TEST_MODES.iter().map(|mode| mode.to_string()).collect();
         (stages.digits, stages.error_digits) = (Digits::Significant(5), RMS_PERCENT);

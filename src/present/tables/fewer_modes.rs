@@ -7,24 +7,21 @@ use crate::cases::fewer_modes::{Agreement, FewerModesRun, ITERATIONS};
 use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The paper's frequencies with fewer modes are those of five test modes.
 const TABLE_9_TEST_MODES: usize = 5;
 /// The paper's tables of gages: number, and test modes.
 const GAGE_TABLES: [(usize, usize); 3] = [(10, 7), (11, 5), (12, 3)];
-const COUNT: Digits = Digits::Fixed(0);
 
-/// RMS errors: title, row of the published tables, and the number.
-type RmsRow = (&'static str, &'static str, fn(&Agreement) -> f64);
-const RMS_ROWS: [RmsRow; 2] = [
-    ("frequency RMS", "frequency_rms", |found| found.frequency_rms),
-    ("shape RMS", "shape_rms", |found| found.shape_rms),
-];
+/// RMS errors with their labels.
+const RMS_ROWS: [(&str, fn(&Agreement) -> f64); 2] =
+    [("frequency RMS", |found| found.frequency_rms), ("shape RMS", |found| found.shape_rms)];
 
 /// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
 ///
 /// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
+/// [`PresentError::Case`] if published tables were damaged.
 pub fn fewer_modes_tables(
     case: &Case,
     published: &[FewerModesRun],
@@ -38,15 +35,18 @@ pub fn fewer_modes_tables(
 /// Tables 9 to 12 and the iterations, from the paper's runs.
 ///
 /// # Errors
-/// [`CaseError::Table`](crate::cases::error::CaseError::Table) if published tables were damaged.
+/// [`PresentError::Case`] if published tables were damaged.
 pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
-    let with =
-        |test_modes: usize| -> Vec<&FewerModesRun> { runs.iter().filter(|run| run.test_modes == test_modes).collect() };
+    let with = |modes: usize| -> Vec<&FewerModesRun> { runs.iter().filter(|run| run.test_modes == modes).collect() };
     let five = with(TABLE_9_TEST_MODES);
     let paper = PublishedTable::number(9)?;
     let inner = "frequencies and errors by the inner loop (Table 9)";
     let exact = "frequencies and errors by eigensolution at the gages found";
-    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note("The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the paper prints is read as these.");
+    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note(
+        "The inner loop's \
+    own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the \
+    paper prints is read as these.",
+    );
     table_9.notes.extend(remarks(Some(&paper)));
     let mut tables = vec![table_9, frequency_table("table_9_exact", exact, &five, None, |run| &run.exact)];
     for (paper, test_modes) in GAGE_TABLES {
@@ -81,9 +81,8 @@ fn frequency_table(
     stages.paper = paper;
     let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: {what}");
     let mut table = stages.fill(Table::new(name, title, "Mode"));
-    for (label, row, rms) in RMS_ROWS {
-        let errors = found.iter().map(|(_, at)| Some(rms(at)));
-        stages.add_errors(&mut table, label, Some(row), RMS_PERCENT, errors);
+    for (label, rms) in RMS_ROWS {
+        stages.add_errors(&mut table, label, RMS_PERCENT, found.iter().map(|(_, at)| Some(rms(at))));
     }
     table
 }
@@ -99,16 +98,15 @@ fn gage_table(case: &Case, number: usize, test_modes: usize, runs: &[&FewerModes
     let title = format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
     let mut table = stages.fill(Table::new(format!("table_{number}"), title, "Element"));
     // The start has none of these errors.
-    let mut add = |label: &str, row, digits, error: &dyn Fn(&FewerModesRun) -> f64| {
-        let errors = runs.iter().map(|run| Some(error(run)));
-        let errors = std::iter::once(None).chain(errors);
-        stages.add_errors(&mut table, label, row, digits, errors);
+    let mut add = |label: &str, digits, error: &dyn Fn(&FewerModesRun) -> f64| {
+        let errors = std::iter::once(None).chain(runs.iter().map(|run| Some(error(run))));
+        stages.add_errors(&mut table, label, digits, errors);
     };
-    add("shear RMS", Some("shear_rms"), PERCENT, &|run| run.shear_gage_rms);
-    add("membrane RMS", Some("membrane_rms"), PERCENT, &|run| run.membrane_gage_rms);
-    for (label, row, rms) in RMS_ROWS {
-        add(&format!("inner {label}"), Some(row), RMS_PERCENT, &|run| rms(&run.inner));
-        add(&format!("exact {label}"), None, RMS_PERCENT, &|run| rms(&run.exact));
+    add("shear RMS", PERCENT, &|run| run.shear_gage_rms);
+    add("membrane RMS", PERCENT, &|run| run.membrane_gage_rms);
+    for (label, rms) in RMS_ROWS {
+        add(&format!("inner {label}"), RMS_PERCENT, &|run| rms(&run.inner));
+        add(&format!("exact {label}"), RMS_PERCENT, &|run| rms(&run.exact));
     }
     table.notes.push(KINDS.to_owned());
     table.notes.extend(remarks(Some(&paper)));
@@ -117,15 +115,14 @@ fn gage_table(case: &Case, number: usize, test_modes: usize, runs: &[&FewerModes
 
 /// Iterations of the paper's runs, as in Tables 10 to 12.
 fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
-    let papers = GAGE_TABLES
-        .into_iter()
-        .map(|(number, test_modes)| Ok((test_modes, PublishedTable::number(number)?)))
-        .collect::<Result<Vec<_>, PresentError>>()?;
+    let mut papers = BTreeMap::new();
+    for (number, test_modes) in GAGE_TABLES {
+        papers.insert(test_modes, PublishedTable::number(number)?);
+    }
     let cell = |run: &FewerModesRun| {
-        let paper = papers.iter().find(|(modes, _)| *modes == run.test_modes);
-        let heading = format!("{}_percent", stage(run));
-        let printed = paper.and_then(|(_, table)| table.value("iterations", &heading));
-        Cell::beside(run.iterations as f64, COUNT, printed)
+        let paper = papers.get(&run.test_modes);
+        let printed = paper.and_then(|table| table.value("iterations", &format!("{}_percent", stage(run))));
+        Cell::beside(run.iterations as f64, Digits::Fixed(0), printed)
     };
     let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
     Ok(pairs_table("fewer_modes_iterations", title, "", runs, &cell)
@@ -146,12 +143,11 @@ pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     tables
 }
 
-/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies and
-/// shapes beside all test modes.
+/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies
+/// and shapes beside all test modes.
 pub(in crate::present) fn costs(run: &FewerModesRun) -> [f64; 4] {
-    let [shear, membrane] = [run.shear_gage_rms, run.membrane_gage_rms];
     let exact = &run.exact_all_modes;
-    [shear, membrane, exact.frequency_rms, exact.shape_rms]
+    [run.shear_gage_rms, run.membrane_gage_rms, exact.frequency_rms, exact.shape_rms]
 }
 
 /// Names, titles and digits of the [`costs`].
@@ -170,10 +166,7 @@ fn pairs_table(
     runs: &[FewerModesRun],
     cell: &dyn Fn(&FewerModesRun) -> Cell,
 ) -> Table {
-    let counts = |of: fn(&FewerModesRun) -> usize| {
-        let counts: std::collections::BTreeSet<usize> = runs.iter().map(of).collect();
-        counts
-    };
+    let counts = |of: fn(&FewerModesRun) -> usize| runs.iter().map(of).collect::<BTreeSet<usize>>();
     let analyses = counts(|run| run.analysis_modes);
     let headings = analyses.iter().map(|count| format!("FEM {count}"));
     let mut table = Table::new(name, title, "Test modes").columns(headings, unit);

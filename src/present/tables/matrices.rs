@@ -1,6 +1,6 @@
 //! Why elements and not matrices, as tables.
 
-use super::{HERTZ, PERCENT, RMS_PERCENT, kind_letter};
+use super::{HERTZ, PERCENT, RMS_PERCENT, kind_letter, rms};
 use crate::cases::Case;
 use crate::present::table::{Cell, Digits, Table};
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
@@ -8,7 +8,9 @@ use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Predict
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.
 pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {
     let mut tables = knowledge_tables(comparison);
-    tables.extend(entry_tables(comparison));
+    let (models, last) = (comparison.predictions.iter().skip(1), comparison.predictions.last());
+    tables.extend(models.map(|p| entry_table(comparison, p, "stiffness", &p.stiffness_change)));
+    tables.extend(last.map(|p| entry_table(comparison, p, "mass", &p.mass_change)));
     tables.push(factor_table(case, comparison));
     tables
 }
@@ -19,25 +21,12 @@ pub fn knowledge_tables(comparison: &MatrixComparison) -> Vec<Table> {
     vec![
         frequency_table(comparison, "as tested", tested, |p| &p.as_tested),
         frequency_table(comparison, "after a change", changed, |p| &p.after_change).note(format!(
-            "The change: every cover thicker by {COVER_DOUBLER:.3} in, which no test has seen. The model corrected by elements is analyzed anew; to the corrected matrices the change of the uncorrected model's stiffness is added."
+            "The change: every cover thicker by {COVER_DOUBLER:.3} in, which no test has seen. The model corrected by \
+            elements is analyzed anew; to the corrected matrices the change of the uncorrected model's stiffness is \
+            added."
         )),
         distance_table(comparison),
     ]
-}
-
-/// Changes of the stiffness entry by entry, and of the mass.
-fn entry_tables(comparison: &MatrixComparison) -> Vec<Table> {
-    let predictions = comparison.predictions.iter().skip(1);
-    let stiffness = predictions.map(|p| entry_table(comparison, p, "stiffness", &p.stiffness_change));
-    let last = comparison.predictions.last();
-    let mass = last.map(|p| entry_table(comparison, p, "mass", &p.mass_change));
-    stiffness.chain(mass).collect()
-}
-
-/// Who predicts: everything but the truth.
-fn predictors(comparison: &MatrixComparison) -> Vec<&Prediction> {
-    let is_predictor = |prediction: &&Prediction| prediction.model != TRUTH;
-    comparison.predictions.iter().filter(is_predictor).collect()
 }
 
 /// True frequencies in one state of the box, and every model's errors.
@@ -50,40 +39,34 @@ fn frequency_table(
     let (case, fitted) = (comparison.case, comparison.test_modes);
     let name = format!("matrix_frequencies_{}", state.replace(' ', "_"));
     let title = format!("Case {case}, {fitted} test modes: errors of the models' frequencies, {state}");
-    let predictors = predictors(comparison);
+    let predictors: Vec<&Prediction> = comparison.predictions.iter().filter(|p| p.model != TRUTH).collect();
     let mut table =
         Table::new(name, title, "Mode").column("Truth", "Hz").columns(predictors.iter().map(|p| p.model), "%");
     for (mode, &frequency) in truth.iter().enumerate() {
         let percents = predictors.iter().map(|p| Cell::percent(errors(p)[mode], PERCENT));
-        let truth = Cell::number(frequency, HERTZ);
-        table.row(mode + 1, std::iter::once(truth).chain(percents));
+        table.row(mode + 1, std::iter::once(Cell::number(frequency, HERTZ)).chain(percents));
     }
     for (label, modes) in [("RMS test modes", 0..fitted), ("RMS others", fitted..truth.len())] {
         if !modes.is_empty() {
-            let rms = predictors.iter().map(|p| rms(&errors(p)[modes.clone()]));
-            let percents = rms.map(|rms| Cell::percent(rms, RMS_PERCENT));
+            let percents = predictors.iter().map(|p| Cell::percent(rms(&errors(p)[modes.clone()]), RMS_PERCENT));
             table.row(label, std::iter::once(Cell::Blank).chain(percents));
         }
     }
     table
 }
 
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
-}
-
 fn distance_table(comparison: &MatrixComparison) -> Table {
     let title = format!("Case {}: distance of the stiffness from the true one", comparison.case);
-    let mut table = Table::new("matrix_distance", title, "Model")
-        .columns(["Left", "Beyond elements", "Mass coupling"], "%")
-        .note("Left: what separates the stiffness from the true one, in the norm that the matrix corrections make smallest, of what did at the start. Beyond elements: the part of the change that no factors on the elements could make. Mass coupling: largest mass put between two points that had none between them.");
+    let mut table =
+        Table::new("matrix_distance", title, "Model").columns(["Left", "Beyond elements", "Mass coupling"], "%").note(
+            "Left: what separates the stiffness from the true one, in the norm that the matrix corrections make \
+        smallest, of what did at the start. Beyond elements: the part of the change that no factors on the elements \
+        could make. Mass coupling: largest mass put between two points that had none between them.",
+        );
     for prediction in &comparison.predictions {
-        let rows = prediction.mass_change.iter().enumerate();
-        let off_diagonal = rows.flat_map(|(i, row)| {
-            let entries = row.iter().enumerate();
-            entries.filter(move |(j, _)| *j != i).map(|(_, entry)| entry.abs())
-        });
-        let coupling = off_diagonal.fold(0.0, f64::max);
+        let change = &prediction.mass_change;
+        let below = (0..change.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let coupling = below.map(|(i, j)| change[i][j].abs().max(change[j][i].abs())).fold(0.0, f64::max);
         let percents = [prediction.distance_left, prediction.beyond_elements, coupling];
         table.row(prediction.model, percents.map(|value| Cell::percent(value, RMS_PERCENT)));
     }
@@ -91,9 +74,8 @@ fn distance_table(comparison: &MatrixComparison) -> Table {
 }
 
 fn entry_table(comparison: &MatrixComparison, prediction: &Prediction, what: &str, change: &[Vec<f64>]) -> Table {
-    let model = prediction.model;
+    let (case, model) = (comparison.case, prediction.model);
     let name = format!("{what}_change_{}", model.replace(' ', "_").to_lowercase());
-    let case = comparison.case;
     let title = format!("Case {case}: change of the {what} entry by entry, {model}");
     let numbers = (1..=change.len()).map(|j| j.to_string());
     let mut table = Table::new(name, title, "DOF").columns(numbers, "%");

@@ -21,12 +21,9 @@ pub(super) const KINDS: &str = "S shear panel, M membrane.";
 
 /// What the paper's print of a table gets wrong, its rows and columns named as a reader sees them.
 pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
-    let remarks = paper.map_or(&[][..], |table| &table.remarks);
-    let spoken = |remark: &String| {
-        let words: Vec<String> = remark.split(' ').map(in_words).collect();
-        format!("The print: {}", words.join(" "))
-    };
-    remarks.iter().map(spoken).collect()
+    let words = |remark: &String| remark.split(' ').map(in_words).collect::<Vec<_>>().join(" ");
+    let remarks = paper.into_iter().flat_map(|table| &table.remarks);
+    remarks.map(|remark| format!("The print: {}", words(remark))).collect()
 }
 
 /// A row or column of the published tables' files as a reader's words: `pass_1_percent` is the pass 1 error.
@@ -46,8 +43,12 @@ pub(super) fn in_words(name: &str) -> String {
         };
         format!("{said}{end}")
     };
-    let words: Vec<String> = name.split('_').map(word).collect();
-    words.join(" ")
+    name.split('_').map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// Root mean square.
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// The letter that stands for a kind of element.

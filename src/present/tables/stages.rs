@@ -5,8 +5,8 @@ use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Panel, TEST_GAGE};
 use crate::present::table::{Cell, Digits, Table};
 
-/// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), and its values in the order
-/// of the rows.
+/// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), and its values in the
+/// order of the rows.
 pub(super) type Stage<'a> = (String, &'a [f64]);
 
 /// What stands in a table of stages: a column of targets, then two for each stage, its values and their errors.
@@ -31,8 +31,8 @@ pub(super) struct Stages<'a> {
 /// Heading of a stage: `pass_1` is Pass 1.
 pub(super) fn stage_title(stage: &str) -> String {
     let words = in_words(stage);
-    let first = words.chars().next().map(|c| c.to_ascii_uppercase());
-    first.into_iter().chain(words.chars().skip(1)).collect()
+    let (first, rest) = words.split_at(words.len().min(1));
+    first.to_uppercase() + rest
 }
 
 impl<'a> Stages<'a> {
@@ -65,15 +65,10 @@ impl<'a> Stages<'a> {
 
     /// Puts columns and rows into a table that has none.
     pub fn fill(&self, table: Table) -> Table {
-        let mut table = match self.kinds {
-            Some(_) => table.column("Type", ""),
-            None => table,
-        };
-        table = table.column(self.target, self.unit);
+        let mut table = table.columns(self.kinds.as_ref().map(|_| "Type"), "").column(self.target, self.unit);
         for (stage, _) in &self.stages {
             let title = stage_title(stage);
-            let error = format!("{title} error");
-            table = table.column(title, self.unit).column(error, "%");
+            table = table.column(&title, self.unit).column(title + " error", "%");
         }
         let suffix = self.unit.to_lowercase();
         for (row, label) in self.labels.iter().enumerate() {
@@ -81,8 +76,7 @@ impl<'a> Stages<'a> {
                 let published = self.paper.and_then(|paper| paper.value(label, &heading));
                 value.map_or(Cell::Blank, |value| Cell::beside(value, digits, published))
             };
-            let kind = self.kinds.as_ref().map(|kinds| Cell::text(kinds[row]));
-            let mut cells: Vec<Cell> = kind.into_iter().collect();
+            let mut cells: Vec<Cell> = self.kinds.iter().map(|kinds| Cell::text(kinds[row])).collect();
             let target = self.targets.get(row).copied();
             cells.push(cell(target, self.digits, format!("gvt_{suffix}")));
             for (stage, values) in &self.stages {
@@ -96,23 +90,21 @@ impl<'a> Stages<'a> {
         table
     }
 
-    /// Adds a row with one error for each stage, fractions written in percent; `printed` is its label in the published
-    /// table, if it has such a row.
+    /// Adds a row with one error for each stage, fractions written in percent; the published row of that name, if there
+    /// is one, is written with low lines and small letters: `frequency_rms` for `frequency RMS`.
     pub fn add_errors(
         &self,
         table: &mut Table,
         label: &str,
-        printed: Option<&str>,
         digits: Digits,
         errors: impl IntoIterator<Item = Option<f64>>,
     ) {
+        let printed = label.trim_start_matches("inner ").replace(' ', "_").to_lowercase();
         let mut cells = vec![Cell::Blank; 1 + usize::from(self.kinds.is_some())];
         for ((stage, _), error) in self.stages.iter().zip(errors) {
-            let heading = format!("{stage}_percent");
-            let find = |(paper, row): (&PublishedTable, &str)| paper.value(row, &heading);
-            let published = self.paper.zip(printed).and_then(find);
-            let number = |error: f64| Cell::beside(100.0 * error, digits, published);
-            cells.extend([Cell::Blank, error.map_or(Cell::Blank, number)]);
+            let published = self.paper.and_then(|paper| paper.value(&printed, &format!("{stage}_percent")));
+            let number = error.map(|error| Cell::beside(100.0 * error, digits, published));
+            cells.extend([Cell::Blank, number.unwrap_or(Cell::Blank)]);
         }
         table.row(label, cells);
     }

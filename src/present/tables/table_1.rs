@@ -19,7 +19,10 @@ pub fn root_error_table() -> Result<Table, PresentError> {
     let mut table = Table::new("table_1", title, "Problem")
         .columns(["Coupling", "Change"], "")
         .columns(found.formulae.iter().map(|&rule| rule_name(rule)), "%")
-        .note("Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.");
+        .note(
+            "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring \
+        is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.",
+        );
     for (number, row) in found.rows.iter().enumerate() {
         let problem = [row.problem.coupling, row.problem.change];
         let problem = problem.map(|value| Cell::number(value, Digits::Fixed(2)));
