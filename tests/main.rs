@@ -2,10 +2,18 @@
 
 mod common;
 
-mod cases;
-mod files;
 mod ledgers;
+
 mod method;
-mod present;
-mod program;
+
+mod closed_forms;
+
+mod cases;
+
 mod studies;
+
+mod files;
+
+mod present;
+
+mod program;

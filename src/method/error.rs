@@ -246,7 +246,7 @@ pub enum Error {
     /// A structure on supports, where the reactions balance the forces of a mode.
     #[error(
         "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most \
-         {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces of a mode themselves"
+         {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there"
     )]
     Supported {
         /// The first mode with too large a ratio.

@@ -1,11 +1,14 @@
 //! The paper's cases.
 
-pub mod analytical;
-pub mod cases_expected;
-pub mod errata_tables;
-pub mod fewer_modes;
-pub mod snapshots;
-pub mod tables_published;
 pub mod torque_box;
 pub mod torque_box_data;
 pub mod torque_box_nastran95;
+
+pub mod cases_expected;
+
+pub mod errata_tables;
+pub mod tables_published;
+
+pub mod fewer_modes;
+
+pub mod snapshots;

@@ -7,6 +7,7 @@ pub mod deck_mass_law;
 pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;
+
 pub mod nastran95_analysis;
 pub mod nastran95_delta_wing;
 pub mod nastran95_model;

@@ -1,57 +1,75 @@
 //! The method, in the order of the text.
 
-pub mod alternatives;
-pub mod appendix_a;
-pub mod appendix_a_box;
-pub mod appendix_b;
-pub mod appendix_c;
-pub mod appendix_c_bad_input;
-pub mod appendix_c_close_roots;
-pub mod appendix_c_close_roots_errors;
-pub mod appendix_c_clusters;
-pub mod appendix_c_complex;
-pub mod appendix_c_general;
-pub mod appendix_c_general_errors;
-pub mod appendix_c_general_limits;
-pub mod appendix_c_inner_loop;
-pub mod appendix_c_orders;
-pub mod appendix_c_recursion_orders;
-pub mod appendix_c_rows;
-pub mod appendix_c_table_1;
-pub mod appendix_c_two_dof;
-pub mod appendix_c_wing_section;
-pub mod assembly;
-pub mod derivatives;
+pub mod linear_algebra;
+
+pub mod singular_structures;
+pub mod structure;
+
 pub mod elements;
 pub mod elements_membrane;
 pub mod elements_nastran95;
 pub mod elements_shear;
-pub mod errata;
-pub mod error_sum;
-pub mod groups;
-pub mod inner_loop;
-pub mod inner_loop_bad_input;
-pub mod inner_loop_close_roots;
-pub mod inner_loop_stops;
-pub mod linear_algebra;
-pub mod mass_correlation;
 pub mod mass_lumping;
+pub mod panel_geometry;
+pub mod quadrature;
+
+pub mod assembly;
+
+pub mod appendix_a;
+pub mod appendix_a_box;
+
+pub mod modes;
+pub mod modes_bad_input;
+pub mod supports;
+
+pub mod appendix_b;
+
+pub mod groups;
 pub mod mass_parameters;
 pub mod mass_parameters_bad_input;
 pub mod modal;
 pub mod model;
 pub mod model_refusals;
-pub mod modes;
-pub mod modes_bad_input;
+
+pub mod pairing;
+pub mod pairing_bad_input;
+
+pub mod error_sum;
+
+pub mod appendix_c;
+pub mod appendix_c_bad_input;
+pub mod appendix_c_orders;
+pub mod appendix_c_recursion_orders;
+pub mod appendix_c_rows;
+pub mod appendix_c_table_1;
+pub mod appendix_c_two_dof;
+
+pub mod appendix_c_close_roots;
+pub mod appendix_c_close_roots_errors;
+pub mod appendix_c_clusters;
+
+pub mod appendix_c_complex;
+pub mod appendix_c_general;
+pub mod appendix_c_general_errors;
+pub mod appendix_c_general_limits;
+pub mod appendix_c_wing_section;
+pub mod strategies_of_vibrations;
+
+pub mod appendix_c_inner_loop;
+
+pub mod derivatives;
+
+pub mod step;
+
+pub mod inner_loop;
+pub mod inner_loop_bad_input;
+pub mod inner_loop_close_roots;
+pub mod inner_loop_stops;
+
+pub mod mass_correlation;
 pub mod outer_loop;
 pub mod outer_loop_bad_input;
 pub mod outer_loop_stops;
-pub mod pairing;
-pub mod pairing_bad_input;
-pub mod panel_geometry;
-pub mod quadrature;
-pub mod singular_structures;
-pub mod step;
-pub mod strategies_of_vibrations;
-pub mod structure;
-pub mod supports;
+
+pub mod alternatives;
+pub mod errata;

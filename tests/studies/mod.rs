@@ -4,6 +4,7 @@ pub mod delta_wing;
 pub mod delta_wing_answers;
 pub mod delta_wing_correlation;
 pub mod delta_wing_scenario;
+
 pub mod matrix_comparison;
 pub mod matrix_comparison_elements;
 pub mod matrix_correction;

@@ -74,7 +74,7 @@ fn suspension_is_refused_past_the_limit_and_named() {
         match (outcome, refused) {
             (Ok(balanced), None) => assert_eq!(balanced.shapes.shape(), (3, 3)),
             (Err(error), Some((first, omega_squared))) => {
-                assert!(error.to_string().contains("must not be balanced"), "{error}");
+                assert!(error.to_string().contains("supports balance the forces"), "{error}");
                 let Error::Supported { mode, ratio, limit } = error else {
                     panic!("expected Error::Supported, found {error}");
                 };

@@ -152,7 +152,7 @@ pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Erro
     Ok(Perturbed { roots: explicit_roots(&change.pencil()?, &shapes)?, shapes })
 }
 
-/// Roots from given shapes, $\gamma_i = (Gp)_{ii}/(Ap)_{ii}$ (C.24).
+/// Roots from given shapes, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
 pub(super) fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
     let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;

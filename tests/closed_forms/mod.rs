@@ -1,0 +1,3 @@
+//! Closed forms against what they are the closed form of.
+
+pub mod analytical;
