@@ -125,17 +125,25 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
         return pull;
     }
     let mut to_shape = DVector::zeros(dof_count);
+    let to_shape = to_shape.as_mut_slice();
     for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
         let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
-        unit_shape_difference(shape, sign, model.test.shapes.column(j), &mut to_shape);
+        unit_shape_difference(shape, sign, model.test.shapes.column(j), to_shape);
         let largest = first_largest(shape.as_slice());
-        to_shape[largest] -= to_shape.dot(&shape) / shape[largest];
-        to_shape *= sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
-        pull.column_mut(i).gemv_tr(1.0, shapes, &to_shape, 0.0);
+        to_shape[largest] -= product(to_shape, shape.as_slice()) / shape[largest];
+        let scale = sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
+        let others = shapes.as_slice().chunks_exact(dof_count);
+        for (pull, other) in pull.column_mut(i).as_mut_slice().iter_mut().zip(others) {
+            *pull = scale * product(to_shape, other);
+        }
     }
     pull
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The place of the first of the components of largest magnitude.

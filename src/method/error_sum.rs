@@ -49,23 +49,24 @@ pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
         let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
         frequency += (ratio - 1.0).powi(2);
         let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
-        unit_shape_difference(analyzed, pairing.sign[j], tested, &mut difference);
+        unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
         shape += difference.norm_squared() / dof_count as f64;
     }
     Errors { frequency: frequency.sqrt(), shape: shape.sqrt(), mode_count: test.len() }
 }
 
-/// $\pm v/\max|v| - w/|w|_\infty$, the difference (d) of two shapes scaled to unit largest component.
+/// $\pm v/|v|_\infty - w/|w|_\infty$, the difference (d) of two shapes scaled to unit largest component.
 pub(crate) fn unit_shape_difference(
     analysis: DVectorView<f64>,
     sign: f64,
     test: DVectorView<f64>,
-    difference: &mut DVector<f64>,
+    difference: &mut [f64],
 ) {
     let (v, w) = (analysis.as_slice(), test.as_slice());
-    let largest = |shape: &[f64]| shape.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let largest = |shape: &[f64]| shape.iter().fold(0.0, |largest, component| larger(largest, component.abs()));
     let (to_unit, to_unit_test) = (sign / largest(v), 1.0 / largest(w));
-    for ((difference, v), w) in difference.as_mut_slice().iter_mut().zip(v).zip(w) {
+    for ((difference, v), w) in difference.iter_mut().zip(v).zip(w) {
         *difference = v * to_unit - w * to_unit_test;
     }
 }
