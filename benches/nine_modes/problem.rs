@@ -3,9 +3,7 @@
 use corfem::cases::{CASES, Case, run_case};
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::ModalModel;
-use corfem::method::model::Range;
+use corfem::method::model::{FiniteElementModel, ModalModel, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
 use nalgebra::{DMatrix, DVector};

@@ -3,9 +3,8 @@
 use clap::{Args, ValueEnum};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::files::error::FileError;
-use corfem::present::PresentError;
-use corfem::present::render;
 use corfem::present::table::Table;
+use corfem::present::{PresentError, render};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

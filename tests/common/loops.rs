@@ -4,11 +4,9 @@ use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
 use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
-use corfem::method::model::ModalModel;
-use corfem::method::model::Range;
+use corfem::method::model::{ModalModel, Range};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::state::ModalState;
-use corfem::method::state::UpdateRule;
+use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{Limit, StepRule, stiffness_changes, unlimited_factors};
 use proptest::prelude::*;
 

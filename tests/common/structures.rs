@@ -2,9 +2,7 @@
 
 use corfem::method::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::Parameter;
-use corfem::method::model::Range;
+use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

@@ -3,8 +3,7 @@
 use corfem::cases::Case;
 use corfem::cases::torque_box::{Reconstruction, load_distribution, structure};
 use corfem::method::assembly::{FactorizedStiffness, dense_stiffness};
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::Parameter;
+use corfem::method::model::{FiniteElementModel, Parameter};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;

@@ -9,8 +9,7 @@ use corfem::files::deck::BulkData;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::Matrices;
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, FiniteElementModel, Share};
 use nalgebra::DMatrix;
 use tempfile::TempDir;
 

@@ -8,8 +8,7 @@ use crate::common::loops::{
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::ModalModel;
-use corfem::method::model::Range;
+use corfem::method::model::{ModalModel, Range};
 use corfem::method::state::ModalState;
 use proptest::prelude::*;
 

@@ -7,11 +7,9 @@ use crate::common::vibrations::Chain;
 use corfem::cases::Case;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::Range;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::solve;
-use corfem::method::state::ModalState;
-use corfem::method::state::UpdateRule;
+use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::Limit;
 use nalgebra::dmatrix;
 

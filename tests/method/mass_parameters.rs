@@ -10,12 +10,9 @@ use corfem::method::assembly::{FactorizedStiffness, element_matrices};
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::elements::mass::corner_volumes;
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::{ModalModel, Share};
-use corfem::method::model::{Parameter, Scaled};
+use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, Scaled, Share};
 use corfem::method::modes::ModeSet;
-use corfem::method::state::ModalState;
-use corfem::method::state::UpdateRule;
+use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::structure::Structure;
 use nalgebra::{DMatrix, DVector};
 

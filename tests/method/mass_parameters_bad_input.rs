@@ -2,8 +2,7 @@
 
 use crate::method::mass_parameters::{DENSITY, boxed, point_masses};
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::{Parameter, Scaled};
+use corfem::method::model::{FiniteElementModel, Parameter, Scaled};
 
 #[test]
 fn bad_mass_parameters_name_the_offender() {

@@ -8,8 +8,7 @@ use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::ModeSet;
-use corfem::method::state::ModalState;
-use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE, UpdateRule};
+use corfem::method::state::{MOST_ORDERS, ModalState, ROOT_TOLERANCE, UpdateRule};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

@@ -5,8 +5,7 @@ use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
 use corfem::cases::Case;
-use corfem::method::model::Range;
-use corfem::method::model::{Parameter, Scaled};
+use corfem::method::model::{Parameter, Range, Scaled};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

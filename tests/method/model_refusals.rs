@@ -4,9 +4,7 @@ use crate::common::structures::{chain_model as chain, group, spring_chain, unit_
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::Parameter;
-use corfem::method::model::Range;
+use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Structure};
 use nalgebra::DMatrix;
 

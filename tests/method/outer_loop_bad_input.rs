@@ -2,8 +2,7 @@
 
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
-use corfem::method::model::ModalModel;
-use corfem::method::model::Range;
+use corfem::method::model::{ModalModel, Range};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];

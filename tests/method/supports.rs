@@ -9,8 +9,7 @@
 
 use crate::common::tolerances::{RECOVERED_AREA, RIGID_ON_SUSPENSION};
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::model::Parameter;
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};

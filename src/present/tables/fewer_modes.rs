@@ -14,9 +14,11 @@ const TABLE_9_TEST_MODES: usize = 5;
 /// The paper's tables of gages: number, and test modes.
 const GAGE_TABLES: [(usize, usize); 3] = [(10, 7), (11, 5), (12, 3)];
 
+/// The label of a row, and what stands in it.
+type RmsRow = (&'static str, fn(&Agreement) -> f64);
+
 /// RMS errors with their labels.
-const RMS_ROWS: [(&str, fn(&Agreement) -> f64); 2] =
-    [("frequency RMS", |found| found.frequency_rms), ("shape RMS", |found| found.shape_rms)];
+const RMS_ROWS: [RmsRow; 2] = [("frequency RMS", |found| found.frequency_rms), ("shape RMS", |found| found.shape_rms)];
 
 /// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
 ///
