@@ -64,6 +64,7 @@ pub mod method;
 pub mod closed_forms;
 
 pub mod cases;
+
 pub mod studies;
 
 pub mod files;

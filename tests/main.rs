@@ -1,19 +1,12 @@
 //! The method's specification: one test program, in folders that mirror the rooms of `src/`, in the order of the text.
 
 mod common;
-
 mod ledgers;
 
 mod method;
-
 mod closed_forms;
-
 mod cases;
-
 mod studies;
-
 mod files;
-
 mod present;
-
 mod program;

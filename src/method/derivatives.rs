@@ -148,13 +148,8 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 
 /// The place of the first of the components of largest magnitude.
 fn first_largest(shape: &[f64]) -> usize {
-    let mut largest = 0;
-    for place in 1..shape.len() {
-        if shape[place].abs() > shape[largest].abs() {
-            largest = place;
-        }
-    }
-    largest
+    let larger = |largest: usize, place: usize| if shape[place].abs() > shape[largest].abs() { place } else { largest };
+    (1..shape.len()).fold(0, larger)
 }
 
 /// $\Sigma$ (n × n) in place of the pull, with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.

@@ -55,7 +55,7 @@ pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
     Errors { frequency: frequency.sqrt(), shape: shape.sqrt(), mode_count: test.len() }
 }
 
-/// $\pm v/|v|_\infty - w/|w|_\infty$, the difference (d) of two shapes scaled to unit largest component.
+/// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.
 pub(crate) fn unit_shape_difference(
     analysis: DVectorView<f64>,
     sign: f64,
