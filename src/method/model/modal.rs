@@ -8,7 +8,7 @@ use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired};
+use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes};
 use nalgebra::DMatrix;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
@@ -131,7 +131,8 @@ impl ModalModel {
             Share::Mass(matrix) => block(matrix, count, test_count),
         };
         let test_shares = through_both.iter().map(on_test).collect();
-        let frequencies_hz = paired(&modes, &pairing).frequencies_hz();
+        let all_hz = modes.frequencies_hz();
+        let frequencies_hz = pairing.analysis_mode.iter().map(|&mode| all_hz[mode]).collect();
         let errors = errors(&modes, &pairing, &test);
         let exact = Check { modes, pairing, frequencies_hz, errors };
         Ok(Self { exact, test, cross, shares, test_shares })

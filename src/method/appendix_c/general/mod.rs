@@ -3,7 +3,7 @@
 //! With $k = U^t K V$ diagonal (C.10), $\beta = U^t \Delta K V$ and $\alpha = U^t \Delta G V$, the changed mode $j$ is
 //! $V p_j$ with root $\gamma_j = \lambda_j + \Delta\lambda_j$ and
 //!
-//! $$ (A\gamma_j - G)  p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
+//! $$ (A\gamma_j - G) p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
 //!    \quad \text{(C.14 to C.19)}. $$
 //!
 //! The paper prints $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to
@@ -48,8 +48,8 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 
 /// Recursive 1 (C.22 with $\alpha$ and a general $k$) to a given order; with $\rho = r - 1$:
 ///
-/// $$ \gamma_j^{(r)} = \frac{G_{jj} - \sum_{s\ne j} f_{js}  p_{sj}^{(\rho)}}{A_{jj}}, \quad
-///    p_{ij}^{(r)} = -\frac{\sum_{s\ne i} f_{is}  p_{sj}^{(\rho)}}{f_{ii}},
+/// $$ \gamma_j^{(r)} = \frac{G_{jj} - \sum_{s\ne j} f_{js} p_{sj}^{(\rho)}}{A_{jj}}, \quad
+///    p_{ij}^{(r)} = -\frac{\sum_{s\ne i} f_{is} p_{sj}^{(\rho)}}{f_{ii}},
 ///    \quad f_{is} = A_{is}\gamma_j^{(\rho)} - G_{is} $$
 ///
 /// Order zero is $p = I$ with $\gamma_j = G_{jj}/A_{jj}$, so that order one is [`first_order`].
@@ -59,7 +59,8 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
     check_order(order)?;
     let pencil = change.pencil()?;
-    (0..order).try_fold(order_zero(&pencil)?, |now, _| next_order(&pencil, now))
+    let coupling = coupling(&pencil);
+    (0..order).try_fold(order_zero(&pencil)?, |now, _| next_order(&pencil, &coupling, now))
 }
 
 /// [`recursive_1`] until two orders in a row change no root by more than `tolerance` (relative), at most to order
@@ -76,11 +77,12 @@ pub fn recursive_1_converged<T: Number>(
 ) -> Result<Settled<T>, Error> {
     check_order(orders)?;
     let pencil = change.pencil()?;
-    let mut now = next_order(&pencil, order_zero(&pencil)?)?;
+    let coupling = coupling(&pencil);
+    let mut now = next_order(&pencil, &coupling, order_zero(&pencil)?)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
     while order < orders && quiet_orders < QUIET_ORDERS {
         let before = now.roots.clone();
-        now = next_order(&pencil, now)?;
+        now = next_order(&pencil, &coupling, now)?;
         order += 1;
         // Round-off in the largest root is no change of a root that is smaller still.
         let floor = f64::EPSILON * before.map(T::modulus).max();
@@ -97,14 +99,21 @@ fn order_zero<T: Number>(pencil: &Pencil<T>) -> Result<Perturbed<T>, Error> {
     Ok(Perturbed { roots: explicit_roots(pencil, &shapes)?, shapes })
 }
 
+/// $A$ and $G$ without their diagonals, the same for every order.
+fn coupling<T: Number>(pencil: &Pencil<T>) -> Pencil<T> {
+    let mut coupling = pencil.clone();
+    coupling.0.fill_diagonal(T::zero());
+    coupling.1.fill_diagonal(T::zero());
+    coupling
+}
+
 /// One order of Recursive 1.
-fn next_order<T: Number>((stiffness, g): &Pencil<T>, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
-    let sums_of = |matrix: &DMatrix<T>| {
-        let mut coupling = matrix.clone();
-        coupling.fill_diagonal(T::zero());
-        coupling * &now.shapes
-    };
-    let (stiffness_sums, g_sums) = (sums_of(stiffness), sums_of(g));
+fn next_order<T: Number>(
+    (stiffness, g): &Pencil<T>,
+    coupling: &Pencil<T>,
+    mut now: Perturbed<T>,
+) -> Result<Perturbed<T>, Error> {
+    let (stiffness_sums, g_sums) = (&coupling.0 * &now.shapes, &coupling.1 * &now.shapes);
     for j in 0..g.nrows() {
         let gamma = now.roots[j];
         let sum = |i: usize| stiffness_sums[(i, j)] * gamma - g_sums[(i, j)];
@@ -127,7 +136,7 @@ fn next_order<T: Number>((stiffness, g): &Pencil<T>, mut now: Perturbed<T>) -> R
 
 /// Recursive 2 (C.24 in general) to a given order: explicit roots, and shapes from one linear solution per mode.
 ///
-/// $$ \gamma_i^{(r)} = \frac{\sum_j G_{ij}  p_{ji}^{(\rho)}}{\sum_j A_{ij}  p_{ji}^{(\rho)}}, \qquad
+/// $$ \gamma_i^{(r)} = \frac{\sum_j G_{ij} p_{ji}^{(\rho)}}{\sum_j A_{ij} p_{ji}^{(\rho)}}, \qquad
 ///    \sum_{s \ne j}\big[A_{is}\gamma_j^{(r)} - G_{is}\big] p_{sj}^{(r)} = G_{ij} - A_{ij}\gamma_j^{(r)}, \ i \ne j $$
 ///
 /// # Errors
