@@ -1,8 +1,15 @@
-"""Independent numpy program for the torque box: reads paper/reconstruction.toml, writes expected.toml.
+"""Independent numpy program for the torque box: reads paper/reconstruction.toml, writes expected_*.toml beside it.
 
     python3 golden/reference/reference.py            (needs numpy; elements.py beside it)
 
-Plain and slow on purpose. It shares no code with the crate; the crate must agree with expected.toml.
+Plain and slow on purpose. It shares no code with the crate; the crate must agree with what it writes.
+
+Step rule, c = 1 - R e_S (de/dk): how dk of a 0.1 % change of an element is measured on the test modes,
+  matrix    Frobenius norm of the relative generalized stiffness, V_G^t dK V_G / (w_i w_j), off-diagonals and all (default)
+  own       the same, diagonal alone
+  relative  the relative change itself, 0.001
+  gage      the change of gage, in units of 0.01 in
+Inside an inner loop stiffness changes add, K_e (1 + sum(c - 1)) with the stored K_e; gages multiply. At most 30 iterations a pass.
 """
 import pathlib
 import sys
@@ -90,10 +97,10 @@ class Box:
         self.rods = k[:36, :36]
 
     def load_distribution(self, xi):
-        h1, h2 = 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3
-        h3, h4 = 3 * xi**2 - 2 * xi**3, xi**3 - xi**2
         t = np.zeros((36, 9))
-        for rib in range(3):
+        for rib, xi in enumerate(np.broadcast_to(xi, 3)):
+            h1, h2 = 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3
+            h3, h4 = 3 * xi**2 - 2 * xi**3, xi**3 - xi**2
             fu, fl, ru, rl = (4 * rib + k for k in range(4))
             chord = (self.x[ru] - self.x[fu])[:2]
             length = np.hypot(*chord)
@@ -164,45 +171,53 @@ def perturbed(f, v, dk, mass, order):
     return 1 / np.sqrt(gam) / (2 * np.pi), w / np.sqrt(np.sum(w * mass[:, None] * w, 0))
 
 
-def factors(box, f, v, shares, fg, vg, relax):
-    """Unlimited stiffness change factors of Eq. 13, and e_S."""
+def factors(box, f, v, shares, fg, vg, relax, rule="matrix", scale=1.0, gages=None):
+    """Unlimited stiffness change factors of Eq. 13, and e_S. `shares` are the element stiffnesses as they now are."""
     es = sum(errors(f, v, fg, vg, box.mass))
     c = np.zeros(15)
     for e in range(15):
         de = sum(errors(*perturbed(f, v, 1e-3 * shares[e], box.mass, 1), fg, vg, box.mass)) - es
-        dk = 1e-3 * np.sqrt(np.sum((np.einsum("ij,ik,kj->j", vg, shares[e], vg) / (2 * np.pi * fg) ** 2) ** 2))
-        c[e] = 1 - relax * es * de / dk
+        generalized = vg.T @ shares[e] @ vg / np.outer(2 * np.pi * fg, 2 * np.pi * fg)
+        dk = 1e-3 * {"matrix": np.linalg.norm(generalized), "own": np.linalg.norm(np.diag(generalized)), "relative": 1.0, "gage": 1.0 if gages is None else gages[e] / 0.010}[rule]
+        c[e] = 1 - scale * relax * es * de / dk
     return c, es
 
 
-def correlate(box, case, start, passes, limits=None):
+def correlate(box, case, start, passes, limits=None, rule="matrix", scale=1.0, add=None, test_modes=9, fem_modes=9, cap=30):
+    """`add`: inside the inner loop K_e (1 + sum(c - 1)) of the stored K_e; otherwise K_e prod(c). Gages always multiply."""
+    add = True if add is None else add
     fg, vg = box.modes(box.dynamic(case, GVT)[0])
+    fg, vg = fg[:test_modes], vg[:, :test_modes]
     gages, out = start.copy(), []
     for number in range(1, passes + 1):
         kd, shares = box.dynamic(case, gages)
         f0, v0 = box.modes(kd)
-        total, f, v = np.ones(15), f0, v0
+        f0, v0 = f0[:fem_modes], v0[:, :fem_modes]
+        total, inner, f, v = np.ones(15), np.ones(15), f0, v0
         es, history = sum(errors(f, v, fg, vg, box.mass)), []
-        for it in range(100):
-            c, es = factors(box, f, v, total[:, None, None] * shares, fg, vg, 0.8 if it == 0 else 1.0)
+        for it in range(cap):
+            c, es = factors(box, f, v, inner[:, None, None] * shares, fg, vg, 0.8 if it == 0 else 1.0, rule, scale, gages * total)
             for halving in range(6):  # a local minimum is one that five halvings of the step do not leave
-                trial = total * np.clip(1 + (c - 1) / 2**halving, 0.55, 1.50)
+                trial = total * (1 + (np.clip(c, 0.55, 1.50) - 1) / 2**halving)
                 if limits:
                     trial = np.clip(gages * trial, *limits) / gages
-                f1, v1 = perturbed(f0, v0, np.tensordot(trial - 1, shares, 1), box.mass, 60)
+                stiff = np.maximum(inner + trial / total - 1, 1e-3) if add else trial
+                f1, v1 = perturbed(f0, v0, np.tensordot(stiff - 1, shares, 1), box.mass, 60)
                 e1 = sum(errors(f1, v1, fg, vg, box.mass))
                 if np.isfinite(e1) and e1 < es:
                     break
             else:
                 break
-            total, f, v, es = trial, f1, v1, e1
+            total, inner, f, v, es = trial, stiff, f1, v1, e1
             history.append(float(e1))
             if es < (0.025 if number == 1 else 0.015):
                 break
         gages = gages * total
         fx, vx = box.modes(box.dynamic(case, gages)[0])
-        ef, ev = errors(fx, vx, fg, vg, box.mass)
-        out.append(dict(iterations=len(history), inner=history, gages=gages.copy(), frequencies=matched(fx, vx, vg, box.mass)[0], frequency_rms=ef / 3, shape_rms=ev / 3))
+        ef, ev = errors(fx[:fem_modes], vx[:, :fem_modes], fg, vg, box.mass)
+        fi, vi = errors(f, v, fg, vg, box.mass)
+        out.append(dict(iterations=len(history), inner=history, gages=gages.copy(), frequencies=matched(fx, vx, vg, box.mass)[0], frequency_rms=ef / test_modes**.5, shape_rms=ev / test_modes**.5,
+                        inner_frequencies=f, inner_frequency_rms=fi / test_modes**.5, inner_shape_rms=vi / test_modes**.5))
     return out
 
 
@@ -210,8 +225,7 @@ def toml_list(values, fmt="%.10g"):
     return "[" + ", ".join(fmt % v for v in values) + "]"
 
 
-def main():
-    box = Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
+def write_expected(box, rule, scale=1.0):
     lines = ["# written by reference.py from paper/reconstruction.toml; frequencies in Hz, gages in inches, RMS as fractions"]
     for case in (1, 2):
         f, _ = box.modes(box.dynamic(case, GVT)[0])
@@ -224,13 +238,23 @@ def main():
         lines += [f'["{name}"]' if "initial" in name else f'["{name}, published gages"]', "frequencies = " + toml_list(f), f"frequency_rms = {ef / 3:.10g}", f"shape_rms = {ev / 3:.10g}"]
     fg, vg = box.modes(box.dynamic(2, GVT)[0])
     kd, shares = box.dynamic(4, GAGES["case 4 initial"])
-    c, es = factors(box, *box.modes(kd), shares, fg, vg, 0.8)
+    c, es = factors(box, *box.modes(kd), shares, fg, vg, 0.8, rule, scale, GAGES["case 4 initial"])
     lines += ['["case 4 first iteration"]', f"error_sum = {es:.10g}", "unlimited_factors = " + toml_list(c)]
     for case, passes, limits in ((1, 2, None), (2, 2, None), (3, 3, (0.007, 0.013))):
-        for number, r in enumerate(correlate(box, case, GAGES[f"case {case} initial"], passes, limits), 1):
+        for number, r in enumerate(correlate(box, case, GAGES[f"case {case} initial"], passes, limits, rule, scale), 1):
             lines += [f'["case {case} computed pass {number}"]', f"iterations = {r['iterations']}", "inner_error_sums = " + toml_list(r["inner"]), "gages = " + toml_list(r["gages"]),
                       "frequencies = " + toml_list(r["frequencies"]), f"frequency_rms = {r['frequency_rms']:.10g}", f"shape_rms = {r['shape_rms']:.10g}"]
-    (HERE / "expected.toml").write_text("\n".join(lines) + "\n")
+    for test, fem in ((7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)):
+        (r,) = correlate(box, 2, GAGES["case 2 initial"], 1, None, rule, scale, None, test, fem)
+        lines += [f'["case 2, {test} test and {fem} analysis modes"]', f"iterations = {r['iterations']}", "gages = " + toml_list(r["gages"]), "inner_frequencies = " + toml_list(r["inner_frequencies"]),
+                  f"inner_frequency_rms = {r['inner_frequency_rms']:.10g}", f"inner_shape_rms = {r['inner_shape_rms']:.10g}"]
+    (HERE / f"expected_{rule}.toml").write_text("\n".join(lines) + "\n")
+
+
+def main():
+    box = Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
+    for rule in ("matrix", "own", "relative", "gage"):
+        write_expected(box, rule)
 
 
 if __name__ == "__main__":

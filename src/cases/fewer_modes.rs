@@ -23,9 +23,6 @@ pub const PUBLISHED_CASE: usize = 2;
 /// Test and analysis modes of the paper's runs, in the order of its Tables 10, 11 and 12.
 pub const PUBLISHED_RUNS: [(usize, usize); 8] = [(7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)];
 
-/// Most iterations of a run: those of the paper that did not reach the tolerance stand at thirty in its tables.
-pub const ITERATIONS: usize = 30;
-
 /// Modes beside the test modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Agreement {
@@ -87,8 +84,6 @@ pub struct FewerModesRun {
 /// One pass of a case from its first gages, with its lowest `test_modes` test modes and `analysis_modes` analysis
 /// modes.
 ///
-/// The tolerance is that of the case's first pass, the cap [`ITERATIONS`].
-///
 /// # Errors
 /// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
 /// those of the model, the analysis and the loops.
@@ -96,8 +91,7 @@ pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) ->
     let model = case.model()?;
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
-    let mut settings = Settings { least_passes: 1, most_passes: 1, ..case.settings.clone() };
-    settings.inner.iterations = ITERATIONS;
+    let settings = Settings { least_passes: 1, most_passes: 1, ..case.settings.clone() };
     let ranges = model.factor_ranges()?;
     let correlation =
         correlate(|factors| model.analyze(factors, &test, Some(analysis_modes)), &ranges, &settings, |_, _| {})?;

@@ -6,7 +6,7 @@ use crate::method::error_sum::Errors;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
-use crate::method::step::{Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use crate::method::step::{Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
 use serde::Serialize;
 
 /// How the inner loop steps and when it stops.
@@ -29,12 +29,14 @@ pub struct InnerSettings {
     pub derivatives: DerivativeRule,
     /// How they become factors.
     pub step: StepRule,
+    /// How the changes of several iterations come together.
+    pub accumulation: Accumulation,
     /// How modes follow the factors.
     pub update: UpdateRule,
 }
 
 impl Default for InnerSettings {
-    /// The paper's: $R$ = 0.8 then 1.0, factors from 0.55 to 1.50, TOLI 2.5 %; five halvings, 100 iterations.
+    /// The paper's: $R$ = 0.8 then 1.0, factors from 0.55 to 1.50, TOLI 2.5 %, 30 iterations; five halvings.
     fn default() -> Self {
         Self {
             first_relaxation: 0.8,
@@ -42,9 +44,10 @@ impl Default for InnerSettings {
             factor_range: Range { lower: 0.55, upper: 1.50 },
             tolerance: 0.025,
             halvings: 5,
-            iterations: 100,
+            iterations: 30,
             derivatives: DerivativeRule::default(),
             step: StepRule::default(),
+            accumulation: Accumulation::default(),
             update: UpdateRule::default(),
         }
     }
@@ -73,7 +76,7 @@ pub struct Iteration {
     pub unlimited_factors: Vec<f64>,
     /// How often the step was halved.
     pub halvings: usize,
-    /// Total factor of each parameter since the last exact solution, after the step.
+    /// Factor on each parameter's gage or mass since the last exact solution, after the step.
     pub factors: Vec<f64>,
     /// What limited each parameter's factor.
     pub limits: Vec<Limit>,
@@ -88,8 +91,10 @@ pub struct InnerRun {
     pub start: Errors,
     /// Accepted steps.
     pub iterations: Vec<Iteration>,
-    /// Where the loop ended.
+    /// Where the loop ended, with the factors on the stored shares.
     pub last: ModalState,
+    /// Factor on each parameter's gage or mass since the last exact solution, where it ended.
+    pub factors: Vec<f64>,
     /// Unlimited factors at the start: what the first iteration asked for, taken or not.
     pub first_unlimited_factors: Vec<f64>,
     /// Why it stopped.
@@ -124,7 +129,7 @@ pub fn run(
     for range in total_ranges.iter().flatten() {
         Range::positive("parameter limits", range.lower, range.upper)?;
     }
-    let mut state = ModalState::start(model);
+    let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
     let start = state.errors;
     let mut iterations: Vec<Iteration> = Vec::new();
     let mut first_unlimited_factors = Vec::new();
@@ -133,57 +138,67 @@ pub fn run(
             break Stop::Iterations;
         }
         let changes = error_changes(model, &state, settings.derivatives)?;
-        let stiffnesses = stiffness_changes(model, &state, &changes, settings.step);
+        let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step);
         let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
         let unlimited = unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
-        let (halvings, limits, next) = match lowering_step(model, &state, &unlimited, base, total_ranges, settings) {
-            Ok(Some(lower)) => lower,
+        let step = match lowering_step(model, &state, &factors, &unlimited, base, total_ranges, settings) {
+            Ok(Some(step)) => step,
             Ok(None) => break Stop::LocalMinimum,
             // An error in the first step names the modes that prevent any; later ones end the loop where it is.
             Err(error) if error.is_of_close_modes() && !iterations.is_empty() => break Stop::LocalMinimum,
             Err(error) => return Err(error),
         };
-        state = next;
+        (factors, state) = (step.factors, step.state);
         iterations.push(Iteration {
             error_changes: changes,
             stiffness_changes: stiffnesses,
             unlimited_factors: unlimited,
-            halvings,
-            factors: state.factors.clone(),
-            limits,
+            halvings: step.halvings,
+            factors: factors.clone(),
+            limits: step.limits,
             errors: state.errors,
         });
         if state.errors.sum() < settings.tolerance {
             break Stop::Tolerance;
         }
     };
-    Ok(InnerRun { start, iterations, last: state, first_unlimited_factors, stop })
+    Ok(InnerRun { start, iterations, last: state, factors, first_unlimited_factors, stop })
 }
 
-/// The longest of the step and its halvings that lowers the error sum, if one does: how often it was halved, what limited
-/// it, where it leads. An error when modes are too close in every one of them: that of the shortest.
+/// A step that lowers the error sum, and where it leads.
+struct Step {
+    halvings: usize,
+    limits: Vec<Limit>,
+    factors: Vec<f64>,
+    state: ModalState,
+}
+
+/// The longest of the limited step and its halvings that lowers the error sum, if one does. An error when modes are too close
+/// in every one of them: that of the shortest.
 fn lowering_step(
     model: &ModalModel,
     state: &ModalState,
+    factors: &[f64],
     unlimited: &[f64],
     base: &[f64],
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
-) -> Result<Option<(usize, Vec<Limit>, ModalState)>, Error> {
+) -> Result<Option<Step>, Error> {
     let (mut is_too_far, mut refusal) = (false, None);
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
-        let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
-            .map(|e| {
-                let step = 1.0 + fraction * (unlimited[e] - 1.0);
-                limited_factor(state.factors[e], base[e], step, settings.factor_range, total_ranges[e])
-            })
-            .unzip();
-        match ModalState::at(model, factors, settings.update) {
-            Ok(next) if next.errors.sum() < state.errors.sum() => return Ok(Some((halvings, limits, next))),
+        let next = |e: usize| {
+            limited_factor(unlimited[e], fraction, factors[e], base[e], settings.factor_range, total_ranges[e])
+        };
+        let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(next).unzip();
+        let share_factor = |e: usize| settings.accumulation.next_share_factor(state.factors[e], factors[e], next[e]);
+        match ModalState::at(model, (0..factors.len()).map(share_factor).collect(), settings.update) {
+            Ok(lower) if lower.errors.sum() < state.errors.sum() => {
+                return Ok(Some(Step { halvings, limits, factors: next, state: lower }));
+            }
             // Uphill, or too far for the perturbation: a shorter step may do.
             Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
             Err(error) if error.is_of_close_modes() => refusal = Some(error),

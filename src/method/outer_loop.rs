@@ -106,7 +106,7 @@ pub fn correlate<E: From<Error>>(
             Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
             Err(error) => return Err(error.into()),
         };
-        for (factor, step) in factors.iter_mut().zip(&inner.last.factors) {
+        for (factor, step) in factors.iter_mut().zip(&inner.factors) {
             *factor *= step;
         }
         model = analyze(&factors)?;

@@ -2,34 +2,60 @@
 
 use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::model::{ModalModel, Range};
-use crate::method::state::ModalState;
-use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-/// How $\Delta k_e$ of (12) and (13) is measured for a change of 0.1 %.
+/// Gage that [`StepRule::Gage`] measures in, in.
+pub const REFERENCE_GAGE: f64 = 0.01;
+
+/// Least part of the stored stiffness that the changes of an inner loop leave when they add.
+pub const LEAST_SHARE: f64 = 1e-3;
+
+/// How the change in generalized stiffness $\Delta k_e$ of (12) and (13) is measured for a change of 0.1 %.
+///
+/// The paper's sentence can be read in several ways, and its own tables decide between them (`paper/interpretation.md`). With
+/// $\kappa_{ij} = c_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
+/// test's own:
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StepRule {
-    /// Root sum of squares over the test modes of the element's own relative generalized stiffness changes,
-    /// $0.001 c_e V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$. The primary rule.
+    /// $0.001 \lVert \kappa \rVert_F$, the coupling of modes included: one rule for every case and the library's own. With all
+    /// modes it is $\lVert K_G^{-1/2} \Delta K K_G^{-1/2} \rVert_F$ with the test's stiffness $K_G$, whatever the basis.
     #[default]
-    RootSumOfSquares,
-    /// Their sum instead: smaller steps, on the torque box one and a half to two times the iterations.
-    SumOverModes,
-    /// Plain steepest descent, $\Delta k_e = 0.001 \sum_s (\Delta e_s/0.001)^2$ for every element alike: the step that would
-    /// bring the linearized error sum to zero. It ignores how much stiffness each parameter has.
+    Matrix,
+    /// $0.001 (\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone. Cases 1 and 4 were run so.
+    Own,
+    /// The relative change itself, 0.001 for every parameter. Cases 2 and 3 and Tables 9 to 12 were run so.
+    Relative,
+    /// The change of gage in units of [`REFERENCE_GAGE`], $0.001 t_e/(0.01 \text{ in})$.
+    Gage,
+    /// $0.001 \sum_i \kappa_{ii}$: larger than [`Self::Own`], so that steps are smaller.
+    Sum,
+    /// $0.001 \sum_s (\Delta e_s/0.001)^2$ for every parameter alike: the direction of [`Self::Relative`] with the length that
+    /// would bring the linearized error sum to zero.
     SteepestDescent,
 }
 
-/// $\Delta k_e$ of every parameter for a change of 0.1 % at the present state (12), dimensionless.
-pub fn stiffness_changes(model: &ModalModel, state: &ModalState, error_changes: &[f64], rule: StepRule) -> Vec<f64> {
+/// $\Delta k_e$ of every parameter for a change of 0.1 % (12), dimensionless.
+///
+/// The parameters stand at `share_factors` on the model's shares and at `size_factors` on its gages.
+pub fn stiffness_changes(
+    model: &ModalModel,
+    share_factors: &[f64],
+    size_factors: &[f64],
+    error_changes: &[f64],
+    rule: StepRule,
+) -> Vec<f64> {
     let slopes = error_changes.iter().map(|change| change / DERIVATIVE_STEP);
     let squared_slopes: f64 = slopes.map(|slope| slope * slope).sum();
-    let of_parameter = |(share, factor): (&DMatrix<f64>, &f64)| match rule {
-        StepRule::RootSumOfSquares => DERIVATIVE_STEP * factor * share.diagonal().norm(),
-        StepRule::SumOverModes => DERIVATIVE_STEP * factor * share.trace(),
-        StepRule::SteepestDescent => DERIVATIVE_STEP * squared_slopes,
+    let of_parameter = |e: usize| match rule {
+        StepRule::Matrix => share_factors[e] * model.test_shares[e].norm(),
+        StepRule::Own => share_factors[e] * model.test_shares[e].diagonal().norm(),
+        StepRule::Relative => 1.0,
+        StepRule::Gage => size_factors[e] * model.sizes[e] / REFERENCE_GAGE,
+        StepRule::Sum => share_factors[e] * model.test_shares[e].trace(),
+        StepRule::SteepestDescent => squared_slopes,
     };
-    model.test_shares.iter().zip(&state.factors).map(of_parameter).collect()
+    (0..model.shares.len()).map(|e| DERIVATIVE_STEP * of_parameter(e)).collect()
 }
 
 /// Unlimited stiffness change factors by (13).
@@ -63,21 +89,45 @@ pub enum Limit {
     Total,
 }
 
-/// One parameter's new total factor after a step of `1 + fraction·(c − 1)`, within its bounds, and what limited it.
+/// One parameter's new total factor after a `fraction` of the limited step, and what limited it.
 ///
-/// `total` is the factor so far and `base` what it multiplies (the product of earlier passes), so that the
-/// parameter stands at `base·total` of its first value; `total_range` bounds that product.
+/// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
+/// halving shortens the step that is taken. `total` is the factor so far and `base` what it multiplies (the product of earlier
+/// passes), so that the parameter stands at `base·total` of its first value; `total_range` bounds that product.
 pub fn limited_factor(
+    unlimited: f64,
+    fraction: f64,
     total: f64,
     base: f64,
-    step: f64,
     factor_range: Range,
     total_range: Option<Range>,
 ) -> (f64, Limit) {
-    let factor = factor_range.clamp(step);
-    let next = total * factor;
+    let factor = factor_range.clamp(unlimited);
+    let next = total * (1.0 + fraction * (factor - 1.0));
     match total_range {
         Some(range) if !range.contains(base * next) => (range.clamp(base * next) / base, Limit::Total),
-        _ => (next, if factor == step { Limit::None } else { Limit::Factor }),
+        _ => (next, if factor == unlimited { Limit::None } else { Limit::Factor }),
+    }
+}
+
+/// How the changes of an inner loop's iterations come together on the stiffness stored since the last exact modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Accumulation {
+    /// They add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: the paper's, by its
+    /// Tables 9 to 12.
+    #[default]
+    Sum,
+    /// They multiply as gages do, $K_e \prod c$.
+    Product,
+}
+
+impl Accumulation {
+    /// The factor on a stored share after a step that takes its gage's factor from `total` to `next`.
+    pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
+        match self {
+            Self::Sum => (share_factor + next / total - 1.0).max(LEAST_SHARE),
+            Self::Product => next,
+        }
     }
 }

@@ -93,7 +93,7 @@ pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> 
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
     let names: Vec<&str> = result.parameter_names.iter().map(String::as_str).collect();
-    let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor});
+    let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor, "ratio": a.ratio});
     Ok(json!({
         "case": result.case.number,
         "succeeded": result.succeeded(),
@@ -103,7 +103,7 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "test_gage_in": TEST_GAGE,
         "first_gages_in": result.case.first_gages(),
         "pass_gages_in": result.pass_gages,
-        "anomalies": result.anomalies.iter().map(anomaly).collect::<Value>(),
+        "anomaly": result.anomaly.as_ref().map(anomaly),
     }))
 }
 

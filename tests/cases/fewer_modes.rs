@@ -3,15 +3,12 @@
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF};
 use corfem::cases::error::CaseError;
-use corfem::cases::fewer_modes::{
-    Agreement, FewerModesRun, ITERATIONS, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
-};
+use corfem::cases::fewer_modes::{Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{Case, run_case};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
-use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
 use corfem::present::render::{csv, text};
 use corfem::present::tables::fewer_modes::fewer_modes_tables;
@@ -102,25 +99,21 @@ fn inner_frequencies_bound_exact_ones_from_above() {
 }
 
 #[test]
-fn runs_stop_at_the_tolerance_of_the_first_pass() {
-    for run in all_runs(&case_2()).unwrap() {
-        assert_eq!(run.stop, Stop::Tolerance);
+fn runs_stop_at_the_tolerance_of_the_first_pass_or_at_thirty_iterations() {
+    let runs = all_runs(&case_2()).unwrap();
+    for run in &runs {
         assert_eq!(run.inner_error_sums.len(), run.iterations);
         let (last, others) = run.inner_error_sums.split_last().unwrap();
-        assert!(*last < 0.025 && others.iter().all(|sum| *sum >= 0.025));
+        assert!(others.iter().all(|sum| *sum >= 0.025));
+        match run.stop {
+            Stop::Tolerance => assert!(*last < 0.025),
+            Stop::Iterations => assert!(*last >= 0.025 && run.iterations == 30),
+            Stop::LocalMinimum => assert!(*last >= 0.025 && run.iterations < 30),
+        }
         let of_sums = (run.inner.frequency_rms + run.inner.shape_rms) * (run.test_modes as f64).sqrt();
         assert!((last - of_sums).abs() < ROUND_OFF);
     }
-}
-
-#[test]
-fn runs_that_do_not_reach_the_tolerance_end_at_thirty_iterations() {
-    let mut case = case_2();
-    case.settings.inner.step = StepRule::SumOverModes;
-    case.settings.inner.tolerance = 1e-6;
-    let run = fewer_modes_run(&case, 9, 9).unwrap();
-    assert_eq!((run.iterations, run.stop), (ITERATIONS, Stop::Iterations));
-    assert_eq!(ITERATIONS, 30);
+    assert!(runs.iter().any(|run| run.stop == Stop::Tolerance) && runs.iter().any(|run| run.stop == Stop::Iterations));
 }
 
 #[test]

@@ -7,8 +7,12 @@ use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
 use corfem::method::model::{ModalModel, Range};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{Limit, StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::step::{Accumulation, LEAST_SHARE, Limit, StepRule, stiffness_changes, unlimited_factors};
 use proptest::prelude::*;
+
+/// All rules of the step.
+pub const STEP_RULES: [StepRule; 6] =
+    [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage, StepRule::Sum, StepRule::SteepestDescent];
 
 /// The problem of a chain towards the truth, with all its modes.
 pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
@@ -34,8 +38,8 @@ pub struct Given {
 /// Settings from cautious to reckless: relaxations from 0.3 to 3, bounds of one factor from narrow to wide, few
 /// iterations so that all three stops occur.
 fn settings() -> impl Strategy<Value = InnerSettings> {
-    let rule =
-        prop_oneof![Just(StepRule::RootSumOfSquares), Just(StepRule::SumOverModes), Just(StepRule::SteepestDescent),];
+    let rule = prop::sample::select(STEP_RULES.to_vec());
+    let accumulation = prop_oneof![Just(Accumulation::Sum), Just(Accumulation::Product)];
     let update = prop_oneof![Just(UpdateRule::default()), Just(UpdateRule::Eigensolution),];
     let derivatives = prop_oneof![
         3 => Just(DerivativeRule::Definition),
@@ -46,23 +50,23 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
         (0.5..0.95_f64, 1.05..2.0_f64),
         0.01..0.1_f64,
         (0..=5_usize, 0..=12_usize),
-        (derivatives, rule, update),
+        (derivatives, rule, accumulation, update),
     )
-        .prop_map(
-            |(relaxations, (lower, upper), tolerance, (halvings, iterations), (derivatives, step, update))| {
-                InnerSettings {
-                    first_relaxation: relaxations.0,
-                    relaxation: relaxations.1,
-                    factor_range: Range { lower, upper },
-                    tolerance,
-                    halvings,
-                    iterations,
-                    derivatives,
-                    step,
-                    update,
-                }
-            },
-        )
+        .prop_map(|(relaxations, (lower, upper), tolerance, (halvings, iterations), rules)| {
+            let (derivatives, step, accumulation, update) = rules;
+            InnerSettings {
+                first_relaxation: relaxations.0,
+                relaxation: relaxations.1,
+                factor_range: Range { lower, upper },
+                tolerance,
+                halvings,
+                iterations,
+                derivatives,
+                step,
+                accumulation,
+                update,
+            }
+        })
 }
 
 /// An inner loop on a chain: some parameters with bounds on their product of 10 to 50 % either way, some without.
@@ -84,16 +88,23 @@ pub fn given() -> impl Strategy<Value = Given> {
         })
 }
 
-/// New total factor and what limited it, written out case by case.
-fn limited(total: f64, base: f64, step: f64, factor_range: Range, total_range: Option<Range>) -> (f64, Limit) {
-    let (factor, mut limit) = if step < factor_range.lower {
+/// New total factor and what limited it, written out case by case: the bounds of one iteration first, then the halvings, then
+/// the bounds of the product.
+fn limited(
+    total: f64,
+    base: f64,
+    (unlimited, fraction): (f64, f64),
+    factor_range: Range,
+    total_range: Option<Range>,
+) -> (f64, Limit) {
+    let (factor, mut limit) = if unlimited < factor_range.lower {
         (factor_range.lower, Limit::Factor)
-    } else if step > factor_range.upper {
+    } else if unlimited > factor_range.upper {
         (factor_range.upper, Limit::Factor)
     } else {
-        (step, Limit::None)
+        (unlimited, Limit::None)
     };
-    let mut next = total * factor;
+    let mut next = total * (1.0 + fraction * (factor - 1.0));
     if let Some(range) = total_range {
         if base * next < range.lower {
             (next, limit) = (range.lower / base, Limit::Total);
@@ -104,37 +115,43 @@ fn limited(total: f64, base: f64, step: f64, factor_range: Range, total_range: O
     (next, limit)
 }
 
-/// Factors, limits and state of a trial step halved so many times.
+/// Where a loop stands: factors on gages, and the state with those on the shares.
+type Place = (Vec<f64>, ModalState);
+
+/// Factors, limits and place of a trial step halved so many times.
 fn trial(
     problem: &ModalModel,
     given: &Given,
-    state: &ModalState,
+    (totals, state): &Place,
     unlimited: &[f64],
     halvings: usize,
-) -> (Vec<f64>, Vec<Limit>, Option<ModalState>) {
+) -> (Vec<Limit>, Vec<f64>, Option<Place>) {
     let settings = &given.settings;
     let fraction = 0.5_f64.powi(i32::try_from(halvings).expect("few halvings"));
-    let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len())
-        .map(|e| {
-            let step = 1.0 + fraction * (unlimited[e] - 1.0);
-            let range = given.total_ranges[e];
-            limited(state.factors[e], given.base[e], step, settings.factor_range, range)
-        })
-        .unzip();
-    let next = ModalState::at(problem, factors.clone(), settings.update).ok();
+    let next = |e: usize| {
+        let (step, range) = ((unlimited[e], fraction), given.total_ranges[e]);
+        limited(totals[e], given.base[e], step, settings.factor_range, range)
+    };
+    let (factors, limits): (Vec<f64>, Vec<Limit>) = (0..unlimited.len()).map(next).unzip();
+    let added = |e: usize| (state.factors[e] + factors[e] / totals[e] - 1.0).max(LEAST_SHARE);
+    let on_shares = match settings.accumulation {
+        Accumulation::Sum => (0..factors.len()).map(added).collect(),
+        Accumulation::Product => factors.clone(),
+    };
+    let next = ModalState::at(problem, on_shares, settings.update).ok();
     let lower = next.filter(|next| next.errors.sum() < state.errors.sum());
-    (factors, limits, lower)
+    (limits, factors.clone(), lower.map(|state| (factors, state)))
 }
 
 /// Tells the loop again step by step and asserts that the record says the same.
 pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &InnerRun) {
     let settings = &given.settings;
-    let mut state = ModalState::start(problem);
-    assert_eq!(run.start, state.errors);
+    let mut place = (vec![1.0; given.base.len()], ModalState::start(problem));
+    assert_eq!(run.start, place.1.errors);
     assert!(run.iterations.len() <= settings.iterations);
-    let asks = |state: &ModalState, relaxation: f64| {
+    let asks = |(totals, state): &Place, relaxation: f64| {
         let errors = error_changes(problem, state, settings.derivatives).expect("separate modes");
-        let stiffnesses = stiffness_changes(problem, state, &errors, settings.step);
+        let stiffnesses = stiffness_changes(problem, &state.factors, totals, &errors, settings.step);
         let sum = state.errors.sum();
         let unlimited = unlimited_factors(&errors, &stiffnesses, sum, relaxation);
         ((errors, stiffnesses), unlimited)
@@ -143,8 +160,8 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
         if number == 0 { settings.first_relaxation } else { settings.relaxation }
     };
     for (number, iteration) in run.iterations.iter().enumerate() {
-        assert!(number == 0 || state.errors.sum() >= settings.tolerance);
-        let ((errors, stiffnesses), unlimited) = asks(&state, relaxation(number));
+        assert!(number == 0 || place.1.errors.sum() >= settings.tolerance);
+        let ((errors, stiffnesses), unlimited) = asks(&place, relaxation(number));
         assert_eq!(iteration.error_changes, errors);
         assert_eq!(iteration.stiffness_changes, stiffnesses);
         assert_eq!(iteration.unlimited_factors, unlimited);
@@ -153,15 +170,17 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
         }
         assert!(iteration.halvings <= settings.halvings);
         for halvings in 0..iteration.halvings {
-            let (_, _, lower) = trial(problem, given, &state, &unlimited, halvings);
+            let (_, _, lower) = trial(problem, given, &place, &unlimited, halvings);
             assert!(lower.is_none(), "halved although the longer step was good");
         }
-        let (factors, limits, lower) = trial(problem, given, &state, &unlimited, iteration.halvings);
+        let (limits, factors, lower) = trial(problem, given, &place, &unlimited, iteration.halvings);
         assert_eq!(iteration.factors, factors);
         assert_eq!(iteration.limits, limits);
-        state = lower.expect("an accepted step lowers the error sum");
-        assert_eq!(iteration.errors, state.errors);
+        place = lower.expect("an accepted step lowers the error sum");
+        assert_eq!(iteration.errors, place.1.errors);
     }
+    let (totals, state) = &place;
+    assert_eq!(&run.factors, totals);
     assert_eq!(run.last.factors, state.factors);
     assert_eq!(run.last.modes, state.modes);
     assert_eq!(run.last.pairing, state.pairing);
@@ -173,9 +192,9 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
         Stop::Iterations => assert!(!within && count == settings.iterations),
         Stop::LocalMinimum => {
             assert!(!within && count < settings.iterations);
-            let (_, unlimited) = asks(&state, relaxation(count));
+            let (_, unlimited) = asks(&place, relaxation(count));
             for halvings in 0..=settings.halvings {
-                let (_, _, lower) = trial(problem, given, &state, &unlimited, halvings);
+                let (_, _, lower) = trial(problem, given, &place, &unlimited, halvings);
                 assert!(lower.is_none(), "stopped although a step was good");
             }
             if count == 0 {

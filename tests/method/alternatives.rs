@@ -57,7 +57,7 @@ fn the_primary_rules_reach_the_tolerance() {
 fn a_sum_over_modes_takes_smaller_steps_and_more_iterations() {
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
-        let run = first_pass(number, |settings| settings.step = StepRule::SumOverModes);
+        let run = first_pass(number, |settings| settings.step = StepRule::Sum);
         assert_eq!(run.stop, Stop::Tolerance);
         let ratio = run.iterations.len() as f64 / primary.iterations.len() as f64;
         assert!((1.3..2.3).contains(&ratio), "case {number}: {ratio}");

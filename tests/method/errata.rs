@@ -149,7 +149,7 @@ fn printed_step_is_the_change_of_the_factor_not_the_factor() {
     let problem = first_problem(2);
     let state = ModalState::start(&problem);
     let errors = by_definition(&problem, &state).expect("separate modes");
-    let stiffness = stiffness_changes(&problem, &state, &errors, StepRule::RootSumOfSquares);
+    let stiffness = stiffness_changes(&problem, &[1.0; 15], &[1.0; 15], &errors, StepRule::Own);
     let error_sum = state.errors.sum();
     let factors = unlimited_factors(&errors, &stiffness, error_sum, 0.8);
     let e_s_after = |factors: Vec<f64>| {

@@ -1,12 +1,15 @@
-//! The step (13): factors from derivatives by three rules, and the bounds that limit them.
+//! The step (13): factors from derivatives by every rule, and the bounds that limit them.
 
+use crate::common::loops::STEP_RULES;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::{Chain, chain_and_truth};
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::error::Error;
 use corfem::method::model::{ModalModel, Range};
-use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use corfem::method::state::ModalState;
+use corfem::method::step::{
+    Accumulation, LEAST_SHARE, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
+};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
@@ -47,38 +50,12 @@ proptest! {
         let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
         let state = ModalState::start(&model);
         let errors = by_definition(&model, &state).unwrap();
-        for rule in [StepRule::RootSumOfSquares, StepRule::SumOverModes, StepRule::SteepestDescent] {
-            let stiffnesses = stiffness_changes(&model, &state, &errors, rule);
+        for rule in STEP_RULES {
+            let stiffnesses = at_start(&model, &errors, rule);
             let factors = unlimited_factors(&errors, &stiffnesses, 0.3, 1.0);
             for (factor, change) in factors.iter().zip(&errors) {
                 prop_assert!((factor - 1.0) * change <= 0.0, "{rule:?} {factor} {change}");
             }
-        }
-    }
-
-    #[test]
-    fn stiffness_changes_are_a_thousandth_of_the_present_shares_on_the_test_modes(
-        (chain, truth) in chain_and_truth(),
-        factors in prop::collection::vec(0.9..1.1_f64, 5),
-    ) {
-        let (count, test) = (truth.len(), chain.modes(&truth));
-        let model = chain.model(&vec![1.0; count]).analyze(&test, None).unwrap();
-        let state = ModalState::at(&model, factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
-        let by = |rule| stiffness_changes(&model, &state, &[], rule);
-        let (root, sum) = (by(StepRule::RootSumOfSquares), by(StepRule::SumOverModes));
-        for (e, share) in chain.model(&factors[..count]).shares.iter().enumerate() {
-            let own: Vec<f64> = (0..count)
-                .map(|i| {
-                    let shape = test.shapes.column(i);
-                    DERIVATIVE_STEP * shape.dot(&(share.matrix() * shape)) / test.omega_squared[i]
-                })
-                .collect();
-            let squares: f64 = own.iter().map(|own| own * own).sum();
-            prop_assert!((root[e] - squares.sqrt()).abs() <= ROUND_OFF);
-            prop_assert!((sum[e] - own.iter().sum::<f64>()).abs() <= ROUND_OFF);
-            // A sum is no smaller than the root of the sum of squares, and no larger than the square root of n times it.
-            prop_assert!(root[e] <= sum[e] * (1.0 + ROUND_OFF));
-            prop_assert!(sum[e] <= (count as f64).sqrt() * root[e] * (1.0 + ROUND_OFF));
         }
     }
 
@@ -89,7 +66,7 @@ proptest! {
     ) {
         prop_assume!(errors.iter().any(|change| change.abs() > 1e-6));
         let model = bare(errors.len());
-        let stiffnesses = stiffness_changes(&model, &ModalState::start(&model), &errors, StepRule::SteepestDescent);
+        let stiffnesses = at_start(&model, &errors, StepRule::SteepestDescent);
         let factors = unlimited_factors(&errors, &stiffnesses, error_sum, 1.0);
         let slopes = errors.iter().map(|change| change / DERIVATIVE_STEP);
         let change: f64 = factors.iter().zip(slopes).map(|(factor, slope)| (factor - 1.0) * slope).sum();
@@ -98,22 +75,24 @@ proptest! {
 
     #[test]
     fn limits_hold(
-        (total, place, step) in (0.2..5.0_f64, 0.001..0.999_f64, -3.0..6.0_f64),
+        (total, place) in (0.2..5.0_f64, 0.001..0.999_f64),
+        (unlimited, halvings) in (-3.0..6.0_f64, 0..6_i32),
         factor_range in range(),
         total_range in range(),
     ) {
         // Where the product so far lies within its range, as it does in the loops.
         let product = total_range.lower + place * (total_range.upper - total_range.lower);
         let base = product / total;
-        let (next, limit) = limited_factor(total, base, step, factor_range, Some(total_range));
+        let fraction = 0.5_f64.powi(halvings);
+        let (next, limit) = limited_factor(unlimited, fraction, total, base, factor_range, Some(total_range));
         let factor = next / total;
         prop_assert!(factor >= factor_range.lower * (1.0 - ROUND_OFF));
         prop_assert!(factor <= factor_range.upper * (1.0 + ROUND_OFF));
         prop_assert!(base * next >= total_range.lower * (1.0 - ROUND_OFF));
         prop_assert!(base * next <= total_range.upper * (1.0 + ROUND_OFF));
         match limit {
-            Limit::None => prop_assert_eq!(next, total * step),
-            Limit::Factor => prop_assert!(!factor_range.contains(step)),
+            Limit::None => prop_assert_eq!(next, total * (1.0 + fraction * (unlimited - 1.0))),
+            Limit::Factor => prop_assert!(!factor_range.contains(unlimited)),
             Limit::Total => {
                 let at_lower = (base * next / total_range.lower - 1.0).abs() <= ROUND_OFF;
                 let at_upper = (base * next / total_range.upper - 1.0).abs() <= ROUND_OFF;
@@ -127,6 +106,12 @@ proptest! {
         prop_assert_eq!(range.contains(value), range.lower <= value && value <= range.upper);
         prop_assert!(range.contains(range.lower) && range.contains(range.upper));
     }
+}
+
+/// The changes at the start of an inner loop.
+fn at_start(model: &ModalModel, errors: &[f64], rule: StepRule) -> Vec<f64> {
+    let ones = vec![1.0; model.shares.len()];
+    stiffness_changes(model, &ones, &ones, errors, rule)
 }
 
 /// A chain of as many springs as parameters are wanted, where their stiffness does not matter.
@@ -144,7 +129,7 @@ fn by_hand() -> (ModalModel, Vec<f64>) {
 
 fn factors_by_hand(error_sum: f64, relaxation: f64, rule: StepRule) -> Vec<f64> {
     let (model, errors) = by_hand();
-    let stiffnesses = stiffness_changes(&model, &ModalState::start(&model), &errors, rule);
+    let stiffnesses = at_start(&model, &errors, rule);
     unlimited_factors(&errors, &stiffnesses, error_sum, relaxation)
 }
 
@@ -156,16 +141,46 @@ fn assert_close(found: &[f64], expected: [f64; 3]) {
 }
 
 #[test]
-fn root_sum_of_squares_by_hand() {
-    // Δk is 0.005 and 0.010: 1 - 0.8 · 0.5 · 0.002/0.005 and 1 + 0.8 · 0.5 · 0.001/0.010.
-    assert_close(&factors_by_hand(0.5, 0.8, StepRule::RootSumOfSquares), [0.84, 1.04, 1.0]);
-    assert_eq!(StepRule::default(), StepRule::RootSumOfSquares);
+fn matrix_is_the_librarys_own_rule_by_hand() {
+    // Δk is 0.001 times the roots of 9 + 16 + 1 + 1 and of 36 + 64 + 4 + 4.
+    let (first, second) = (27_f64.sqrt(), 108_f64.sqrt());
+    assert_close(&factors_by_hand(0.5, 0.8, StepRule::Matrix), [1.0 - 0.8 / first, 1.0 + 0.4 / second, 1.0]);
+    assert_eq!(StepRule::default(), StepRule::Matrix);
 }
 
 #[test]
-fn sum_over_modes_by_hand() {
+fn own_is_the_diagonal_alone_by_hand() {
+    // Δk is 0.005 and 0.010: 1 - 0.8 · 0.5 · 0.002/0.005 and 1 + 0.8 · 0.5 · 0.001/0.010.
+    assert_close(&factors_by_hand(0.5, 0.8, StepRule::Own), [0.84, 1.04, 1.0]);
+}
+
+#[test]
+fn relative_is_the_change_itself_by_hand() {
+    // Δk is 0.001 for each, also for one that no mode feels.
+    assert_close(&factors_by_hand(0.5, 0.8, StepRule::Relative), [0.2, 1.4, 1.0]);
+}
+
+#[test]
+fn gage_is_in_hundredths_of_an_inch_by_hand() {
+    let (mut model, errors) = by_hand();
+    model.sizes = vec![0.02, 0.005, 0.01];
+    let changes = stiffness_changes(&model, &[1.0; 3], &[1.5, 1.0, 1.0], &errors, StepRule::Gage);
+    assert_close(&changes, [0.003, 0.0005, 0.001]);
+}
+
+#[test]
+fn changes_of_stiffness_follow_the_shares_and_changes_of_gage_the_gages() {
+    let (model, errors) = by_hand();
+    let by = |rule| stiffness_changes(&model, &[2.0, 0.5, 1.0], &[3.0, 3.0, 3.0], &errors, rule);
+    assert_close(&by(StepRule::Own), [0.010, 0.005, 0.0]);
+    assert_close(&by(StepRule::Gage), [0.003, 0.003, 0.003]);
+    assert_close(&by(StepRule::Relative), [0.001, 0.001, 0.001]);
+}
+
+#[test]
+fn a_sum_over_modes_by_hand() {
     // Δk is 0.007 and 0.014.
-    assert_close(&factors_by_hand(0.7, 1.0, StepRule::SumOverModes), [0.8, 1.05, 1.0]);
+    assert_close(&factors_by_hand(0.7, 1.0, StepRule::Sum), [0.8, 1.05, 1.0]);
 }
 
 #[test]
@@ -179,7 +194,7 @@ fn a_parameter_without_stiffness_keeps_one() {
     // Also when round-off gives it a derivative.
     assert_eq!(unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0), [1.0, 1.0]);
     let model = bare(2);
-    let flat = stiffness_changes(&model, &ModalState::start(&model), &[0.0, 0.0], StepRule::SteepestDescent);
+    let flat = at_start(&model, &[0.0, 0.0], StepRule::SteepestDescent);
     assert_eq!(unlimited_factors(&[0.0, 0.0], &flat, 0.5, 1.0), [1.0, 1.0]);
 }
 
@@ -208,15 +223,44 @@ fn limits_by_hand() {
         // The iteration's alone where the total's leaves room.
         ((0.8, 1.0, 9.0, total_range), (1.2000000000000002, Limit::Factor)),
     ] {
-        let found = limited_factor(total, base, step, factor_range, range);
+        let found = limited_factor(step, 1.0, total, base, factor_range, range);
         assert_eq!(found, expected, "{total} {base} {step} {range:?}");
     }
 }
 
 #[test]
+fn a_halving_shortens_the_limited_step() {
+    // However far beyond the bound the unlimited factor lies: half of the step to 1.5, then a quarter.
+    let factor_range = Range { lower: 0.5, upper: 1.5 };
+    for unlimited in [1.6, 103.0, 1e9] {
+        let by = |fraction| limited_factor(unlimited, fraction, 2.0, 1.0, factor_range, None);
+        assert_eq!(by(1.0), (3.0, Limit::Factor));
+        assert_eq!(by(0.5), (2.5, Limit::Factor));
+        assert_eq!(by(0.25), (2.25, Limit::Factor));
+    }
+}
+
+#[test]
+fn changes_add_on_the_shares_or_multiply_with_the_gages() {
+    // Three steps of one half more: 1 + 3/2 of the stored stiffness, while the gage is 1.5 cubed.
+    let (mut share, mut gage) = (1.0, 1.0);
+    for _ in 0..3 {
+        let next = 1.5 * gage;
+        assert_eq!(Accumulation::Product.next_share_factor(share, gage, next), next);
+        share = Accumulation::Sum.next_share_factor(share, gage, next);
+        gage = next;
+    }
+    assert_eq!((share, gage), (2.5, 3.375));
+    // Steps of 0.45 less would leave nothing after the third.
+    let down = (0..3).fold(1.0, |share, _| Accumulation::Sum.next_share_factor(share, 1.0, 0.55));
+    assert_eq!(down, LEAST_SHARE);
+    assert_eq!(Accumulation::default(), Accumulation::Sum);
+}
+
+#[test]
 fn crossed_ranges_do_not_panic() {
     let crossed = Range { lower: 2.0, upper: 1.0 };
-    let (next, _) = limited_factor(1.0, 1.0, 1.5, crossed, Some(crossed));
+    let (next, _) = limited_factor(1.5, 1.0, 1.0, 1.0, crossed, Some(crossed));
     assert!(next.is_finite());
 }
 

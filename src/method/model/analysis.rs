@@ -81,7 +81,13 @@ impl FiniteElementModel {
     pub fn analyze(&self, factors: &[f64], test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
-        ModalModel::new(&condensed.stiffness, &condensed.mass, test, analysis_modes, through)
+        let mut model = ModalModel::new(&condensed.stiffness, &condensed.mass, test, analysis_modes, through)?;
+        for ((size, parameter), rows) in model.sizes.iter_mut().zip(&self.parameters).zip(&self.rows) {
+            if parameter.scaled == Scaled::Stiffness {
+                *size = rows.iter().map(|&row| condensed.sizes[row]).sum::<f64>() / rows.len() as f64;
+            }
+        }
+        Ok(model)
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d), for those who look at whole matrices.

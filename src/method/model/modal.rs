@@ -9,6 +9,7 @@ use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes};
+use crate::method::step::REFERENCE_GAGE;
 use nalgebra::DMatrix;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
@@ -93,6 +94,8 @@ pub struct ModalModel {
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
     pub test_shares: Vec<DMatrix<f64>>,
+    /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
+    pub sizes: Vec<f64>,
 }
 
 impl ModalModel {
@@ -135,6 +138,7 @@ impl ModalModel {
         let frequencies_hz = pairing.analysis_mode.iter().map(|&mode| all_hz[mode]).collect();
         let errors = errors(&modes, &pairing, &test);
         let exact = Check { modes, pairing, frequencies_hz, errors };
-        Ok(Self { exact, test, cross, shares, test_shares })
+        let sizes = vec![REFERENCE_GAGE; through_both.len()];
+        Ok(Self { exact, test, cross, shares, test_shares, sizes })
     }
 }

@@ -94,13 +94,14 @@ fn summary_section(contents: &Contents) -> Result<String, PresentError> {
         "<p><strong>At least one case did not converge within its limits; the best found is shown.</strong></p>\n"
     };
     for result in results {
-        for anomaly in &result.anomalies {
+        if let Some(anomaly) = &result.anomaly {
             body += &format!(
                 "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, \
-                far outside the limits. Look for a modeling error there.</p>\n",
+                {:.1} times as much as any other. Look for a modeling error there.</p>\n",
                 result.case.number,
                 escaped(&anomaly.parameter),
-                anomaly.factor
+                anomaly.factor,
+                anomaly.ratio
             );
         }
     }

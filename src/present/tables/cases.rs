@@ -207,7 +207,7 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
 
 /// What became of a case, in a few words.
 fn outcome(result: &CaseResult) -> String {
-    match result.anomalies.first() {
+    match &result.anomaly {
         _ if result.correlation.converged => "correlated".to_owned(),
         Some(anomaly) => format!("modeling error in element {}", anomaly.parameter),
         None => "not converged".to_owned(),

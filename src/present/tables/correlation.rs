@@ -2,7 +2,7 @@
 
 use super::RMS_PERCENT;
 use super::stages::Stages;
-use crate::cases::{BUILT_IN, anomalies};
+use crate::cases::{BUILT_IN, anomaly};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
 use crate::method::model::{Check, Range};
@@ -52,7 +52,7 @@ pub enum Judgment {
     Within,
     /// It lies outside them.
     Limited,
-    /// It lies so far outside that a modeling error must be looked for ([`anomalies`]).
+    /// It stands out so far that a modeling error must be looked for ([`anomaly`]).
     Anomaly,
 }
 
@@ -71,9 +71,9 @@ pub struct JudgedFactor {
 
 /// Unlimited factors with what is to be thought of each; nothing is published for them.
 pub fn judged_factors(names: &[String], factors: &[f64], bounds: Range) -> Vec<JudgedFactor> {
-    let far = anomalies(names, factors, bounds);
+    let outstanding = anomaly(names, factors);
     let judged = |(name, &computed): (&String, &f64)| {
-        let judgment = match far.iter().any(|anomaly| anomaly.parameter == *name) {
+        let judgment = match outstanding.as_ref().is_some_and(|anomaly| anomaly.parameter == *name) {
             true => Judgment::Anomaly,
             false if bounds.contains(computed) => Judgment::Within,
             false => Judgment::Limited,
@@ -98,13 +98,13 @@ pub fn factor_table(name: &str, title: &str, factors: &[JudgedFactor], bounds: R
         let number = Cell::beside(factor.computed, Digits::Fixed(1), factor.published);
         table.row(&factor.parameter, [number, Cell::text(verdict)]);
     }
-    let mut far: Vec<&JudgedFactor> = factors.iter().filter(|f| f.judgment == Judgment::Anomaly).collect();
-    far.sort_by(|a, b| b.computed.abs().total_cmp(&a.computed.abs()));
-    for factor in far {
+    for factor in factors.iter().filter(|factor| factor.judgment == Judgment::Anomaly) {
+        let next = factors.iter().filter(|other| other.parameter != factor.parameter).map(|other| other.computed);
         table = table.note(format!(
-            "Anomaly: {kind} {} asks for {:.1} times its stiffness, far outside the bounds: look for a modeling error \
-            there.",
-            factor.parameter, factor.computed
+            "Anomaly: {kind} {} asks for {:.1} times its stiffness, the next for {:.1}: look for a modeling error there.",
+            factor.parameter,
+            factor.computed,
+            next.fold(f64::MIN, f64::max),
         ));
     }
     table

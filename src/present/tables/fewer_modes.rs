@@ -3,7 +3,7 @@
 use super::stages::Stages;
 use super::{KINDS, PERCENT, RMS_PERCENT, remarks};
 use crate::cases::Case;
-use crate::cases::fewer_modes::{Agreement, FewerModesRun, ITERATIONS};
+use crate::cases::fewer_modes::{Agreement, FewerModesRun};
 use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
@@ -128,7 +128,7 @@ fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
     };
     let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
     Ok(pairs_table("fewer_modes_iterations", title, "", runs, &cell)
-        .note(format!("At most {ITERATIONS}: where the paper has as many, its error sum had not met the tolerance.")))
+        .note("At most 30: where the paper has as many, its error sum had not met the tolerance."))
 }
 
 /// What truncation costs over all pairs of numbers of modes, one table a quantity.

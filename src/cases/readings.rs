@@ -1,0 +1,174 @@
+//! What each reading of the step (12, 13) makes of the paper's own tables.
+//!
+//! The paper's sentence about $\Delta k$ does not decide how it is measured. Its printed gages do: every reading is run on the
+//! same box, as many passes as the paper prints, and compared with the print gage by gage.
+
+use crate::cases::error::CaseError;
+use crate::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
+use crate::cases::published::PublishedTable;
+use crate::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
+use crate::cases::{Case, CaseResult, anomaly, published_passes, run_case};
+use crate::method::outer_loop::Settings;
+use crate::method::step::StepRule;
+use crate::method::structure::ElementKind;
+use serde::Serialize;
+
+/// The readings of the step that the tables are asked about, the library's own first.
+pub const READINGS: [StepRule; 4] = [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage];
+
+/// A column of the paper's gages as one reading has it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReadingColumn {
+    /// The reading.
+    pub reading: StepRule,
+    /// Number of the paper's table of gages.
+    pub table: usize,
+    /// Stage of the table: `pass_1`, or `fem_7` with seven analysis modes.
+    pub stage: String,
+    /// Gages, in, elements 1 to 15.
+    pub gages_in: Vec<f64>,
+    /// The paper's gage errors, fractions of the test gage.
+    pub published_errors: Vec<f64>,
+    /// Iterations of the inner loop.
+    pub iterations: usize,
+    /// RMS gage errors of shear panels and of membranes, fractions; NaN without any.
+    pub gage_rms: [f64; 2],
+    /// RMS frequency and shape errors, fractions: of the exact solution in a pass, of the inner loop with fewer modes, as
+    /// printed.
+    pub rms: [f64; 2],
+}
+
+impl ReadingColumn {
+    fn new(
+        case: &Case,
+        (table, stage): (usize, String),
+        gages: &[f64],
+        iterations: usize,
+        rms: [f64; 2],
+    ) -> Result<Self, CaseError> {
+        let paper = PublishedTable::number(table)?;
+        let printed = |panel: usize| Ok(paper.required(&panel.to_string(), &format!("{stage}_in"))? / TEST_GAGE - 1.0);
+        Ok(Self {
+            reading: case.settings.inner.step,
+            table,
+            gages_in: gages.to_vec(),
+            published_errors: (1..=PANEL_COUNT).map(printed).collect::<Result<_, CaseError>>()?,
+            iterations,
+            gage_rms: [ElementKind::ShearPanel, ElementKind::Membrane].map(|kind| gage_rms(&case.panels, gages, kind)),
+            rms,
+            stage,
+        })
+    }
+
+    /// Gage errors, fractions of the test gage.
+    pub fn errors(&self) -> impl Iterator<Item = f64> + '_ {
+        self.gages_in.iter().map(|gage| gage / TEST_GAGE - 1.0)
+    }
+
+    /// Correlation coefficient of the gage errors with the printed ones.
+    pub fn correlation(&self) -> f64 {
+        let count = self.gages_in.len() as f64;
+        let mean = self.errors().sum::<f64>() / count;
+        let printed_mean = self.published_errors.iter().sum::<f64>() / count;
+        let (mut product, mut square, mut printed_square) = (0.0, 0.0, 0.0);
+        for (error, printed) in self.errors().zip(&self.published_errors) {
+            product += (error - mean) * (printed - printed_mean);
+            square += (error - mean).powi(2);
+            printed_square += (printed - printed_mean).powi(2);
+        }
+        product / (square * printed_square).sqrt()
+    }
+
+    /// Root mean square difference of the gage errors from the printed ones, a fraction.
+    pub fn difference(&self) -> f64 {
+        let squares = self.errors().zip(&self.published_errors).map(|(error, printed)| (error - printed).powi(2));
+        (squares.sum::<f64>() / self.gages_in.len() as f64).sqrt()
+    }
+}
+
+/// A case by one reading, as many passes as the paper prints.
+///
+/// # Errors
+/// Those of [`run_case`].
+pub fn run_by_reading(case: &Case, reading: StepRule) -> Result<CaseResult, CaseError> {
+    let passes = published_passes(case.number);
+    let mut settings = Settings { least_passes: passes, most_passes: passes, ..case.settings.clone() };
+    settings.inner.step = reading;
+    run_case(&Case { settings, ..case.clone() }, |_, _| {})
+}
+
+/// The gages of a run beside the paper's, one column a pass that the paper prints; none for Case 4.
+///
+/// # Errors
+/// [`CaseError::Table`] if the published tables were damaged.
+pub fn columns_of(result: &CaseResult) -> Result<Vec<ReadingColumn>, CaseError> {
+    let case = &result.case;
+    let table = match case.number {
+        1..=3 => 2 * case.number + 2,
+        _ => return Ok(Vec::new()),
+    };
+    let passes = result.correlation.passes.iter().zip(&result.pass_gages).take(published_passes(case.number));
+    let column = |(row, (pass, gages)): (usize, (&crate::method::outer_loop::Pass, &Vec<f64>))| {
+        let rms = [pass.check.errors.frequency_rms(), pass.check.errors.shape_rms()];
+        ReadingColumn::new(case, (table, format!("pass_{}", row + 1)), gages, pass.inner.iterations.len(), rms)
+    };
+    passes.enumerate().map(column).collect()
+}
+
+/// What Case 4's first iteration asks for by one reading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Detection {
+    /// The reading.
+    pub reading: StepRule,
+    /// Unlimited factor of the faulty element.
+    pub factor: f64,
+    /// The largest of the others.
+    pub next: f64,
+    /// Whether the faulty element is reported.
+    pub is_reported: bool,
+}
+
+/// The element that Case 4 has a hundred times too thin.
+pub const FAULTY_ELEMENT: usize = 8;
+
+/// Case 4 by one reading.
+///
+/// # Errors
+/// Those of [`run_by_reading`].
+pub fn detection(reconstruction: &Reconstruction, reading: StepRule) -> Result<Detection, CaseError> {
+    let result = run_by_reading(&Case::on(4, reconstruction.clone())?, reading)?;
+    let factors = result.unlimited_factors();
+    let faulty = FAULTY_ELEMENT - 1;
+    let others = factors.iter().enumerate().filter(|(element, _)| *element != faulty).map(|(_, factor)| *factor);
+    Ok(Detection {
+        reading,
+        factor: factors[faulty],
+        next: others.fold(f64::MIN, f64::max),
+        is_reported: anomaly(&result.parameter_names, factors)
+            .is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
+    })
+}
+
+/// Every published column of gages by every reading: Cases 1 to 3 pass by pass, then Tables 10 to 12.
+///
+/// # Errors
+/// Those of [`run_by_reading`] and [`published_runs`].
+pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>, CaseError> {
+    let mut columns = Vec::new();
+    for reading in READINGS {
+        for number in 1..=3 {
+            let result = run_by_reading(&Case::on(number, reconstruction.clone())?, reading)?;
+            columns.extend(columns_of(&result)?);
+        }
+        let mut case = Case::on(PUBLISHED_CASE, reconstruction.clone())?;
+        case.settings.inner.step = reading;
+        for run in published_runs(&case)? {
+            let table = (10..).zip([7, 5, 3]).find(|(_, test_modes)| *test_modes == run.test_modes);
+            let table = table.map_or(0, |(table, _)| table);
+            let rms = [run.inner.frequency_rms, run.inner.shape_rms];
+            let stage = format!("fem_{}", run.analysis_modes);
+            columns.push(ReadingColumn::new(&case, (table, stage), &run.gages_in, run.iterations, rms)?);
+        }
+    }
+    Ok(columns)
+}
