@@ -42,17 +42,17 @@ def cases():
         "# Hz, in; errors as fractions.",
     ]
     for case in answer("cases", "--quiet")["cases"]:
-        lines += ["", "[[case]]", f"number = {case['case']}", f"test_frequencies_hz = {numbers(case['test_frequencies_hz'])}"]
-        start = case["initial"]
-        lines += ["", "[case.initial]", f"gages_in = {numbers(start['gages_in'])}", *check(start)]
-        for done in case["passes"]:
+        run = case["correlation"]
+        lines += ["", "[[case]]", f"number = {case['case']}", f"test_frequencies_hz = {numbers(run['test_frequencies_hz'])}"]
+        lines += ["", "[case.initial]", f"gages_in = {numbers(case['first_gages_in'])}", *check(run["initial"])]
+        for done, gages in zip(run["passes"], case["pass_gages_in"]):
             lines += ["", "[[case.passes]]", f"iterations = {done['iterations']}"]
-            lines += [f"gages_in = {numbers(done['gages_in'])}", *check(done)]
+            lines += [f"gages_in = {numbers(gages)}", *check(done["exact"])]
     return lines
 
 
 def delta_wing():
-    wing = answer("delta-wing")
+    wing = answer("delta-wing")["correlation"]
     lines = [
         "# The delta wing's wrong gages by `corfem delta-wing --solver nastran95`: test modes and inner loop in the crate, every",
         "# finite element analysis of the model in NASTRAN-95 (PyPI wheel nastran95 0.3). Written by outer_loop.py; see README.md.",
@@ -61,7 +61,7 @@ def delta_wing():
         f"test_frequencies_hz = {numbers(wing['test_frequencies_hz'])}",
         "",
         "[initial]",
-        f"factors = {numbers([1.0] * len(wing['groups']))}",
+        f"factors = {numbers([1.0] * len(wing['parameters']))}",
         *check(wing["initial"]),
     ]
     for done in wing["passes"]:

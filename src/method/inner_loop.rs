@@ -10,7 +10,7 @@ use crate::method::step::{Accumulation, Limit, StepRule, limited_factor, stiffne
 use serde::Serialize;
 
 /// How the inner loop steps and when it stops.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InnerSettings {
     /// Relaxation $R$ of the first iteration of a pass.
     pub first_relaxation: f64,

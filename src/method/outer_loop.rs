@@ -4,9 +4,10 @@ use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::model::{Check, ModalModel, Range};
+use serde::Serialize;
 
 /// When analysis and test count as correlated, and how long to try.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Settings {
     /// The inner loop; its tolerance is that of the first pass.
     pub inner: InnerSettings,

@@ -118,15 +118,31 @@ pub enum Accumulation {
     /// Tables 9 to 12.
     #[default]
     Sum,
-    /// They multiply as gages do, $K_e \prod c$.
+    /// They multiply as gages do: $K_e c_1 c_2$ after two steps.
     Product,
+}
+
+impl StepRule {
+    /// What the rule is called in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Matrix => "matrix",
+            Self::Own => "own",
+            Self::Relative => "relative",
+            Self::Gage => "gage",
+            Self::Sum => "sum",
+            Self::SteepestDescent => "steepest_descent",
+        }
+    }
 }
 
 impl Accumulation {
     /// The factor on a stored share after a step that takes its gage's factor from `total` to `next`.
     pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
         match self {
-            Self::Sum => (share_factor + next / total - 1.0).max(LEAST_SHARE),
+            // Not `max`, which would make a number of what is none.
+            Self::Sum if share_factor + next / total - 1.0 < LEAST_SHARE => LEAST_SHARE,
+            Self::Sum => share_factor + next / total - 1.0,
             Self::Product => next,
         }
     }

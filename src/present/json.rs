@@ -10,6 +10,7 @@ use super::tables::deck::{UnitShapes, not_read};
 use crate::cases::CaseResult;
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::cases::fit::Fit;
+use crate::cases::readings::{Detection, ReadingColumn};
 use crate::cases::torque_box::TEST_GAGE;
 use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
@@ -96,6 +97,7 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
     let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor, "ratio": a.ratio});
     Ok(json!({
         "case": result.case.number,
+        "settings": result.case.settings,
         "succeeded": result.succeeded(),
         "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
         "published_iterations": published_iterations(result)?,
@@ -110,6 +112,17 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 /// Runs with fewer modes.
 pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
     document(json!({ "runs": runs }))
+}
+
+/// Every reading of the step beside the print.
+pub fn readings(columns: &[ReadingColumn], detections: &[Detection]) -> Result<String, PresentError> {
+    let column = |column: &ReadingColumn| {
+        let mut value = json!(column);
+        value["correlation"] = json!(column.correlation());
+        value["difference"] = json!(column.difference());
+        value
+    };
+    document(json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }))
 }
 
 /// A comparison of matrix corrections.

@@ -1,6 +1,7 @@
 //! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
 
 use super::output::{OutputArguments, reconstruction};
+use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::fit::fit;
@@ -19,12 +20,11 @@ pub struct CasesArguments {
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
-    /// Limit every pass to this many inner iterations
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    iterations: Option<u32>,
     /// Scale covers, spars and ribs as groups instead of every panel on its own
     #[arg(long)]
     groups: bool,
+    #[command(flatten)]
+    settings: SettingsArguments,
     #[command(flatten)]
     solver: SolverArguments,
     /// Do not report progress
@@ -40,9 +40,7 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     let mut results = Vec::new();
     for &number in numbers {
         let mut case = Case::on(number, reconstruction.clone())?;
-        if let Some(most) = arguments.iterations {
-            case.settings.inner.iterations = case.settings.inner.iterations.min(most as usize);
-        }
+        arguments.settings.apply(&mut case.settings)?;
         if arguments.groups {
             case.grouping = Grouping::Substructures;
         }

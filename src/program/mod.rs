@@ -4,6 +4,7 @@ mod cases;
 mod deck;
 mod output;
 mod pictures;
+mod settings;
 mod solver;
 mod studies;
 
@@ -13,7 +14,7 @@ use deck::{DeckArguments, ModesArguments};
 use output::OutputArguments;
 use pictures::FolderArguments;
 use std::process::ExitCode;
-use studies::{DeltaWingArguments, MatricesArguments};
+use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments};
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -43,7 +44,9 @@ enum Command {
     /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers, and Table 1
     Cases(CasesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
-    FewerModes(OutputArguments),
+    FewerModes(FewerModesArguments),
+    /// Compare every reading of the step with the printed gages, and say which reading each case is run by
+    Readings(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
@@ -65,6 +68,7 @@ pub fn run() -> ExitCode {
         None => cases::cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases::cases(&arguments),
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
+        Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false).map(|()| true),

@@ -1,13 +1,16 @@
 //! `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
 
 use super::output::OutputArguments;
+use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::cases::Case;
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
+use corfem::cases::readings::{READINGS, all_columns, detection};
+use corfem::cases::torque_box::Reconstruction;
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::correlate_wing_with;
+use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 
 #[derive(Debug, Args)]
@@ -25,14 +28,35 @@ pub struct MatricesArguments {
 #[derive(Debug, Args)]
 pub struct DeltaWingArguments {
     #[command(flatten)]
+    settings: SettingsArguments,
+    #[command(flatten)]
     output: OutputArguments,
     #[command(flatten)]
     solver: SolverArguments,
 }
 
+#[derive(Debug, Args)]
+pub struct FewerModesArguments {
+    #[command(flatten)]
+    settings: SettingsArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Runs every reading of the step against the printed gages.
+pub fn readings(output: &OutputArguments) -> Result<(), PresentError> {
+    let reconstruction = Reconstruction::embedded()?;
+    let columns = all_columns(&reconstruction)?;
+    let detection = |reading| detection(&reconstruction, reading);
+    let detections = READINGS.into_iter().map(detection).collect::<Result<Vec<_>, _>>()?;
+    let tables = tables::readings::readings_tables(&columns, &detections)?;
+    output.write(&tables, || json::readings(&columns, &detections))
+}
+
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
-pub fn fewer_modes(output: &OutputArguments) -> Result<(), PresentError> {
-    let case = Case::new(PUBLISHED_CASE)?;
+pub fn fewer_modes(FewerModesArguments { settings, output }: &FewerModesArguments) -> Result<(), PresentError> {
+    let mut case = Case::new(PUBLISHED_CASE)?;
+    settings.apply(&mut case.settings)?;
     let (published, all) = (published_runs(&case)?, all_runs(&case)?);
     let tables = tables::fewer_modes::fewer_modes_tables(&case, &published, &all)?;
     output.write(&tables, || json::fewer_modes(&all))
@@ -50,7 +74,15 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
-    let run = correlate_wing_with(&wing, solver.name(), |model, factors| solver.elements(model, factors), |_, _| {})?;
+    let mut settings = settings();
+    arguments.settings.apply(&mut settings)?;
+    let run = correlate_wing_with(
+        &wing,
+        &settings,
+        solver.name(),
+        |model, factors| solver.elements(model, factors),
+        |_, _| {},
+    )?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
     arguments.output.write(&tables, || json::delta_wing(&wing, &run))?;
     Ok(run.correlation.converged)

@@ -13,6 +13,7 @@ use crate::method::model::DynamicModel;
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::outer_loop::correlate;
 use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
+use crate::method::step::StepRule;
 use crate::studies::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, mass_weighted, weighted_norm,
 };
@@ -88,7 +89,8 @@ pub struct MatrixComparison {
 
 /// Corrects a case by elements and by matrices with its lowest `test_modes` test modes, and compares.
 ///
-/// The element factors come from [`correlate`] with the case's settings and all analysis modes. Baruch's correction is
+/// The element factors come from [`correlate`] with the case's settings, the library's own rule of the step, and all analysis
+/// modes. Baruch's correction is
 /// given the exact test shapes. Berman and Nagy's is given them rounded to two digits, because with exact ones there
 /// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the
 /// change of $K_D$ in the uncorrected model.
@@ -102,7 +104,9 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let test = all.lowest(test_modes)?;
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
-    let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &case.settings, |_, _| {})?;
+    let mut settings = case.settings.clone();
+    settings.inner.step = StepRule::default();
+    let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &settings, |_, _| {})?;
     let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;

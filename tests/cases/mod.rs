@@ -10,5 +10,6 @@ pub mod errata_tables;
 pub mod tables_published;
 
 pub mod fewer_modes;
+pub mod readings;
 
 pub mod snapshots;

@@ -29,13 +29,17 @@ fn every_table_as_numbers() {
         [
             "table_3",
             "table_4",
+            "case_1_readings",
             "table_5",
             "table_6",
+            "case_2_readings",
             "table_7",
             "table_8",
+            "case_3_readings",
             "case_4_frequencies",
             "case_4_gages",
             "case_4_factors",
+            "case_4_readings",
             "table_13",
             "fit"
         ]

@@ -124,9 +124,6 @@ pub const NASTRAN_FREQUENCY: f64 = 5e-7;
 /// Gages after a correlation with NASTRAN-95 in the outer loop against the crate's own, where the inner loop follows one
 /// path: its steps multiply single precision by some ten.
 pub const NASTRAN_GAGE: f64 = 2e-5;
-/// The same for Case 3, whose inner loop of some thirty steps against the gage bounds multiplies a difference of 1e-7 by
-/// ten thousands: rounding the box's own coordinates to single precision does as much without NASTRAN.
-pub const NASTRAN_GAGE_CASE_3: f64 = 1e-2;
 /// The same for Case 1, where NASTRAN-95's parallel-side snap changes two covers by 0.28 %, on both sides of the comparison.
 pub const NASTRAN_GAGE_CASE_1: f64 = 2e-3;
 /// Two runs of NASTRAN-95 on one deck, perhaps by other processors: round-off of double precision.

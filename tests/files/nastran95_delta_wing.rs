@@ -14,7 +14,7 @@ use corfem::present::json;
 use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{
-    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, test_modes,
+    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
 };
 use std::sync::LazyLock;
 
@@ -81,6 +81,7 @@ fn another_analysis_is_asked_for_every_model() {
     let mut told = Vec::new();
     let run = correlate_wing_with(
         &wing(),
+        &settings(),
         "another program",
         |model, factors| {
             asked.push(factors.to_vec());
@@ -103,6 +104,7 @@ fn what_an_analysis_cannot_do_is_the_correlations_error() {
         let mut left = answered;
         let error = correlate_wing_with(
             &wing(),
+            &settings(),
             NAME,
             |model: &FiniteElementModel, _: &[f64]| {
                 if left == 0 {

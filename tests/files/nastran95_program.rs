@@ -14,7 +14,7 @@ use corfem::method::modes::solve;
 use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::present::{PresentError, render};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, test_modes};
+use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, settings, test_modes};
 use nalgebra::DMatrix;
 use std::io::Write;
 
@@ -148,6 +148,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
     };
     let run = correlate_wing_with(
         &DeltaWing::embedded().expect("the wing"),
+        &settings(),
         NAME,
         |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),
         |_, _| (),

@@ -1,21 +1,10 @@
-//! The alternatives to the primary step and update rules, on the torque box: why the primary ones are primary.
-//!
-//! Statements, not histories: how the alternatives compare on this box, with room for another machine's last digit.
-//! First passes of Cases 1, 2 and 3, iterations and error sum reached:
-//!
-//! | step rule | halvings | Case 1 | Case 2 | Case 3 |
-//! |---|---|---|---|---|
-//! | root sum of squares | 5 | 14, 2.5 % | 6, 2.4 % | 22, 2.5 % |
-//! | root sum of squares | 0 | 14, 2.5 % | 4, 6.2 % | 6, 4.0 % |
-//! | sum over modes | 5 | 25, 2.5 % | 12, 2.3 % | 32, 2.5 % |
-//! | steepest descent | 0 | 3, 8.6 % | 6, 6.8 % | 4, 8.9 % |
+//! The alternatives to the loop's update rule and to its halvings, on the torque box by the library's own reading of the step.
 
 use crate::common::appendix_c::exact;
 use crate::common::boxes::{first_problem, problem_of};
 use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY, STATED_ERROR_SUM};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
-use corfem::cases::torque_box::TEST_GAGE;
 use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, recursive_1, recursive_2};
 use corfem::method::error::Error;
 use corfem::method::error_sum::errors;
@@ -32,86 +21,38 @@ fn first_pass(number: usize, change: impl Fn(&mut InnerSettings)) -> InnerRun {
     let case = Case::new(number).unwrap();
     let ranges = case.model().unwrap().factor_ranges().unwrap();
     let mut settings = case.settings.inner.clone();
+    settings.step = StepRule::default();
     change(&mut settings);
     run(&problem_of(&case), &[1.0; 15], &ranges, &settings).unwrap()
 }
 
-/// Root mean square error of all gages where an inner loop ended, relative to the test's.
-fn gage_error(number: usize, run: &InnerRun) -> f64 {
-    let first = Case::new(number).unwrap().first_gages();
-    let squares: f64 =
-        run.last.factors.iter().zip(first).map(|(factor, gage)| (factor * gage / TEST_GAGE - 1.0).powi(2)).sum();
-    (squares / 15.0).sqrt()
-}
-
 #[test]
-fn the_primary_rules_reach_the_tolerance() {
+fn a_sum_over_modes_takes_smaller_steps_than_its_parts() {
+    // |trace| ≥ norm of the diagonal, and the norm of the whole is no less than that of its diagonal: so with Δk.
     for number in 1..=3 {
-        let run = first_pass(number, |_| {});
-        assert_eq!(run.stop, Stop::Tolerance);
-        assert!(gage_error(number, &run) < 0.15);
-    }
-}
-
-#[test]
-fn a_sum_over_modes_takes_smaller_steps_and_more_iterations() {
-    for number in 1..=3 {
-        let primary = first_pass(number, |_| {});
-        let run = first_pass(number, |settings| settings.step = StepRule::Sum);
-        assert_eq!(run.stop, Stop::Tolerance);
-        let ratio = run.iterations.len() as f64 / primary.iterations.len() as f64;
-        assert!((1.3..2.3).contains(&ratio), "case {number}: {ratio}");
-        let longest = |run: &InnerRun| {
-            let steps = run.first_unlimited_factors.iter().map(|c| (c - 1.0).abs());
-            steps.fold(0.0, f64::max)
+        let longest = |rule| {
+            let run = first_pass(number, |settings| settings.step = rule);
+            let steps: Vec<f64> = run.first_unlimited_factors.iter().map(|c| (c - 1.0).abs()).collect();
+            steps
         };
-        assert!(longest(&run) < longest(&primary));
-    }
-}
-
-#[test]
-fn plain_steepest_descent_stops_far_from_the_test() {
-    for number in 1..=3 {
-        let run = first_pass(number, |settings| {
-            settings.step = StepRule::SteepestDescent;
-            settings.halvings = 0;
-        });
-        assert_eq!(run.stop, Stop::LocalMinimum);
-        let (count, gages) = (run.iterations.len(), gage_error(number, &run));
-        assert!((3..=6).contains(&count), "{count}");
-        assert!(run.last.errors.sum() > 0.06, "{}", run.last.errors.sum());
-        // Where the primary rules leave 6, 5 and 13 %.
-        assert!(gages > 0.17, "{gages}");
-    }
-}
-
-#[test]
-fn steepest_descent_with_halvings_creeps() {
-    // Whether it ever reaches the tolerance hangs on the last digit. That it does not with twice the iterations of the
-    // primary rule does not: it stands at 3.5, 3.9 and 2.9 % then.
-    for number in 1..=3 {
-        let primary = first_pass(number, |_| {});
-        let run = first_pass(number, |settings| {
-            settings.step = StepRule::SteepestDescent;
-            settings.iterations = 2 * primary.iterations.len();
-        });
-        assert_eq!(run.stop, Stop::Iterations);
-        assert!(run.last.errors.sum() > 0.025);
-        assert!(gage_error(number, &run) > gage_error(number, &primary));
+        let (own, sum, matrix) = (longest(StepRule::Own), longest(StepRule::Sum), longest(StepRule::Matrix));
+        for ((own, sum), matrix) in own.iter().zip(sum).zip(matrix) {
+            assert!(sum <= own * (1.0 + ROUND_OFF) && matrix <= own * (1.0 + ROUND_OFF));
+        }
     }
 }
 
 #[test]
 fn stopping_at_the_first_rise_stops_early() {
-    let at_first_rise = |number| first_pass(number, |settings| settings.halvings = 0);
-    // Case 1 never rises; Cases 2 and 3 are left at 6 and 4 %.
-    assert_eq!(at_first_rise(1).stop, Stop::Tolerance);
-    assert!(first_pass(1, |_| {}).iterations.iter().all(|i| i.halvings == 0));
-    for (number, error_sum) in [(2, 0.062), (3, 0.040)] {
-        let run = at_first_rise(number);
+    // By own Cases 2 and 3 are left at 11.5 and 6.5 %, by matrix Case 2 at 3.2 %, where halvings reach the 2.5 % asked for.
+    for (number, step, error_sum) in
+        [(2, StepRule::Own, 0.115), (3, StepRule::Own, 0.065), (2, StepRule::Matrix, 0.032)]
+    {
+        let run = first_pass(number, |settings| (settings.step, settings.halvings) = (step, 0));
         assert_eq!(run.stop, Stop::LocalMinimum);
         assert!((run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM, "{}", run.last.errors.sum());
-        let halved = first_pass(number, |_| {});
+        let halved = first_pass(number, |settings| settings.step = step);
+        assert_eq!(halved.stop, Stop::Tolerance);
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));
     }
 }

@@ -10,7 +10,7 @@ use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
 use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::Limit;
+use corfem::method::step::{Limit, StepRule};
 use nalgebra::dmatrix;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
@@ -49,7 +49,7 @@ fn relaxation_is_another_in_the_first_iteration() {
 
 #[test]
 fn a_step_that_overshoots_is_halved() {
-    // R = 12 asks for 0.4, bounded to 0.55, which is farther off than the start; half of it, 0.7, is nearer.
+    // R = 12 asks for 0.4, bounded to 0.55, which is farther off than the start; half of that step, 0.775, is nearer.
     let settings = InnerSettings { first_relaxation: 12.0, iterations: 1, ..InnerSettings::default() };
     let run_with = |halvings| {
         let settings = InnerSettings { halvings, ..settings.clone() };
@@ -57,8 +57,8 @@ fn a_step_that_overshoots_is_halved() {
     };
     let run = run_with(1);
     assert_eq!(run.iterations[0].halvings, 1);
-    assert_eq!(run.iterations[0].limits, [Limit::None]);
-    assert!((run.last.factors[0] - 0.7).abs() < FIRST_FACTOR);
+    assert_eq!(run.iterations[0].limits, [Limit::Factor]);
+    assert!((run.last.factors[0] - 0.775).abs() < ROUND_OFF);
     assert!((run.iterations[0].unlimited_factors[0] - 0.4).abs() < FIRST_FACTOR);
     // Without halvings the place counts as a local minimum.
     let stuck = run_with(0);
@@ -74,14 +74,19 @@ fn a_step_too_far_for_the_perturbation_is_halved() {
     // Springs of 2, 1/2 and 1 times: the whole step loses a root, half of it raises the error sum, a quarter is good.
     let problem = chain_problem(&Chain::uniform(3), &[2.0, 0.5, 1.0]);
     let wide = Range { lower: 0.05, upper: 20.0 };
-    let settings =
-        InnerSettings { first_relaxation: 4.0, factor_range: wide, iterations: 1, ..InnerSettings::default() };
+    let settings = InnerSettings {
+        first_relaxation: 4.0,
+        factor_range: wide,
+        iterations: 1,
+        step: StepRule::Own,
+        ..InnerSettings::default()
+    };
     let run = run(&problem, &[1.0; 3], &[None; 3], &settings).unwrap();
     assert_eq!(run.iterations[0].halvings, 2);
     assert!(run.last.errors.sum() < run.start.sum());
     let at = |fraction: f64| {
         let factors =
-            run.first_unlimited_factors.iter().map(|c| (1.0 + fraction * (c - 1.0)).clamp(0.05, 20.0)).collect();
+            run.first_unlimited_factors.iter().map(|c| 1.0 + fraction * (c.clamp(0.05, 20.0) - 1.0)).collect();
         ModalState::at(&problem, factors, UpdateRule::default())
     };
     assert!(matches!(at(1.0), Err(Error::LostRoot { mode: 2, .. })));
@@ -190,7 +195,7 @@ fn the_default_settings_are_the_papers() {
     assert_eq!((settings.first_relaxation, settings.relaxation), (0.8, 1.0));
     assert_eq!((settings.factor_range.lower, settings.factor_range.upper), (0.55, 1.5));
     assert_eq!(settings.tolerance, 0.025);
-    assert_eq!((settings.halvings, settings.iterations), (5, 100));
+    assert_eq!((settings.halvings, settings.iterations), (5, 30));
 }
 
 #[test]

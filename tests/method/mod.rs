@@ -60,6 +60,7 @@ pub mod appendix_c_inner_loop;
 pub mod derivatives;
 
 pub mod step;
+pub mod step_matrix;
 
 pub mod inner_loop;
 pub mod inner_loop_bad_input;

@@ -4,12 +4,14 @@ use super::bars::{BarFigure, Bars, Series};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
 use super::planform::Planform;
 use super::{Figure, box_elements, box_points, cover_gages, error_history, factors, node_lines};
+use crate::cases::readings::{columns_of, run_by_reading};
 use crate::cases::{CASES, Case, CaseResult};
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::model::Check;
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
 use crate::method::state::ModalState;
+use crate::method::step::StepRule;
 use crate::present::PresentError;
 use crate::present::tables::cases::{gage_errors, unlimited_factors};
 use crate::present::tables::correlation::last_check;
@@ -65,6 +67,9 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         let gages = gage_bars(result)?;
         let caption = "gage errors of every panel at the start and after each pass";
         add("gages", "gage errors by panel", caption, &|name, title| gages.draw(name, title))?;
+        let by_readings = reading_bars(result)?;
+        let caption = "gage errors by three readings of the step beside the printed ones, pass by pass";
+        add("readings", "gage errors by readings of the step", caption, &|name, title| by_readings.draw(name, title))?;
         let planform = Planform::of(&result.case.reconstruction);
         let modes = node_lines::node_lines(planform, &result.test, correlation)?;
         let caption = format!(
@@ -97,14 +102,39 @@ pub fn gage_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
     // The start is given: nothing is to be compared there.
     stages[0].1.iter_mut().for_each(|(_, published)| *published = None);
     let series = stages.into_iter().map(|(name, values)| Series { name: name.to_lowercase(), values }).collect();
-    let panels = result.case.panels.iter();
-    let groups = panels.map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind))).collect();
     Ok(BarFigure {
-        charts: vec![Bars { heading: String::new(), groups, series, divided: None }],
+        charts: vec![Bars { heading: String::new(), groups: panel_names(result), series, divided: None }],
         across: "panel: S shear, M membrane".to_owned(),
         up: "gage error, percent of 0.010 in".to_owned(),
         marked: "published, on the bar of its pass".to_owned(),
     })
+}
+
+/// Gage errors of a case by panel and by readings of the step, a chart for every pass that the paper prints.
+///
+/// # Errors
+/// Those of [`run_by_reading`] and of the published tables.
+pub fn reading_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
+    let mut charts: Vec<Bars> = Vec::new();
+    for reading in [StepRule::Matrix, StepRule::Own, StepRule::Relative] {
+        for (row, column) in columns_of(&run_by_reading(&result.case, reading)?)?.iter().enumerate() {
+            let pairs = column.errors().zip(&column.published_errors);
+            let values = pairs.map(|(error, printed)| (100.0 * error, Some(100.0 * printed))).collect();
+            if row == charts.len() {
+                let (heading, groups) = (format!("Pass {}", row + 1), panel_names(result));
+                charts.push(Bars { heading, groups, series: Vec::new(), divided: None });
+            }
+            charts[row].series.push(Series { name: reading.name().to_owned(), values });
+        }
+    }
+    let (across, up) = ("panel: S shear, M membrane".to_owned(), "gage error, percent of 0.010 in".to_owned());
+    Ok(BarFigure { charts, across, up, marked: "published".to_owned() })
+}
+
+/// Numbers and kinds of a case's panels.
+fn panel_names(result: &CaseResult) -> Vec<String> {
+    let panels = result.case.panels.iter();
+    panels.map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind))).collect()
 }
 
 /// Numbers from one, as labels.

@@ -47,6 +47,8 @@ const SERIES: [Series; 3] = [
     ("shape error", |e| e.shape, BLUE, Form::Circle, Dash::Dotted),
 ];
 
+/// Most labels of the iterations: more would touch one another.
+const MOST_LABELS: usize = 32;
 /// Ticks of the error axis, percent.
 const TICKS: [f64; 10] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 /// Margins of the plot: left, right, top, bottom, px.
@@ -76,7 +78,7 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
         .disable_x_mesh()
-        .x_labels(last + 2)
+        .x_labels((last + 2).min(MOST_LABELS))
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_label_formatter(&|y| format!("{y}"))
         .x_desc("accepted iterations of the inner loop")

@@ -1,13 +1,16 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
 
 use super::correlation::{self, JudgedFactor, checks, frequencies, judged_factors, solver_note};
+use super::readings::{case_readings, detection_table};
 use super::stages::{Stages, stage_title};
 use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
+use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::cases::torque_box::{TEST_GAGE, gage_rms};
-use crate::cases::{CASES, CaseResult, Grouping};
+use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
+use crate::method::step::StepRule;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
@@ -171,10 +174,25 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
     Ok(tables)
 }
 
-/// The tables of one case: frequencies, gages, and in Case 4 what its single iteration asks for.
+/// The tables of one case: frequencies, gages, and what the library's own reading of the step makes of it; in Case 4 what its
+/// single iteration asks for, by every reading.
 pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
-    tables.extend((result.case.number == CASES[3]).then(|| factor_table(result)));
+    if result.case.number == CASES[3] {
+        tables.push(factor_table(result));
+    }
+    // The print has neither grouped runs nor other programs' elements, and nothing is beside the library's own reading.
+    let is_papers = result.case.grouping == Grouping::Elements && result.solver == BUILT_IN;
+    let own = StepRule::default();
+    if is_papers && result.case.number == CASES[3] {
+        let detection = |reading| detection(&result.case.reconstruction, reading);
+        tables.push(detection_table(&READINGS.into_iter().map(detection).collect::<Result<Vec<_>, _>>()?));
+    } else if is_papers && result.case.settings.inner.step != own {
+        let mut columns = columns_of(result)?;
+        columns.extend(columns_of(&run_by_reading(&result.case, own)?)?);
+        columns.sort_by(|a, b| a.stage.cmp(&b.stage));
+        tables.push(case_readings(result.case.number, &columns)?);
+    }
     Ok(tables)
 }
 

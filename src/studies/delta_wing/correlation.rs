@@ -23,6 +23,7 @@ use crate::method::model::{FiniteElementModel, Parameter};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::state::UpdateRule;
+use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::{Element, Material, Structure};
 use nalgebra::DMatrix;
 
@@ -72,14 +73,23 @@ pub const TEST_MODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 10, 11, 12];
 /// Direction measured.
 const Z: usize = 2;
 
-/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after and in the exact check.
+/// Tolerances of the scenario: 1 % on the error sum of the first pass, half a percent after and in the exact check; a hundred
+/// iterations a pass, because with the paper's thirty the tolerance of a pass is not reached. Changes multiply, as the gages do:
+/// nothing of the paper is to be reproduced here, and so the inner loop keeps the stiffness of its gages. The step is read as own,
+/// by which the gages that the test modes see end within 1.9 %; by matrix they end within 2.5 %.
 ///
 /// Modes 8 and 9 of the model stay close where they are not measured, so the inner loop solves for its modes in modal
-/// coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps and takes one
-/// pass more.
+/// coordinates: the roots of Recursive 1 do not settle there in its sixty orders, which halves its steps.
 pub fn settings() -> Settings {
     Settings {
-        inner: InnerSettings { tolerance: 0.01, update: UpdateRule::Eigensolution, ..InnerSettings::default() },
+        inner: InnerSettings {
+            tolerance: 0.01,
+            iterations: 100,
+            step: StepRule::Own,
+            accumulation: Accumulation::Product,
+            update: UpdateRule::Eigensolution,
+            ..InnerSettings::default()
+        },
         later_inner_tolerance: 0.005,
         // Together they bound either error below its own default.
         error_sum_tolerance: 0.005,

@@ -5,7 +5,7 @@ use crate::cases::BUILT_IN;
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
-use crate::method::outer_loop::{Correlation, Pass, correlate};
+use crate::method::outer_loop::{Correlation, Pass, Settings, correlate};
 use crate::studies::delta_wing::DeltaWing;
 
 /// What became of one group.
@@ -55,10 +55,10 @@ pub struct WingCorrelation {
 /// # Errors
 /// Those of [`first_model`], [`test_modes`], the analysis and the loops.
 pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> Result<WingCorrelation, Error> {
-    correlate_wing_with(wing, BUILT_IN, |model, _| Ok(model.clone()), progress)
+    correlate_wing_with(wing, &settings(), BUILT_IN, |model, _| Ok(model.clone()), progress)
 }
 
-/// Corrects the model of wrong gages with another finite element analysis than the crate's own: `solver` is its name
+/// Corrects the model of wrong gages by given settings, with another finite element analysis than the crate's own: `solver` is its name
 /// for the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that
 /// program's element stiffness.
 ///
@@ -69,6 +69,7 @@ pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> R
 /// Those of `elements` and of [`correlate_wing`].
 pub fn correlate_wing_with<E: From<Error>>(
     wing: &DeltaWing,
+    settings: &Settings,
     solver: &'static str,
     mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
@@ -78,7 +79,7 @@ pub fn correlate_wing_with<E: From<Error>>(
     let mut analyze =
         |factors: &[f64]| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) };
     let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
-    let correlation = correlate(analyze, &model.factor_ranges()?, &settings(), progress)?;
+    let correlation = correlate(analyze, &model.factor_ranges()?, settings, progress)?;
     let factors = correlation.best_factors();
     let found = GROUPS.iter().zip(factors).zip(shares);
     let groups =
