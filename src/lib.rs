@@ -53,8 +53,8 @@
 //! # Notation
 //!
 //! Numbers in parentheses such as (13) or (C.22) are the paper's equations. $K$ is stiffness, $M$ mass, $V$ mode
-//! shapes with $V^t M V = I$, $\lambda = 1/\omega^2$ the root of Appendix C, $\beta = V^t \Delta K V$. `paper/errata.md` lists
-//! where the print is wrong or ambiguous and what is done here.
+//! shapes with $V^t M V = I$, $\lambda = 1/\omega^2$ the root of Appendix C, $\beta = V^t \Delta K V$.
+//! `paper/errata.md` lists where print or scan is wrong, `paper/interpretation.md` where the text leaves a choice.
 
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]

@@ -28,7 +28,7 @@ pub struct Condensed {
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
 ///
-/// Source: the paper's (1), (2), (A.5), (A.7), (A.8), which print $T^t$ for $T$ in $B$ (`paper/errata.md`).
+/// Source: the paper's (1), (2), (A.5), (A.7), (A.8), of which the last two print $T^t$ for $T$ (`paper/errata.md`).
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let t = load_distribution;
     if t.ncols() == 0 {

@@ -1,8 +1,9 @@
-//! The lists of equations and routes, the rooms, the formulas of the documentation and the numbers in it, held
+//! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
 //! against the code.
 
 pub mod documents;
 pub mod equations;
+pub mod errata;
 pub mod formulas;
 pub mod places;
 pub mod rooms;

@@ -74,3 +74,4 @@ pub mod outer_loop_stops;
 
 pub mod alternatives;
 pub mod errata;
+pub mod errata_appendix_c;

@@ -41,8 +41,8 @@ pub struct Balanced {
 /// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
 ///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
 ///
-/// `stiffness` in lbf/in and `mass` in lbf·s²/in (d × d); `rigid_body` $= \Phi$ (d × m), see
-/// [`super::rigid_body_vectors`]. Suspension springs belong in the stiffness.
+/// `stiffness` in lbf/in and `mass` in lbf·s²/in (d × d), suspension springs included and aerodynamic forces left out
+/// (`paper/interpretation.md`); `rigid_body` $= \Phi$ (d × m), see [`super::rigid_body_vectors`].
 ///
 /// # Errors
 /// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],

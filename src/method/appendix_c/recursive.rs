@@ -35,8 +35,8 @@ pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) ->
 /// $$ \Delta\lambda_i^{(r)} = -\frac{\beta_{ii}\lambda_i + \gamma_i^{(\rho)} \sum_{j\ne i}\beta_{ij}p_{ji}^{(\rho)}}{k_{ii}+\beta_{ii}}, \qquad
 ///    p_{ij}^{(r)} = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}p_{sj}^{(\rho)}}{k_{ii}+\beta_{ii} - 1/\gamma_j^{(\rho)}} $$
 ///
-/// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and $\lambda_i$ where the changed root of the previous
-/// order belongs (`paper/errata.md`).
+/// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and the root of row $i$ in the denominator of
+/// $p_{ij}$, where that of mode $j$ belongs (`paper/errata.md`).
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.

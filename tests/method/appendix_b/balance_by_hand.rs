@@ -151,6 +151,16 @@ fn a_far_reference_axis_is_not_dependence() {
 }
 
 #[test]
+fn aerodynamic_forces_in_the_mass_are_refused() {
+    // The paper allows them in M. They are not conservative, as the balance has to be: a flow acts on the first mass
+    // where the last one moves, and not the other way round.
+    let (mut mass, rigid_body) = three_masses();
+    mass[(0, 2)] = 0.1;
+    let outcome = balance(&modes(&[7.0], dmatrix![1.0; 0.0; 0.0]), &DMatrix::zeros(3, 3), &mass, &rigid_body);
+    assert!(matches!(outcome, Err(Error::NotSymmetric { what: "dynamic mass", .. })), "{outcome:?}");
+}
+
+#[test]
 fn bad_input_is_refused() {
     let (mass, rigid_body) = three_masses();
     let free = DMatrix::<f64>::zeros(3, 3);

@@ -6,9 +6,9 @@
 //! $$ (A\gamma_j - G) p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
 //!    \quad \text{(C.14 to C.19)}. $$
 //!
-//! The paper prints $\alpha = U\Delta G V^t$ and $\beta = U\Delta K V^t$; shapes are columns, so the transpose belongs to
-//! $U$. It prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and has no (C.23). The same functions
-//! serve real and, with aerodynamic terms, complex numbers. Stiffness alone is in [`super::recursive`].
+//! The paper prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and $G$ for $G^t$ in the transposed
+//! equations (C.4) to (C.9); more is in `paper/errata.md`. The same functions serve real and, with aerodynamic terms,
+//! complex numbers. Stiffness alone is in [`super::recursive`].
 
 pub mod complex_modes;
 mod modal_change;

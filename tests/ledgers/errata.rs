@@ -1,0 +1,66 @@
+//! `paper/errata.md` against the tests: every entry names one that shows it, and every test named there exists.
+
+use crate::ledgers::files_below;
+use std::fs;
+use std::path::Path;
+
+/// The entries: paragraphs that begin in bold, with the lists that belong to them.
+fn entries(text: &str) -> Vec<&str> {
+    let starts: Vec<usize> = text.match_indices("\n\n**").map(|(at, _)| at + 2).collect();
+    let end = |start: usize| {
+        let rest = &text[start..];
+        rest.find("\n\n**").into_iter().chain(rest.find("\n## ")).min().map_or(text.len(), |at| start + at)
+    };
+    starts.iter().map(|&start| &text[start..end(start)]).collect()
+}
+
+/// The names of tests in a text: words in backticks with an underscore, without those of files and constants.
+fn tests_named(text: &str) -> Vec<&str> {
+    let words = text.split('`').skip(1).step_by(2);
+    words
+        .filter(|word| {
+            word.contains('_') && word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+        })
+        .collect()
+}
+
+/// Whether some file of tests has the test.
+fn exists(name: &str) -> bool {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let mut files = files_below(&tests);
+    files.retain(|file| file.extension().is_some_and(|end| end == "rs"));
+    files.iter().any(|file| {
+        let text = fs::read_to_string(file).expect("it reads");
+        text.contains(&format!("#[test]\nfn {name}(")) || text.contains(&format!("#[test]\n    fn {name}("))
+    })
+}
+
+#[test]
+fn every_entry_of_the_errata_names_a_test_that_exists() {
+    let text = include_str!("../../paper/errata.md");
+    let entries = entries(text);
+    assert!(entries.len() > 25, "only {} entries were read", entries.len());
+    for entry in entries {
+        let files = entry.split('`').filter(|word| word.starts_with("tests/"));
+        for file in files.clone() {
+            assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(file).is_file(), "{file}");
+        }
+        let names = tests_named(entry);
+        let one_line = entry.split_whitespace().collect::<Vec<_>>().join(" ");
+        let shown = !names.is_empty() || files.count() > 0 || one_line.contains("No result depends on this");
+        assert!(shown, "no test in: {entry}");
+        for name in names {
+            assert!(exists(name), "{name} in: {entry}");
+        }
+    }
+}
+
+#[test]
+fn the_check_of_the_errata_finds_what_is_missing() {
+    let text = "Title\n\n**one** `a_test`\n- `b_test`\n\n**two** `file.rs` and `X_Y`\n\n## Next\n\n**three** `K`";
+    assert_eq!(entries(text).len(), 3);
+    assert_eq!(tests_named(entries(text)[0]), ["a_test", "b_test"]);
+    assert!(tests_named(entries(text)[1]).is_empty() && !entries(text)[1].contains("Next"));
+    assert!(tests_named(entries(text)[2]).is_empty());
+    assert!(exists("the_check_of_the_errata_finds_what_is_missing") && !exists("entries"));
+}
