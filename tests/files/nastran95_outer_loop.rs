@@ -5,8 +5,8 @@
 
 use crate::common::outer_loop::{assert_near, stored};
 use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
-    NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
+    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1, NASTRAN_SINGLE_PRECISION,
+    PRINTED_SNAP_FACTOR,
 };
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::cases::{CASES, Case, published_passes, run_case};
