@@ -3,15 +3,15 @@
 use assert_cmd::Command;
 use serde_json::Value;
 
-fn corfem(arguments: &[&str]) -> std::process::Output {
+pub fn corfem(arguments: &[&str]) -> std::process::Output {
     Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
 }
 
-fn parsed(arguments: &[&str]) -> Value {
+pub fn parsed(arguments: &[&str]) -> Value {
     serde_json::from_slice(&corfem(arguments).stdout).expect("JSON")
 }
 

@@ -2,5 +2,6 @@
 
 pub mod cli;
 pub mod cli_comparisons;
+pub mod cli_settings;
 pub mod cli_pictures;
 pub mod deck_cli;

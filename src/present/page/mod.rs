@@ -7,7 +7,7 @@ mod html;
 
 use super::figures::Figure;
 use super::table::{Digits, Table};
-use super::tables::cases::{fit_table, iteration_table, summary, tables_of};
+use super::tables::cases::{fit_table, iteration_table, settings_table, summary, tables_of};
 use super::tables::{fewer_modes, matrices};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
@@ -56,7 +56,12 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let others = [
         ("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
         ("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
-        ("cost", "Iterations", "Iterations", table(&iteration_table(contents.results)?)),
+        (
+            "cost",
+            "Iterations",
+            "Iterations",
+            [iteration_table(contents.results)?, settings_table(contents.results)].iter().map(table).collect(),
+        ),
         ("differences", "Differences", why, differences),
         ("made", "How it was made", "How it was made", made_section(contents)),
     ];

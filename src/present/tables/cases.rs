@@ -10,7 +10,7 @@ use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::cases::torque_box::{TEST_GAGE, gage_rms};
 use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
-use crate::method::step::StepRule;
+use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
@@ -141,6 +141,29 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     Ok(table)
 }
 
+/// The settings that each case was run with.
+pub fn settings_table(results: &[CaseResult]) -> Table {
+    let mut table = Table::new("settings", "Settings of the loops", "Case")
+        .columns(["Step", "Changes", "R", "Limits", "TOLI", "TOLO", "Iterations", "Passes"], "")
+        .note("R and TOLI: first, and after. Iterations and passes: at most.");
+    for CaseResult { case, .. } in results {
+        let (settings, inner) = (&case.settings, &case.settings.inner);
+        let changes = if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" };
+        let cells = [
+            inner.step.name().to_owned(),
+            changes.to_owned(),
+            format!("{} {}", inner.first_relaxation, inner.relaxation),
+            format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
+            format!("{} {}", inner.tolerance, settings.later_inner_tolerance),
+            settings.error_sum_tolerance.to_string(),
+            inner.iterations.to_string(),
+            settings.most_passes.to_string(),
+        ];
+        table.row(case.number, cells.map(Cell::text));
+    }
+    table
+}
+
 /// How well the reconstructed box reproduces the published frequencies, column by column.
 pub fn fit_table(fit: &Fit) -> Table {
     let (case, stage, mode) = &fit.largest_at;
@@ -170,6 +193,7 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
         tables.extend(tables_of(result)?);
     }
     tables.push(iteration_table(results)?);
+    tables.push(settings_table(results));
     tables.push(fit_table(fit));
     Ok(tables)
 }
