@@ -5,6 +5,7 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
+use super::table::Table;
 use super::tables::cases::published_iterations;
 use super::tables::deck::{UnitShapes, not_read};
 use crate::cases::CaseResult;
@@ -115,6 +116,11 @@ pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
 /// A comparison of matrix corrections.
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     document(json!({ "comparison": comparison }))
+}
+
+/// Tables cell by cell: what is computed as an object, what is printed as text.
+pub fn tables(tables: &[Table]) -> Result<String, PresentError> {
+    document(json!({ "tables": tables }))
 }
 
 /// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.

@@ -1,4 +1,4 @@
-//! `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
+//! `corfem tables`, `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
 
 use super::output::OutputArguments;
 use super::solver::{Solver, SolverArguments};
@@ -9,6 +9,15 @@ use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing_with;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+
+#[derive(Debug, Args)]
+pub struct TablesArguments {
+    /// Which tables; all thirteen if none is named
+    #[arg(value_name = "TABLE", value_parser = clap::value_parser!(u8).range(1..=13))]
+    numbers: Vec<u8>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
 
 #[derive(Debug, Args)]
 pub struct MatricesArguments {
@@ -28,6 +37,18 @@ pub struct DeltaWingArguments {
     output: OutputArguments,
     #[command(flatten)]
     solver: SolverArguments,
+}
+
+/// Writes Table 1, computed anew, and the paper's other tables as printed.
+pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
+    let all: Vec<u8> = (1..=13).collect();
+    let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
+    let table = |&number: &u8| match number {
+        1 => tables::table_1::root_error_table(),
+        _ => tables::published::published_table(number.into()),
+    };
+    let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;
+    arguments.output.write(&tables, || json::tables(&tables))
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.

@@ -9,4 +9,5 @@ pub mod figures_drawing;
 pub mod figures_planform;
 pub mod matrix_tables;
 pub mod page;
+pub mod published_tables;
 pub mod render;

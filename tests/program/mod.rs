@@ -3,4 +3,5 @@
 pub mod cli;
 pub mod cli_comparisons;
 pub mod cli_pictures;
+pub mod cli_tables;
 pub mod deck_cli;
