@@ -21,6 +21,7 @@ use crate::method::structure::DIRECTIONS;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::matrix_comparison::MatrixComparison;
+use crate::studies::noisy_modes::NoisyModes;
 use crate::studies::whole_modes::WholeModes;
 use serde_json::{Value, json};
 
@@ -116,6 +117,11 @@ pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
 /// A comparison of matrix corrections.
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     document(json!({ "comparison": comparison }))
+}
+
+/// Correlations with noisy test modes.
+pub fn noisy_modes(study: &NoisyModes) -> Result<String, PresentError> {
+    document(json!({ "study": study }))
 }
 
 /// Tables cell by cell: what is computed as an object, what is printed as text.

@@ -48,6 +48,8 @@ enum Command {
     FewerModes(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
+    /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
+    Noise(OutputArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -69,6 +71,7 @@ pub fn run() -> ExitCode {
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
+        Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem tables`, `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
+//! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise` and `corfem delta-wing`.
 
 use super::output::OutputArguments;
 use super::solver::{Solver, SolverArguments};
@@ -9,6 +9,7 @@ use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing_with;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
 
 #[derive(Debug, Args)]
 pub struct TablesArguments {
@@ -65,6 +66,12 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
     arguments.output.write(&tables, || json::matrices(&comparison))
+}
+
+/// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
+pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
+    let study = noisy_modes(&Case::new(NOISY_CASE)?, Noise::USUAL, SEEDS)?;
+    output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

@@ -175,3 +175,5 @@ pub const NEARLY_UNCOUPLED: f64 = 0.01;
 pub const GROUPED_GAGE: f64 = 0.03;
 /// Components that count as equally large where the sign of a shape is chosen, relative.
 pub const EQUALLY_LARGE: f64 = 1e-6;
+/// A mean, a root mean square or a correlation of a sample of normal variates, in standard errors: one in 16,000 is farther off.
+pub const STANDARD_ERRORS: f64 = 4.0;

@@ -197,6 +197,7 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
         &["cases", "--groups"],
         &["tables"],
         &["fewer-modes"],
+        &["noise"],
         &["matrices"],
         &["delta-wing"],
         &["deck", "4"],

@@ -6,6 +6,7 @@ pub mod deck;
 pub mod delta_wing;
 pub mod fewer_modes;
 pub mod matrices;
+pub mod noisy_modes;
 pub mod published;
 pub mod stages;
 pub mod table_1;
