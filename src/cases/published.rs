@@ -31,6 +31,8 @@ pub struct PublishedTable {
     pub number: usize,
     /// Name for messages, such as `paper/tables/table_3.csv`.
     pub name: String,
+    /// What it holds, in our words; empty if the file does not say.
+    pub title: String,
     /// Column headings after the first.
     pub headings: Vec<String>,
     /// Row labels, in the order printed.
@@ -74,10 +76,11 @@ impl PublishedTable {
             cells.extend(keys.zip(row));
             labels.push(label);
         }
+        let title = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned();
         let remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
         let remarks = remarks.filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)));
         let remarks = remarks.map(str::to_owned).collect();
-        Ok(Self { number, remarks, name: name.to_owned(), headings, labels, cells })
+        Ok(Self { number, title, remarks, name: name.to_owned(), headings, labels, cells })
     }
 
     /// A cell's text; `None` where the paper prints nothing or has no such row or column.

@@ -5,6 +5,7 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
+use super::table::Table;
 use super::tables::cases::published_iterations;
 use super::tables::deck::{UnitShapes, not_read};
 use crate::cases::CaseResult;
@@ -21,6 +22,7 @@ use crate::method::structure::DIRECTIONS;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::matrix_comparison::MatrixComparison;
+use crate::studies::noisy_modes::NoisyModes;
 use crate::studies::whole_modes::WholeModes;
 use serde_json::{Value, json};
 
@@ -128,6 +130,16 @@ pub fn readings(columns: &[ReadingColumn], detections: &[Detection]) -> Result<S
 /// A comparison of matrix corrections.
 pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
     document(json!({ "comparison": comparison }))
+}
+
+/// Correlations with noisy test modes.
+pub fn noisy_modes(study: &NoisyModes) -> Result<String, PresentError> {
+    document(json!({ "study": study }))
+}
+
+/// Tables cell by cell: what is computed as an object, what is printed as text.
+pub fn tables(tables: &[Table]) -> Result<String, PresentError> {
+    document(json!({ "tables": tables }))
 }
 
 /// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.

@@ -62,10 +62,12 @@ pub fn csv(tables: &[Table]) -> String {
             for (column, cell) in table.columns.iter().zip(&row.cells) {
                 let (computed, published) = match cell {
                     Cell::Blank => continue,
-                    Cell::Text(words) => (words.clone(), None),
-                    Cell::Number { computed, published, .. } => (ten_digits(*computed), *published),
+                    Cell::Text(words) => (words.clone(), String::new()),
+                    Cell::Printed(words) => (String::new(), words.clone()),
+                    Cell::Number { computed, published, .. } => {
+                        (ten_digits(*computed), published.map_or_else(String::new, |value| value.to_string()))
+                    }
                 };
-                let published = published.map_or_else(String::new, |value| value.to_string());
                 let fields = [&table.name, &row.label, &column.name, column.unit, &computed, &published];
                 out += &(fields.map(quoted).join(",") + "\n");
             }

@@ -1,5 +1,7 @@
 //! A table as data: numbers with their published counterparts, before any layout.
 
+use serde::Serialize;
+
 /// How a number is written for a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
@@ -12,12 +14,15 @@ pub enum Digits {
 }
 
 /// One cell.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Cell {
     /// Nothing.
     Blank,
     /// Words.
     Text(String),
+    /// What the paper prints, with nothing computed beside it.
+    Printed(String),
     /// A number, and the one printed elsewhere for it if there is any.
     Number {
         /// Computed here.
@@ -25,12 +30,13 @@ pub enum Cell {
         /// Printed in the paper.
         published: Option<f64>,
         /// How it is written.
+        #[serde(skip)]
         digits: Digits,
     },
 }
 
 /// A column's heading.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Column {
     /// Name, unique in the table.
     pub name: String,
@@ -39,7 +45,7 @@ pub struct Column {
 }
 
 /// One row: its label, then a cell per column.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// What it is about, for example mode 3.
     pub label: String,
@@ -48,7 +54,7 @@ pub struct Row {
 }
 
 /// A table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table {
     /// Short name for files and for CSV, such as `table_3`.
     pub name: String,
@@ -98,11 +104,11 @@ impl Cell {
         }
     }
 
-    /// The computed number, or the words, as a reader sees them.
+    /// The computed number, or the words, or what is printed alone, as a reader sees them.
     pub fn computed(&self) -> String {
         match self {
             Self::Blank => String::new(),
-            Self::Text(words) => words.clone(),
+            Self::Text(words) | Self::Printed(words) => words.clone(),
             Self::Number { computed, digits, .. } => digits.write(*computed),
         }
     }

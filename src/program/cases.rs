@@ -61,6 +61,10 @@ pub fn cases(arguments: &CasesArguments) -> Result<bool, PresentError> {
     if arguments.cases.is_empty() {
         tables.push(tables::table_1::root_error_table()?);
     }
+    let held = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
+    if let Some(last) = tables.last_mut() {
+        last.notes.push(held);
+    }
     arguments.output.write(&tables, || json::cases(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

@@ -14,7 +14,7 @@ use deck::{DeckArguments, ModesArguments};
 use output::OutputArguments;
 use pictures::FolderArguments;
 use std::process::ExitCode;
-use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments};
+use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -43,12 +43,16 @@ Results go to standard output, progress to standard error.";
 enum Command {
     /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers, and Table 1
     Cases(CasesArguments),
+    /// Print Table 1, computed anew, and Tables 2 to 13 as published; CPU seconds are in Table 13
+    Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
     /// Compare every reading of the step with the printed gages, and say which reading each case is run by
     Readings(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
+    /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
+    Noise(OutputArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -67,9 +71,11 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => cases::cases(&arguments.cases),
         Some(Command::Cases(arguments)) => cases::cases(&arguments),
+        Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
         Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
+        Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem fewer-modes`, `corfem matrices` and `corfem delta-wing`.
+//! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise` and `corfem delta-wing`.
 
 use super::output::OutputArguments;
 use super::settings::SettingsArguments;
@@ -12,6 +12,16 @@ use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
+
+#[derive(Debug, Args)]
+pub struct TablesArguments {
+    /// Which tables; all thirteen if none is named
+    #[arg(value_name = "TABLE", value_parser = clap::value_parser!(u8).range(1..=13))]
+    numbers: Vec<u8>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
 
 #[derive(Debug, Args)]
 pub struct MatricesArguments {
@@ -53,6 +63,18 @@ pub fn readings(output: &OutputArguments) -> Result<(), PresentError> {
     output.write(&tables, || json::readings(&columns, &detections))
 }
 
+/// Writes Table 1, computed anew, and the paper's other tables as printed.
+pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
+    let all: Vec<u8> = (1..=13).collect();
+    let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
+    let table = |&number: &u8| match number {
+        1 => tables::table_1::root_error_table(),
+        _ => tables::published::published_table(number.into()),
+    };
+    let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;
+    arguments.output.write(&tables, || json::tables(&tables))
+}
+
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
 pub fn fewer_modes(FewerModesArguments { settings, output }: &FewerModesArguments) -> Result<(), PresentError> {
     let mut case = Case::new(PUBLISHED_CASE)?;
@@ -68,6 +90,12 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
     arguments.output.write(&tables, || json::matrices(&comparison))
+}
+
+/// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
+pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
+    let study = noisy_modes(&Case::new(NOISY_CASE)?, Noise::USUAL, SEEDS)?;
+    output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

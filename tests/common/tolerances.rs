@@ -180,3 +180,5 @@ pub const SHAPE_ROUND_OFF: f64 = 1e-8;
 pub const WRONG_FORM: f64 = 5e-5;
 /// Roots of second order where every element of the box changes by ten percent: 5.2e-5 of the root at worst.
 pub const SECOND_ORDER_ROOT: f64 = 6e-5;
+/// A mean, a root mean square or a correlation of a sample of normal variates, in standard errors: one in 16,000 is farther off.
+pub const STANDARD_ERRORS: f64 = 4.0;

@@ -20,7 +20,7 @@ fn number(cell: &Cell) -> Option<f64> {
     match cell {
         Cell::Number { computed, .. } => Some(*computed),
         Cell::Blank => None,
-        Cell::Text(text) => panic!("no number: {text}"),
+        Cell::Text(text) | Cell::Printed(text) => panic!("no number: {text}"),
     }
 }
 

@@ -8,5 +8,7 @@ pub mod figures_comparisons;
 pub mod figures_drawing;
 pub mod figures_planform;
 pub mod matrix_tables;
+pub mod noisy_tables;
 pub mod page;
+pub mod published_tables;
 pub mod render;

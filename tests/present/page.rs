@@ -80,7 +80,7 @@ fn page_holds_every_table_number_by_number() {
             for cell in &row.cells {
                 let expected = match cell {
                     Cell::Blank => "<td>".to_owned(),
-                    Cell::Text(text) => format!("<td>{text}"),
+                    Cell::Text(text) | Cell::Printed(text) => format!("<td>{text}"),
                     Cell::Number { computed, published, digits } => {
                         let mut text = format!("<td>{}", digits.write(*computed));
                         if let Some(paper) = published {
@@ -156,6 +156,11 @@ fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
     assert!(html.contains("1.106 % RMS, 5.20 % at worst"));
     assert!(html.contains("Case 4: element 8 asks for 58.4 times its stiffness"));
     assert!(html.contains("Every case did what was asked of it"));
+    assert!(
+        html.contains(
+            "Of the paper's tables, here are 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13; corfem tables prints Table 1"
+        )
+    );
     // The texts of paper/, as HTML: the table of assumptions, the list of differences, its headings a level lower.
     assert!(html.contains("<td>rods 16 to 39</td>") && html.contains("<strong>Initial errors.</strong>"));
     assert!(html.contains("<h3>Passes and tolerances</h3>"));

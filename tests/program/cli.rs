@@ -195,7 +195,9 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
     for arguments in [
         &["cases"][..],
         &["cases", "--groups"],
+        &["tables"],
         &["fewer-modes"],
+        &["noise"],
         &["matrices"],
         &["delta-wing"],
         &["deck", "4"],

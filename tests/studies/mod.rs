@@ -8,3 +8,5 @@ pub mod delta_wing_scenario;
 pub mod matrix_comparison;
 pub mod matrix_comparison_elements;
 pub mod matrix_correction;
+
+pub mod noisy_modes;

@@ -8,7 +8,7 @@ mod html;
 use super::figures::Figure;
 use super::table::{Digits, Table};
 use super::tables::cases::{fit_table, iteration_table, settings_table, summary, tables_of};
-use super::tables::{fewer_modes, matrices};
+use super::tables::{fewer_modes, matrices, paper_tables};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
@@ -68,15 +68,17 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     parts.extend(others.map(|(id, link, heading, body)| (id.to_owned(), link.to_owned(), heading.to_owned(), body)));
     let links: String = parts.iter().map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n")).collect();
     let sections: String = parts.iter().map(|(id, _, heading, body)| section(id, heading, body)).collect();
+    let tables = sections.split("<table id=\"").skip(1).filter_map(|rest| rest.split('"').next());
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {TITLE}</title>\n\
          <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{TITLE}</h1>\n<p>Element stiffnesses of a finite element \
          model, corrected until its natural frequencies and mode shapes agree with those of a ground vibration test. \
-         Four cases of the published example, every number beside the published one.</p>\n</header>\n\
+         Four cases of the published example, every number beside the published one. {}</p>\n</header>\n\
          <nav aria-label=\"Contents\">\n{}</nav>\n<main>\n{}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
+        paper_tables(tables),
         links,
         sections,
     ))

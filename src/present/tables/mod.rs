@@ -6,6 +6,8 @@ pub mod deck;
 pub mod delta_wing;
 pub mod fewer_modes;
 pub mod matrices;
+pub mod noisy_modes;
+pub mod published;
 pub mod readings;
 pub mod stages;
 pub mod table_1;
@@ -37,6 +39,8 @@ pub(super) fn in_words(name: &str) -> String {
         let said = match word {
             "percent" => "error",
             "in" => "gage",
+            "seconds" => "time",
+            "gvt" => "GVT",
             "hz" => "frequency",
             "rms" => "RMS",
             "fem" => "FEM",
@@ -45,6 +49,19 @@ pub(super) fn in_words(name: &str) -> String {
         format!("{said}{end}")
     };
     name.split('_').map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// Which of the paper's tables have these names, in a sentence: `table_3` is Table 3.
+pub fn paper_tables<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let number = |name: &str| name.strip_prefix("table_")?.parse::<usize>().ok();
+    let mut numbers: Vec<usize> = names.into_iter().filter_map(number).collect();
+    numbers.sort_unstable();
+    let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    format!(
+        "Of the paper's tables, here are {}; corfem tables prints Table 1, computed anew, and the others as published, \
+        with their CPU seconds.",
+        numbers.join(", ")
+    )
 }
 
 /// Root mean square.

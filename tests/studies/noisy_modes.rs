@@ -1,0 +1,229 @@
+//! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
+
+use crate::common::tolerances::{
+    BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY, STANDARD_ERRORS,
+};
+use corfem::cases::torque_box::dynamic_points;
+use corfem::cases::{Case, run_case};
+use corfem::method::appendix_b::{
+    LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, generalized_mass, orthogonalize,
+};
+use corfem::method::error::Error;
+use corfem::method::modes::ModeSet;
+use corfem::studies::noisy_modes::{
+    Found, NOISY_CASE, Noise, NoisyModes, NoisyRun, SEEDS, noisy_modes, split_mix_64, with_noise,
+};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use std::sync::OnceLock;
+
+fn case() -> Case {
+    Case::new(NOISY_CASE).expect("a case")
+}
+
+fn exact() -> ModeSet {
+    case().test_modes().expect("test modes").into()
+}
+
+pub fn study() -> &'static NoisyModes {
+    static STUDY: OnceLock<NoisyModes> = OnceLock::new();
+    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).expect("it runs"))
+}
+
+fn unit(shape: DVector<f64>) -> DVector<f64> {
+    let largest = shape[shape.icamax()];
+    shape / largest
+}
+
+/// The changes of all shapes by noise, relative to each shape's largest component, mode by mode.
+fn shape_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
+    let change =
+        |mode: usize| (noisy.shapes.column(mode) - exact.shapes.column(mode)) / exact.shapes.column(mode).amax();
+    (0..exact.len()).flat_map(|mode| change(mode).as_slice().to_vec()).collect()
+}
+
+fn frequency_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
+    noisy.frequencies_hz().iter().zip(exact.frequencies_hz()).map(|(noisy, exact)| noisy / exact - 1.0).collect()
+}
+
+#[test]
+fn the_generator_gives_its_published_numbers() {
+    // Outputs for this seed as printed at https://rosettacode.org/wiki/Pseudo-random_numbers/Splitmix64.
+    let mut state = 1_234_567;
+    let numbers: [u64; 5] = std::array::from_fn(|_| split_mix_64(&mut state));
+    let published = [
+        6_457_827_717_110_365_317,
+        3_203_168_211_198_807_973,
+        9_817_491_932_198_370_423,
+        4_593_380_528_125_082_431,
+        16_408_922_859_458_223_821,
+    ];
+    assert_eq!(numbers, published);
+}
+
+#[test]
+fn noise_is_normal_and_of_the_stated_size() {
+    let (exact, noise) = (exact(), Noise { shape: 0.02, frequency: 0.004 });
+    let noisy: Vec<ModeSet> = (1..=100).map(|seed| with_noise(&exact, noise, seed).unwrap()).collect();
+    let shapes: Vec<f64> = noisy.iter().flat_map(|noisy| shape_changes(&exact, noisy)).collect();
+    let frequencies: Vec<f64> = noisy.iter().flat_map(|noisy| frequency_changes(&exact, noisy)).collect();
+    assert_eq!((shapes.len(), frequencies.len()), (8100, 900));
+    for (changes, size) in [(shapes, noise.shape), (frequencies, noise.frequency)] {
+        let z: Vec<f64> = changes.iter().map(|change| change / size).collect();
+        let n = z.len() as f64;
+        let mean = |of: &dyn Fn(f64) -> f64| z.iter().map(|&z| of(z)).sum::<f64>() / n;
+        let off = |found: f64, expected: f64, variance: f64| (found - expected).abs() / (variance / n).sqrt();
+        let following = z.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / n;
+        // Moments of the standard normal distribution, with the variance of what is averaged.
+        for (what, found, expected, variance) in [
+            ("mean", mean(&|z| z), 0.0, 1.0),
+            ("square", mean(&|z| z * z), 1.0, 2.0),
+            ("cube", mean(&|z| z.powi(3)), 0.0, 15.0),
+            ("fourth power", mean(&|z| z.powi(4)), 3.0, 96.0),
+            ("product with the next", following, 0.0, 1.0),
+        ] {
+            assert!(off(found, expected, variance) < STANDARD_ERRORS, "{what}: {found}");
+        }
+    }
+}
+
+#[test]
+fn noise_that_turns_a_frequency_negative_is_an_error() {
+    let far = Noise { shape: 0.0, frequency: 10.0 };
+    assert!(matches!(with_noise(&exact(), far, 1), Err(Error::NotPositive { .. })));
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed: u64, times in 0.0..3.0_f64) {
+        let exact = exact();
+        let once = with_noise(&exact, Noise::USUAL, seed).unwrap();
+        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed).unwrap());
+        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1)).unwrap());
+        let noise = Noise { shape: times * Noise::USUAL.shape, frequency: times * Noise::USUAL.frequency };
+        let more = with_noise(&exact, noise, seed).unwrap();
+        for changes in [shape_changes, frequency_changes] {
+            for (once, more) in changes(&exact, &once).iter().zip(changes(&exact, &more)) {
+                prop_assert!((times * once - more).abs() < ROUND_OFF);
+            }
+        }
+    }
+
+    #[test]
+    fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed: u64) {
+        let (mass, limits) = (case().reconstruction.mass(), MovementLimits::default());
+        let raw = with_noise(&exact(), Noise::USUAL, seed).unwrap();
+        let all = orthogonalize(&raw, &mass).unwrap();
+        let screened = examine(&raw, &mass, Supports::Held, &limits).unwrap();
+        for modes in [&all.modes, &screened.modes] {
+            let off = generalized_mass(&modes.shapes, &mass) - DMatrix::identity(modes.len(), modes.len());
+            prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
+        }
+        let flexibility = |modes: &ModeSet| modes.omega_squared.map(f64::recip).sum();
+        prop_assert!((flexibility(&all.modes) / flexibility(&raw) - 1.0).abs() < MATRIX_ROUND_OFF);
+        for &mode in &screened.kept {
+            let movement = screened.reports[mode].movement.unwrap();
+            prop_assert!(movement.shape <= limits.shape && movement.frequency.abs() <= limits.frequency);
+        }
+    }
+}
+
+#[test]
+fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
+    let (exact, mass) = (exact(), case().reconstruction.mass());
+    let (mut before, mut after) = (vec![0.0; 9], vec![0.0; 9]);
+    for seed in SEEDS {
+        let raw = with_noise(&exact, Noise::USUAL, seed).unwrap();
+        let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
+        for mode in 0..9 {
+            let error = |modes: &ModeSet| {
+                let [found, right] = [modes, &exact].map(|modes| unit(modes.shapes.column(mode).into_owned()));
+                (found - right).norm_squared()
+            };
+            before[mode] += error(&raw);
+            after[mode] += error(&orthogonal);
+        }
+    }
+    let growth: Vec<f64> = (0..9).map(|mode| (after[mode] / before[mode]).sqrt()).collect();
+    // The growth is largest where the mode moves the heaviest points, and the highest mode moves the lightest alone.
+    let generalized_mass = |mode: usize| {
+        let shape = unit(exact.shapes.column(mode).into_owned());
+        shape.dot(&(&mass * &shape))
+    };
+    let heaviest = (0..9).max_by(|a, b| generalized_mass(*a).total_cmp(&generalized_mass(*b)));
+    let lightest = (0..9).min_by(|a, b| generalized_mass(*a).total_cmp(&generalized_mass(*b)));
+    assert_eq!((heaviest, lightest), (Some(5), Some(8)));
+    assert!(growth[5] > 20.0 && growth[8] < 0.2, "{growth:?}");
+    assert!(growth[..5].iter().chain(&growth[6..8]).all(|growth| (1.0..4.0).contains(growth)), "{growth:?}");
+}
+
+#[test]
+fn the_box_is_held_so_that_its_modes_are_not_balanced() {
+    let case = case();
+    let matrices = case.model().unwrap().matrices(&[1.0; 15]).unwrap();
+    let points = dynamic_points(&case.reconstruction).unwrap();
+    // Plunge, roll and pitch of points that move along z.
+    let motions = DMatrix::from_fn(9, 3, |i, j| [1.0, points[i].y, points[i].x][j]);
+    let [stiffness, mass] = [&matrices.stiffness, &matrices.mass].map(|matrix| motions.transpose() * matrix * &motions);
+    let roots = (mass.try_inverse().unwrap() * stiffness).complex_eigenvalues().map(|root| root.re);
+    let expected = roots.max() / exact().omega_squared[0];
+    let ratio = study().support_ratio.expect("held");
+    assert!((ratio / expected - 1.0).abs() < BALANCE_EQUATIONS, "{ratio} {expected}");
+    assert!(ratio > LARGEST_SUSPENSION_RATIO);
+}
+
+/// The three correlations of a run with the test modes that each was given.
+fn sides(run: &NoisyRun) -> [(&Found, ModeSet); 3] {
+    let (exact, mass) = (exact(), case().reconstruction.mass());
+    let raw = run.seed.map_or_else(|| exact.clone(), |seed| with_noise(&exact, Noise::USUAL, seed).unwrap());
+    let screened = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
+    assert_eq!(screened.kept, run.kept);
+    let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
+    [(&run.raw, raw), (&run.orthogonal, orthogonal), (&run.screened, screened.modes)]
+}
+
+#[test]
+fn without_noise_it_is_the_case_itself() {
+    let first = &study().runs[0];
+    assert_eq!((first.seed, &first.kept), (None, &(0..9).collect()));
+    let result = run_case(&case(), |_, _| {}).unwrap();
+    let passes = &result.correlation.passes;
+    let best = (0..passes.len()).min_by(|a, b| {
+        let sum = |pass: &usize| passes[*pass].check.errors.sum();
+        sum(a).total_cmp(&sum(b))
+    });
+    let best = best.expect("a pass");
+    for found in [&first.raw, &first.orthogonal, &first.screened] {
+        assert_eq!(found.converged, result.correlation.converged);
+        assert_eq!(found.iterations, passes.iter().map(|pass| pass.inner.iterations.len()).sum::<usize>());
+        for (gage, expected) in found.gages_in.iter().zip(&result.pass_gages[best]) {
+            assert!((gage / expected - 1.0).abs() < SAME_HISTORY);
+        }
+        assert!((found.error_sum / passes[best].check.errors.sum() - 1.0).abs() < SAME_HISTORY);
+    }
+}
+
+#[test]
+fn errors_are_those_of_a_model_with_the_gages_found() {
+    let case = case();
+    assert_eq!(study().runs.iter().filter_map(|run| run.seed).collect::<Vec<_>>(), SEEDS.collect::<Vec<_>>());
+    for run in &study().runs {
+        for (found, test) in sides(run) {
+            let model = case.model_with(&found.gages_in).unwrap();
+            let errors = |test: &ModeSet| model.analyze(&[1.0; 15], test, None).unwrap().exact.errors;
+            let truth = errors(&exact());
+            // Nine shear panels and six membranes.
+            let squares = 9.0 * found.shear_gage_rms.powi(2) + 6.0 * found.membrane_gage_rms.powi(2);
+            for (found, expected) in [
+                (found.error_sum, errors(&test).sum()),
+                (found.true_frequency_rms, truth.frequency_rms()),
+                (found.true_shape_rms, truth.shape_rms()),
+                (found.gage_rms, (squares / 15.0).sqrt()),
+            ] {
+                assert!((found / expected - 1.0).abs() < DIFFERENCE_ROUND_OFF, "{found} {expected}");
+            }
+        }
+    }
+}
