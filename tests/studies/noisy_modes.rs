@@ -10,6 +10,7 @@ use corfem::method::appendix_b::{
 };
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
+use corfem::method::step::StepRule;
 use corfem::studies::noisy_modes::{
     Found, NOISY_CASE, Noise, NoisyModes, NoisyRun, SEEDS, noisy_modes, split_mix_64, with_noise,
 };
@@ -185,10 +186,12 @@ fn sides(run: &NoisyRun) -> [(&Found, ModeSet); 3] {
 }
 
 #[test]
-fn without_noise_it_is_the_case_itself() {
+fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
     let first = &study().runs[0];
     assert_eq!((first.seed, &first.kept), (None, &(0..9).collect()));
-    let result = run_case(&case(), |_, _| {}).unwrap();
+    let mut case = case();
+    case.settings.inner.step = StepRule::default();
+    let result = run_case(&case, |_, _| {}).unwrap();
     let passes = &result.correlation.passes;
     let best = (0..passes.len()).min_by(|a, b| {
         let sum = |pass: &usize| passes[*pass].check.errors.sum();
