@@ -39,7 +39,7 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
-    solve_lower(&lower, &mut inverse_factor);
+    solve_lower(&lower, &mut inverse_factor)?;
     let stiffness = inverse_factor.tr_mul(&inverse_factor);
     Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }

@@ -3,12 +3,15 @@
 use crate::method::elements::mass::corner_volumes;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, cholesky, from_faer, to_faer};
+use crate::method::linear_algebra::{
+    check_finite, check_length, check_shape, check_solution, cholesky, from_faer, to_faer,
+};
 use crate::method::structure::{DIRECTIONS, Element, StructuralDof, Structure, positive};
-use faer::Side;
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::Llt;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky};
 use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, Mat, Par, Side, Spec};
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
@@ -80,7 +83,48 @@ fn entries(elements: &[ElementMatrix], sizes: &[f64]) -> impl Iterator<Item = (u
 #[derive(Debug)]
 pub struct FactorizedStiffness {
     scale: DVector<f64>,
-    factor: Llt<usize, f64>,
+    factor: SparseFactor,
+}
+
+/// A sparse Cholesky factor, computed and applied in one thread whatever the library's global setting: the library's parallel
+/// kernels have open reports of wrong results on large matrices.
+#[derive(Debug)]
+struct SparseFactor {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+}
+
+impl SparseFactor {
+    /// None for a matrix that is not positive definite to working precision.
+    fn new(matrix: &SparseColMat<usize, f64>) -> Result<Option<Self>, Error> {
+        let failed = Error::NoConvergence;
+        let what = "sparse Cholesky";
+        let amd = SymmetricOrdering::Amd;
+        let symbolic = factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, amd, Default::default());
+        let symbolic = symbolic.map_err(|_| failed(what))?;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| failed(what))?;
+        let (none, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
+        let matrix = matrix.as_ref();
+        let done =
+            symbolic.factorize_numeric_llt(&mut values, matrix, Side::Lower, none, Par::Seq, stack, Spec::default());
+        let is_definite = done.is_ok();
+        Ok(is_definite.then_some(Self { symbolic, values }))
+    }
+
+    /// Solves for every column in place.
+    fn solve(&self, columns: &mut Mat<f64>) {
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns.ncols(), Par::Seq);
+        let (factor, mut memory) = (LltRef::new(&self.symbolic, &self.values), MemBuffer::new(scratch));
+        factor.solve_in_place_with_conj(Conj::No, columns.as_mut(), Par::Seq, MemStack::new(&mut memory));
+    }
+
+    fn solved(&self, right: &DVector<f64>) -> DVector<f64> {
+        let mut column = Mat::from_fn(right.len(), 1, |i, _| right[i]);
+        self.solve(&mut column);
+        DVector::from_fn(right.len(), |i, _| column[(i, 0)])
+    }
 }
 
 impl FactorizedStiffness {
@@ -92,7 +136,8 @@ impl FactorizedStiffness {
     /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a bad size;
     /// [`Error::Empty`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
     /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
-    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite.
+    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
+    /// factor does not solve its own matrix.
     pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
         for (element, &size) in elements.iter().zip(sizes) {
             positive("size", || format!("element {}", element.label), size)?;
@@ -121,7 +166,14 @@ impl FactorizedStiffness {
                 lower.map(|(row, column, value)| Triplet::new(row, column, value * scale[row] * scale[column]));
             SparseColMat::try_new_from_triplets(count, count, &shifts.chain(scaled).collect::<Vec<_>>())
                 .map_err(|_| Error::NoConvergence("sparse assembly"))
-                .map(|matrix| matrix.sp_cholesky(Side::Lower).ok())
+                .and_then(|matrix| SparseFactor::new(&matrix))
+        };
+        let times = |x: &DVector<f64>| {
+            let mut product = DVector::zeros(count);
+            for (row, column, value) in entries(elements, sizes) {
+                product[row] += value * scale[row] * scale[column] * x[column];
+            }
+            product
         };
         let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
@@ -129,6 +181,7 @@ impl FactorizedStiffness {
             let Some(factor) = factorize(shift)? else { continue };
             let (smallest, motion) = weakest_motion(&factor, count);
             if shift == 0.0 && smallest > round_off {
+                check_solution("structural stiffness", times, |right| factor.solved(right), &start_vector(count))?;
                 return Ok(Self { scale, factor });
             }
             return singular(motion.component_mul(&scale).iamax(), smallest - shift);
@@ -149,22 +202,23 @@ impl FactorizedStiffness {
             matrix
         };
         let mut solved = to_faer(&scaled(loads.clone()));
-        self.factor.solve_in_place(&mut solved);
+        self.factor.solve(&mut solved);
         Ok(scaled(from_faer(solved.as_ref())))
     }
 }
 
 /// Smallest eigenvalue and its vector of a factorized matrix, by inverse iteration.
-fn weakest_motion(factor: &Llt<usize, f64>, size: usize) -> (f64, DVector<f64>) {
-    // A start with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
-    let golden = 0.618_033_988_749_894_8;
-    let mut motion = DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize();
-    let mut smallest = 1.0;
+fn weakest_motion(factor: &SparseFactor, size: usize) -> (f64, DVector<f64>) {
+    let (mut motion, mut smallest) = (start_vector(size), 1.0);
     for _ in 0..INVERSE_ITERATIONS {
-        let mut next = faer::Mat::from_fn(size, 1, |i, _| motion[i]);
-        factor.solve_in_place(&mut next);
-        motion = DVector::from_fn(size, |i, _| next[(i, 0)]);
+        motion = factor.solved(&motion);
         smallest = 1.0 / motion.normalize_mut();
     }
     (smallest, motion)
+}
+
+/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
+fn start_vector(size: usize) -> DVector<f64> {
+    let golden = 0.618_033_988_749_894_8;
+    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
 }

@@ -66,9 +66,19 @@ pub enum Error {
         /// What it was.
         found: f64,
     },
-    /// A lower limit above its upper limit, or limits that exclude the start.
-    #[error("{what}: expected a lower limit below the upper one, found {lower} and {upper}")]
+    /// Limits that are not positive and finite, or the lower one not below the upper one.
+    #[error("{what}: expected a positive lower limit below a finite upper one, found {lower} and {upper}")]
     Limits {
+        /// The limits.
+        what: String,
+        /// Lower limit.
+        lower: f64,
+        /// Upper limit.
+        upper: f64,
+    },
+    /// Limits on a parameter's factor that exclude where it starts, which is one.
+    #[error("{what}: expected limits that hold its start, 1, found {lower} to {upper}")]
+    StartOutside {
         /// The limits.
         what: String,
         /// Lower limit.
@@ -239,6 +249,28 @@ pub enum Error {
         orders: usize,
         /// Largest relative change of a root in the last of them.
         last_change: f64,
+    },
+    /// A factorization that does not solve its own matrix.
+    #[error("{what}: expected a solution to {allowed:.1e} of its loads, found a residual of {residual:.1e}")]
+    WrongSolution {
+        /// The matrix.
+        what: &'static str,
+        /// Residual of a probe over the norm of its loads.
+        residual: f64,
+        /// The largest that round-off explains.
+        allowed: f64,
+    },
+    /// Modes found that are not as many as an independent count says there are.
+    #[error(
+        "modes below {bound:.6e} rad^2/s^2: expected {counted} by the inertia of the shifted pencil, found {found}"
+    )]
+    Miscounted {
+        /// The bound on the squared circular frequency.
+        bound: f64,
+        /// How many there are.
+        counted: usize,
+        /// How many were found.
+        found: usize,
     },
     /// An iterative library routine did not converge.
     #[error("{0}: expected the library's routine to converge, found that it did not")]

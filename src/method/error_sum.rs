@@ -3,6 +3,7 @@
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use nalgebra::{DVector, DVectorView};
+use serde::{Deserialize, Serialize};
 
 /// Square-root-of-sum-of-squares (SRSS) errors over the test modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +33,58 @@ impl Errors {
     }
 }
 
+/// How errors over the test modes are measured by tolerances and by the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ErrorMeasure {
+    /// As a sum over the modes compared, whatever their number: the paper's.
+    Sum,
+    /// As the sum that nine modes of the same RMS error would have, $3 e/\sqrt n$. The paper's settings were found with nine
+    /// modes; so they mean the same for any other number, and the step (13) is as long.
+    #[default]
+    NineModes,
+}
+
+impl ErrorMeasure {
+    /// What the errors over `modes` test modes are multiplied with.
+    pub fn scale(self, modes: usize) -> f64 {
+        match self {
+            Self::Sum => 1.0,
+            Self::NineModes => 3.0 / (modes as f64).sqrt(),
+        }
+    }
+}
+
+/// The errors of one test mode.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ModeError {
+    /// Relative difference of its frequency, with its sign.
+    pub frequency: f64,
+    /// Root mean square difference of its shape over the DOF, both of unit largest component.
+    pub shape: f64,
+}
+
+/// The errors of every test mode, whose squares (5) and (6) add up.
+pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Vec<ModeError> {
+    let mut difference = DVector::zeros(test.shapes.nrows());
+    (0..test.len()).map(|j| mode_error(analysis, pairing, test, j, &mut difference)).collect()
+}
+
+fn mode_error(
+    analysis: &ModeSet,
+    pairing: &Pairing,
+    test: &ModeSet,
+    j: usize,
+    difference: &mut DVector<f64>,
+) -> ModeError {
+    let i = pairing.analysis_mode[j];
+    let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
+    let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
+    unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
+    let mean_square = difference.norm_squared() / difference.len() as f64;
+    ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
+}
+
 /// SRSS errors of the paired analysis modes against the test modes.
 ///
 /// $$ e_f = \Big[\sum_i \Big(\frac{f_{Fi} - f_{Gi}}{f_{Gi}}\Big)^2\Big]^{1/2}, \qquad
@@ -41,16 +94,12 @@ impl Errors {
 /// frequency error is relative: the paper prints a difference but its tables hold the relative one
 /// (`paper/errata.md`).
 pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
-    let dof_count = test.shapes.nrows();
     let (mut frequency, mut shape) = (0.0, 0.0);
-    let mut difference = DVector::zeros(dof_count);
+    let mut difference = DVector::zeros(test.shapes.nrows());
     for j in 0..test.len() {
-        let i = pairing.analysis_mode[j];
-        let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
-        frequency += (ratio - 1.0).powi(2);
-        let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
-        unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
-        shape += difference.norm_squared() / dof_count as f64;
+        let error = mode_error(analysis, pairing, test, j, &mut difference);
+        frequency += error.frequency.powi(2);
+        shape += error.shape.powi(2);
     }
     Errors { frequency: frequency.sqrt(), shape: shape.sqrt(), mode_count: test.len() }
 }

@@ -2,7 +2,7 @@
 
 use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::{Error, positive_setting};
-use crate::method::error_sum::Errors;
+use crate::method::error_sum::{ErrorMeasure, Errors};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
@@ -18,7 +18,7 @@ pub struct InnerSettings {
     pub relaxation: f64,
     /// Bounds of one iteration's factor.
     pub factor_range: Range,
-    /// Tolerance TOLI on the error sum $e_S$.
+    /// Tolerance TOLI on the error sum $e_S$, in the measure below.
     pub tolerance: f64,
     /// How often a step that does not lower $e_S$ is halved before the place counts as a local minimum; zero stops
     /// at the first rise.
@@ -31,6 +31,8 @@ pub struct InnerSettings {
     pub step: StepRule,
     /// How the changes of several iterations come together.
     pub accumulation: Accumulation,
+    /// How errors are measured by the tolerances and by the step.
+    pub measure: ErrorMeasure,
     /// How modes follow the factors.
     pub update: UpdateRule,
 }
@@ -48,6 +50,7 @@ impl Default for InnerSettings {
             derivatives: DerivativeRule::default(),
             step: StepRule::default(),
             accumulation: Accumulation::default(),
+            measure: ErrorMeasure::default(),
             update: UpdateRule::default(),
         }
     }
@@ -131,6 +134,7 @@ pub fn run(
     }
     let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
     let start = state.errors;
+    let scale = settings.measure.scale(model.test.len());
     let mut iterations: Vec<Iteration> = Vec::new();
     let mut first_unlimited_factors = Vec::new();
     let stop = loop {
@@ -140,7 +144,7 @@ pub fn run(
         let changes = error_changes(model, &state, settings.derivatives)?;
         let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step);
         let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
-        let unlimited = unlimited_factors(&changes, &stiffnesses, state.errors.sum(), relaxation);
+        let unlimited = unlimited_factors(&changes, &stiffnesses, scale * state.errors.sum(), relaxation);
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
@@ -161,7 +165,7 @@ pub fn run(
             limits: step.limits,
             errors: state.errors,
         });
-        if state.errors.sum() < settings.tolerance {
+        if scale * state.errors.sum() < settings.tolerance {
             break Stop::Tolerance;
         }
     };

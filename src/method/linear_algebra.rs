@@ -62,9 +62,18 @@ pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), 
     Err(Error::NotSymmetric { what, row, column, difference: apart[(row, column)] / largest })
 }
 
-/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation.
+/// Hands on a matrix whose entries are all finite.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+pub(crate) fn finite(what: &'static str, matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    check_finite(what, &matrix).map(|()| matrix)
+}
+
+/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
+/// has none and comes back as it is.
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    0.5 * (matrix + matrix.transpose())
+    if matrix.is_square() { 0.5 * matrix + 0.5 * matrix.transpose() } else { matrix.clone() }
 }
 
 /// Lower Cholesky factor $L$ of a symmetric positive definite matrix, $A = L L^t$.
@@ -87,14 +96,47 @@ pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) 
     bad.map_or(Ok(lower), |dof| Err(Error::NotPositiveDefinite { what, dof }))
 }
 
+/// Checks a factorization of a symmetric matrix $A$ by a probe $x$: that it solves $A y = A x$ to
+///
+/// $$ \lVert A y - A x \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
+///
+/// which is the round-off of a stable solver with room for its constant, where $A$ (n × n) has unit diagonal and some tens of
+/// entries in a row. `product` is $A x$ and `solve` $A^{-1} b$.
+///
+/// # Errors
+/// [`Error::WrongSolution`].
+pub fn check_solution(
+    what: &'static str,
+    product: impl Fn(&DVector<f64>) -> DVector<f64>,
+    solve: impl Fn(&DVector<f64>) -> DVector<f64>,
+    probe: &DVector<f64>,
+) -> Result<(), Error> {
+    let loads = product(probe);
+    let found = solve(&loads);
+    let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
+    let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
+    let (residual, allowed) = (residual / size, allowed / size);
+    if residual <= allowed { Ok(()) } else { Err(Error::WrongSolution { what, residual, allowed }) }
+}
+
 /// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.
-pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+///
+/// # Errors
+/// [`Error::WrongShape`] unless $L$ is square and has as many rows as $R$.
+pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) -> Result<(), Error> {
+    check_shape("lower triangle", lower, right.nrows(), right.nrows())?;
     lower.solve_lower_triangular_unchecked_mut(right);
+    Ok(())
 }
 
 /// Solves $L^t X = R$ in place for a lower triangular $L$ with nonzero diagonal.
-pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) {
+///
+/// # Errors
+/// [`Error::WrongShape`] unless $L$ is square and has as many rows as $R$.
+pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) -> Result<(), Error> {
+    check_shape("lower triangle", lower, right.nrows(), right.nrows())?;
     lower.tr_solve_lower_triangular_unchecked_mut(right);
+    Ok(())
 }
 
 /// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal: what the eigenproblem $A v = \mu L L^t v$ becomes
@@ -113,11 +155,18 @@ pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) 
 /// $$ A Y = Y \mathrm{diag}(\mu), \qquad Y^t Y = I $$
 ///
 /// # Errors
-/// Those of [`check_symmetric`]; [`Error::NoConvergence`].
+/// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
-    let eigen = to_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
-    Ok((DVector::from_fn(matrix.nrows(), |i, _| eigen.S()[i]), from_faer(eigen.U())))
+    if matrix.is_empty() {
+        return Err(Error::Empty { what });
+    }
+    // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
+    let largest = matrix.amax();
+    let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
+    let scaled = matrix / unit;
+    let eigen = to_faer(&scaled).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
+    Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
 }
 
 /// The same matrix, real or complex, for faer.

@@ -21,3 +21,4 @@ pub mod derivatives;
 pub mod step;
 pub mod inner_loop;
 pub mod outer_loop;
+pub mod verdict;

@@ -37,6 +37,7 @@ impl ModeSet {
         check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || test_mode(mode), frequency)?;
+            positive("squared frequency", || test_mode(mode), (2.0 * PI * frequency).powi(2))?;
             positive("largest component", || test_mode(mode), shapes.column(mode).amax())?;
         }
         let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
@@ -68,14 +69,16 @@ impl ModeSet {
     ///
     /// # Errors
     /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
-    /// [`Error::NotPositive`] for a generalized mass that is not positive.
+    /// [`Error::NotPositive`] for a generalized mass or a squared frequency that is not positive.
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
+        check_shape("dynamic mass", mass, mass.nrows(), mass.nrows())?;
         check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
         check_finite("test mode shapes", &self.shapes)?;
         let mut scaled = self.clone();
         for (mode, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
             let generalized_mass = shape.dot(&(mass * &shape));
             positive("generalized mass", || test_mode(mode), generalized_mass)?;
+            positive("squared frequency", || test_mode(mode), self.omega_squared[mode])?;
             shape /= generalized_mass.sqrt();
         }
         Ok(scaled)
@@ -154,7 +157,7 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
         return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
     }
-    solve_lower_transposed(&lower, &mut shapes);
+    solve_lower_transposed(&lower, &mut shapes)?;
     Modes::ascending(omega_squared, shapes).lowest(count)
 }
 

@@ -4,6 +4,7 @@ use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::model::{Check, ModalModel, Range};
+use crate::method::verdict::Verdict;
 use serde::Serialize;
 
 /// When analysis and test count as correlated, and how long to try.
@@ -61,17 +62,19 @@ pub struct Correlation {
     pub initial: Check,
     /// The passes made.
     pub passes: Vec<Pass>,
-    /// Whether the last exact solution meets the tolerances.
+    /// The pass with the best factors, from zero; none when no pass improved on the start.
+    pub best: Option<usize>,
+    /// Whether an exact solution meets the tolerances.
     pub converged: bool,
+    /// What it came to.
+    pub verdict: Verdict,
 }
 
 impl Correlation {
-    /// The factors of the pass with the lowest exact error sum; all one when no pass improved on the start.
+    /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
+    /// improved on the start.
     pub fn best_factors(&self) -> Vec<f64> {
-        let error_sum = |pass: &Pass| pass.check.errors.sum();
-        let improved = self.passes.iter().filter(|pass| error_sum(pass) < self.initial.errors.sum());
-        let best = improved.min_by(|a, b| error_sum(a).total_cmp(&error_sum(b)));
-        best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
+        self.best.map_or_else(|| vec![1.0; self.parameter_count], |pass| self.passes[pass].factors.clone())
     }
 }
 
@@ -96,7 +99,7 @@ pub fn correlate<E: From<Error>>(
     positive_setting("shape_tolerance", settings.shape_tolerance)?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
-    let initial = model.exact.clone();
+    let (first, initial) = (model.clone(), model.exact.clone());
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&initial.errors, settings);
@@ -121,11 +124,24 @@ pub fn correlate<E: From<Error>>(
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
-    Ok(Correlation { parameter_count: total_ranges.len(), initial, passes, converged })
+    // The start stands before the passes. Whether it is within tolerance comes before how large its error sum is.
+    let checks = std::iter::once(&initial).chain(passes.iter().map(|pass| &pass.check));
+    let place = |(_, check): &(usize, &Check)| (!meets(&check.errors, settings), check.errors.sum());
+    let better = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+    let best = checks.enumerate().min_by(|a, b| better(&place(a), &place(b))).map_or(0, |(row, _)| row);
+    let check = if best == 0 { &initial } else { &passes[best - 1].check };
+    let ones = vec![1.0; total_ranges.len()];
+    let factors = if best == 0 { &ones } else { &passes[best - 1].factors };
+    let converged = meets(&check.errors, settings);
+    let verdict = Verdict::new(&first, &passes, check, factors, total_ranges, converged);
+    let parameter_count = total_ranges.len();
+    Ok(Correlation { parameter_count, initial, passes, best: best.checked_sub(1), converged, verdict })
 }
 
+/// Whether errors meet the tolerances in the measure of the settings.
 fn meets(errors: &Errors, settings: &Settings) -> bool {
-    errors.sum() <= settings.error_sum_tolerance
-        && errors.frequency <= settings.frequency_tolerance
-        && errors.shape <= settings.shape_tolerance
+    let scale = settings.inner.measure.scale(errors.mode_count);
+    scale * errors.sum() <= settings.error_sum_tolerance
+        && scale * errors.frequency <= settings.frequency_tolerance
+        && scale * errors.shape <= settings.shape_tolerance
 }

@@ -47,6 +47,8 @@ pub fn correlation(solver: &str, names: &[&str], test: &ModeSet, run: &Correlati
     json!({
         "solver": solver,
         "converged": run.converged,
+        "verdict": run.verdict,
+        "verdict_in_words": run.verdict.in_words(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>()),
         "parameters": names,
         "test_frequencies_hz": test.frequencies_hz(),
         "initial": check(&run.initial),

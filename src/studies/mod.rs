@@ -1,6 +1,7 @@
 //! Studies beyond the paper's own cases.
 
 pub mod delta_wing;
+pub mod free_modes;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod noisy_modes;

@@ -5,10 +5,10 @@ use crate::common::strategies::{orthogonal, positive_definite, symmetric};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen,
-    symmetric_part,
+    check_finite, check_shape, check_solution, check_symmetric, cholesky, solve_lower, solve_lower_transposed,
+    symmetric_eigen, symmetric_part,
 };
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 /// Any size from a single DOF to the box's.
@@ -42,10 +42,10 @@ proptest! {
     ) {
         let lower = cholesky("test matrix", &matrix, 0.0).unwrap();
         let mut solution = right.clone();
-        solve_lower(&lower, &mut solution);
+        solve_lower(&lower, &mut solution).expect("they fit");
         prop_assert!(relative_distance(&(&lower * solution), &right) <= MATRIX_ROUND_OFF);
         let mut solution = right.clone();
-        solve_lower_transposed(&lower, &mut solution);
+        solve_lower_transposed(&lower, &mut solution).expect("they fit");
         prop_assert!(relative_distance(&(lower.transpose() * solution), &right) <= MATRIX_ROUND_OFF);
     }
 
@@ -220,5 +220,31 @@ fn of_equal_asymmetries_the_first_is_named() {
     match check_symmetric("test matrix", &matrix) {
         Err(Error::NotSymmetric { row, column, .. }) => assert_eq!((row, column), (2, 0)),
         other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_solver_that_does_not_solve_is_refused_with_its_residual() {
+    let matrix = DMatrix::from_fn(6, 6, |i, j| if i == j { 1.0 } else { 0.3 / (1.0 + i.abs_diff(j) as f64) });
+    let inverse = matrix.clone().try_inverse().expect("it is regular");
+    let probe = DVector::from_fn(6, |i, _| 1.0 + i as f64);
+    let product = |x: &DVector<f64>| &matrix * x;
+    check_solution("test matrix", product, |right| &inverse * right, &probe).expect("it solves");
+    // One wrong entry, as a lost update of a parallel kernel leaves it.
+    let mut wrong = inverse.clone();
+    wrong[(4, 2)] += 1e-9;
+    match check_solution("test matrix", product, |right| &wrong * right, &probe) {
+        Err(Error::WrongSolution { what: "test matrix", residual, allowed }) => assert!(residual > allowed),
+        other => panic!("{other:?}"),
+    }
+    let nothing = check_solution("test matrix", product, |_| DVector::from_element(6, f64::NAN), &probe);
+    assert!(matches!(nothing, Err(Error::WrongSolution { .. })));
+}
+
+#[test]
+fn triangles_that_do_not_fit_are_refused() {
+    let (lower, mut right) = (DMatrix::identity(3, 3), DMatrix::zeros(4, 2));
+    for solved in [solve_lower(&lower, &mut right), solve_lower_transposed(&lower, &mut right)] {
+        assert!(matches!(solved, Err(Error::WrongShape { what: "lower triangle", .. })));
     }
 }

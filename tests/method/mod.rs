@@ -28,6 +28,7 @@ pub mod groups;
 pub mod mass_parameters;
 pub mod mass_parameters_bad_input;
 pub mod modal;
+pub mod condensation;
 pub mod model;
 pub mod model_refusals;
 
@@ -61,6 +62,7 @@ pub mod derivatives;
 
 pub mod step;
 pub mod step_matrix;
+pub mod step_scale;
 
 pub mod inner_loop;
 pub mod inner_loop_bad_input;
@@ -68,9 +70,11 @@ pub mod inner_loop_close_roots;
 pub mod inner_loop_stops;
 
 pub mod mass_correlation;
+pub mod no_panic;
 pub mod outer_loop;
 pub mod outer_loop_bad_input;
 pub mod outer_loop_stops;
+pub mod verdict;
 
 pub mod alternatives;
 pub mod errata;

@@ -18,17 +18,19 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
     let refused = |elements: &[usize], lower: f64, upper: f64| {
         let model = chain(vec![group("some", elements, Some(Range { lower, upper }))]).unwrap();
         match model.factor_ranges() {
-            Err(Error::Limits { what, lower, upper }) => {
-                assert_eq!(what, "factor of parameter some");
-                (lower, upper)
-            }
+            Err(Error::Limits { what, lower, upper }) => (what, lower, upper, "crossed"),
+            Err(Error::StartOutside { what, lower, upper }) => (what, lower, upper, "start"),
             other => panic!("expected limits that cannot be met, found {other:?}"),
         }
     };
-    assert_eq!(refused(&[1, 3], 3.0, 8.0), (1.5, 1.0), "2 must grow, 8 must not");
-    assert_eq!(refused(&[1], 3.0, 4.0), (1.5, 2.0), "the start is below");
-    assert_eq!(refused(&[1], 0.5, 1.0), (0.25, 0.5), "the start is above");
-    assert_eq!(refused(&[1], 0.0, 4.0), (0.0, 2.0), "a bound of zero");
+    let what = || "factor of parameter some".to_owned();
+    assert_eq!(refused(&[1, 3], 3.0, 8.0), (what(), 1.5, 1.0, "crossed"), "2 must grow, 8 must not");
+    assert_eq!(refused(&[1], 3.0, 4.0), (what(), 1.5, 2.0, "start"), "the start is below");
+    assert_eq!(refused(&[1], 0.5, 1.0), (what(), 0.25, 0.5, "start"), "the start is above");
+    assert_eq!(refused(&[1], 0.0, 4.0), (what(), 0.0, 2.0, "crossed"), "a bound of zero");
+    let error = chain(vec![group("some", &[1], Some(Range { lower: 3.0, upper: 4.0 }))]).unwrap().factor_ranges();
+    let said = error.unwrap_err().to_string();
+    assert_eq!(said, "factor of parameter some: expected limits that hold its start, 1, found 1.5 to 2");
 }
 
 #[test]

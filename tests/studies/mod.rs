@@ -9,4 +9,5 @@ pub mod matrix_comparison;
 pub mod matrix_comparison_elements;
 pub mod matrix_correction;
 
+pub mod free_modes;
 pub mod noisy_modes;

@@ -95,6 +95,6 @@ fn suspension_modes(
         .map_err(|error| error.or_dependent("rigid-body vector"))?;
     let reduced = symmetric_part(&reduced(&lower, &rigid_body.tr_mul(&(stiffness * rigid_body))));
     let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &reduced)?;
-    solve_lower_transposed(&lower, &mut modes);
+    solve_lower_transposed(&lower, &mut modes)?;
     Ok((squared, modes))
 }

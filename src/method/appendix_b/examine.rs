@@ -58,7 +58,7 @@ pub enum Supports<'a> {
 
 /// Whether a test mode is kept, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum ModeVerdict {
     /// Kept.
     Kept,
     /// Deleted: balancing changed its shape by more than the limit.
@@ -75,7 +75,7 @@ pub struct ModeReport {
     /// Movement by orthogonalization among the modes not yet deleted; none when balancing deleted it.
     pub movement: Option<Movement>,
     /// Kept or deleted.
-    pub verdict: Verdict,
+    pub verdict: ModeVerdict,
 }
 
 /// Test modes fit for correlation, and the report on all of them.
@@ -108,7 +108,7 @@ pub fn examine(
 ) -> Result<Examination, Error> {
     limits.check()?;
     checked_generalized_masses(raw, mass)?;
-    let unmoved = ModeReport { balance: None, movement: None, verdict: Verdict::Kept };
+    let unmoved = ModeReport { balance: None, movement: None, verdict: ModeVerdict::Kept };
     let (mut balanced, mut reports) = (raw.clone(), vec![unmoved; raw.len()]);
     if let Supports::Free { stiffness, rigid_body } = supports {
         let Balanced { shapes, change, .. } = balance(raw, stiffness, mass, rigid_body)?;
@@ -116,11 +116,11 @@ pub fn examine(
         for (report, change) in reports.iter_mut().zip(change) {
             report.balance = Some(change);
             if change > limits.balance {
-                report.verdict = Verdict::Unbalanced;
+                report.verdict = ModeVerdict::Unbalanced;
             }
         }
     }
-    let mut kept: Vec<usize> = (0..raw.len()).filter(|&mode| reports[mode].verdict == Verdict::Kept).collect();
+    let mut kept: Vec<usize> = (0..raw.len()).filter(|&mode| reports[mode].verdict == ModeVerdict::Kept).collect();
     if kept.is_empty() {
         return Err(Error::Empty { what: "test modes within the limits" });
     }
@@ -136,7 +136,7 @@ pub fn examine(
             return Ok(Examination { modes: result.modes, kept, reports });
         }
         let deleted = kept.remove(most_overlapping(&result, limits));
-        reports[deleted].verdict = Verdict::NotOrthogonal;
+        reports[deleted].verdict = ModeVerdict::NotOrthogonal;
     }
 }
 

@@ -16,7 +16,7 @@ mod orthogonalize;
 mod rigid_body;
 
 pub use balance::{Balanced, LARGEST_SUSPENSION_RATIO, balance};
-pub use examine::{Examination, ModeReport, MovementLimits, Supports, Verdict, examine};
+pub use examine::{Examination, ModeReport, ModeVerdict, MovementLimits, Supports, examine};
 pub use orthogonalize::{Movement, Orthogonalized, generalized_mass, orthogonalize};
 pub use rigid_body::{ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors};
 

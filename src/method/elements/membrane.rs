@@ -3,6 +3,7 @@
 use crate::method::elements::panel::mean_plane;
 use crate::method::elements::triangle::triangle;
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, Vector3};
 
@@ -33,5 +34,5 @@ pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMat
             }
         }
     }
-    Ok(stiffness)
+    finite("element stiffness", stiffness)
 }

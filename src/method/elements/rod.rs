@@ -1,6 +1,7 @@
 //! The rod: an axial member.
 
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Stiffness of a rod of unit cross section, lbf/in per in² of area (6 × 6; x, y, z of each end).
@@ -22,5 +23,5 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
     }
     let n = along / length;
     let b = DVector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
-    Ok((youngs_modulus / length) * &b * b.transpose())
+    finite("element stiffness", (youngs_modulus / length) * &b * b.transpose())
 }

@@ -3,6 +3,7 @@
 use crate::method::elements::panel::{MeanPlane, mean_plane};
 use crate::method::elements::quadrature::gauss_legendre;
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
@@ -24,7 +25,7 @@ const QUADRATURE_POINTS: usize = 12;
 pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
-    Ok((0.5 / energy_coefficient(&plane, material)) * &a * a.transpose())
+    finite("element stiffness", (0.5 / energy_coefficient(&plane, material)) * &a * a.transpose())
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.

@@ -2,6 +2,7 @@
 
 use crate::method::elements::panel::normal_and_area;
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -25,7 +26,7 @@ pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatr
     let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
-    Ok(area * strain.transpose() * (elasticity * &strain))
+    finite("element stiffness", area * strain.transpose() * (elasticity * &strain))
 }
 
 /// $B$, 3 × 9: strains $\epsilon_x, \epsilon_y, \gamma_{xy}$ in a frame with its first axis along the first side.

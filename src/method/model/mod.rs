@@ -1,10 +1,12 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
 
 mod analysis;
+mod condensation;
 mod modal;
 mod parameters;
 
 pub use analysis::CondensedModel;
+pub use condensation::{CondensationError, LARGEST_CONDENSATION_ERROR};
 pub use modal::{Check, DynamicModel, ModalModel, Share};
 pub use parameters::{Parameter, Range, Scaled};
 
@@ -131,7 +133,7 @@ impl FiniteElementModel {
             }
             let what = format!("factor of {}", parameter.owner());
             let factors = Range::positive(&what, lower, upper)?;
-            if factors.contains(1.0) { Ok(Some(factors)) } else { Err(Error::Limits { what, lower, upper }) }
+            if factors.contains(1.0) { Ok(Some(factors)) } else { Err(Error::StartOutside { what, lower, upper }) }
         };
         self.parameters.iter().zip(&self.rows).map(bounds).collect()
     }

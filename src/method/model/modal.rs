@@ -30,7 +30,7 @@ impl Share {
     }
 
     /// A share of the same kind with another matrix made from this one's.
-    fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
+    pub fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
         match self {
             Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
             Self::Mass(matrix) => Self::Mass(change(matrix)),

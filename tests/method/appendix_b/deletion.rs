@@ -1,7 +1,7 @@
 //! Which of overlapping test modes is deleted, by hand: unit masses, so overlaps are plain products.
 
 use super::{modes, slight_overlap, unit_shapes};
-use corfem::method::appendix_b::{MovementLimits, Supports, Verdict, examine, orthogonalize};
+use corfem::method::appendix_b::{ModeVerdict, MovementLimits, Supports, examine, orthogonalize};
 use nalgebra::DMatrix;
 
 #[test]
@@ -40,7 +40,7 @@ fn a_low_wrong_mode_is_told_by_its_many_overlaps() {
     assert!(moved[0].shape < MovementLimits::default().shape && moved[1].shape > MovementLimits::default().shape);
     let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [1, 2, 3]);
-    assert_eq!(found.reports[0].verdict, Verdict::NotOrthogonal);
+    assert_eq!(found.reports[0].verdict, ModeVerdict::NotOrthogonal);
     assert_eq!(found.modes.shapes.shape(), (4, 3));
 }
 
@@ -52,8 +52,11 @@ fn two_wrong_modes_are_both_deleted() {
     );
     let found = examine(&raw, &DMatrix::identity(4, 4), Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [2, 3]);
-    let verdicts: Vec<Verdict> = found.reports.iter().map(|report| report.verdict).collect();
-    assert_eq!(verdicts, [Verdict::NotOrthogonal, Verdict::NotOrthogonal, Verdict::Kept, Verdict::Kept]);
+    let verdicts: Vec<ModeVerdict> = found.reports.iter().map(|report| report.verdict).collect();
+    assert_eq!(
+        verdicts,
+        [ModeVerdict::NotOrthogonal, ModeVerdict::NotOrthogonal, ModeVerdict::Kept, ModeVerdict::Kept]
+    );
     assert!(found.reports.iter().all(|report| report.movement.is_some()));
 }
 

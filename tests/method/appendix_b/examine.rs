@@ -5,7 +5,7 @@ use crate::common::measured::{free_beam, held_chain, mixture, noise};
 use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{
-    MovementLimits, SYMMETRIC, Supports, Verdict, examine, generalized_mass, orthogonalize, rigid_body_vectors,
+    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, generalized_mass, orthogonalize, rigid_body_vectors,
 };
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector};
@@ -31,7 +31,7 @@ proptest! {
         prop_assert_eq!(found.reports.len(), 5);
         prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
         for (mode, report) in found.reports.iter().enumerate() {
-            prop_assert_eq!(report.verdict, Verdict::Kept);
+            prop_assert_eq!(report.verdict, ModeVerdict::Kept);
             prop_assert_eq!(report.balance, None);
             let movement = report.movement.unwrap();
             prop_assert!(movement.shape <= ORTHOGONAL_INPUT && movement.frequency.abs() <= ORTHOGONAL_INPUT);
@@ -50,7 +50,7 @@ proptest! {
         prop_assert_eq!(found.kept, (0..exact.len()).collect::<Vec<_>>());
         prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= EXACT_MODE_RESIDUAL * spread);
         for report in &found.reports {
-            prop_assert_eq!(report.verdict, Verdict::Kept);
+            prop_assert_eq!(report.verdict, ModeVerdict::Kept);
             prop_assert!(report.balance.unwrap() <= EXACT_MODE_RESIDUAL * spread);
             prop_assert!(report.movement.unwrap().shape <= EXACT_MODE_RESIDUAL * spread);
         }
@@ -66,7 +66,7 @@ proptest! {
         let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect::<Vec<_>>());
         for (other, report) in found.reports.iter().enumerate() {
-            prop_assert_eq!(report.verdict, if other == mode { Verdict::NotOrthogonal } else { Verdict::Kept });
+            prop_assert_eq!(report.verdict, if other == mode { ModeVerdict::NotOrthogonal } else { ModeVerdict::Kept });
         }
         let expected = without(&exact, mode);
         prop_assert!(relative_difference(&expected.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
@@ -92,7 +92,7 @@ proptest! {
         prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect::<Vec<_>>());
         prop_assert_eq!(found.reports.len(), exact.len());
         let report = found.reports[mode];
-        prop_assert_eq!((report.verdict, report.movement), (Verdict::Unbalanced, None));
+        prop_assert_eq!((report.verdict, report.movement), (ModeVerdict::Unbalanced, None));
         prop_assert!(report.balance.unwrap() >= 0.18);
         let spread = exact.omega_squared.max() / exact.omega_squared.min();
         prop_assert!(
@@ -132,12 +132,12 @@ proptest! {
         }
         for &mode in &found.kept {
             let report = found.reports[mode];
-            prop_assert_eq!(report.verdict, Verdict::Kept);
+            prop_assert_eq!(report.verdict, ModeVerdict::Kept);
             prop_assert!(report.balance.unwrap() <= limits.balance);
             let movement = report.movement.unwrap();
             prop_assert!(movement.shape <= limits.shape && movement.frequency.abs() <= limits.frequency);
         }
-        let kept = found.reports.iter().filter(|report| report.verdict == Verdict::Kept).count();
+        let kept = found.reports.iter().filter(|report| report.verdict == ModeVerdict::Kept).count();
         prop_assert_eq!(kept, count);
     }
 

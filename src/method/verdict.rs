@@ -1,0 +1,133 @@
+//! What a correlation came to, as data and in words.
+
+use crate::method::error_sum::{Errors, ModeError, mode_errors};
+use crate::method::inner_loop::Stop;
+use crate::method::model::{Check, ModalModel, Range};
+use crate::method::outer_loop::Pass;
+use serde::Serialize;
+use std::fmt;
+
+/// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
+/// would move no frequency by half a percent.
+pub const UNSEEN_SHARE: f64 = 0.01;
+/// How near to an end of its range, relative, a factor counts as at its bound.
+const AT_BOUND: f64 = 1e-9;
+
+/// Why a correlation ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The exact modes met the tolerances, and nothing else ended it.
+    Tolerance,
+    /// No step lowered the error sum any more.
+    LocalMinimum,
+    /// The passes allowed were used up, or the iterations of the only one.
+    Cap,
+    /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
+    Nothing,
+}
+
+/// What a correlation came to. It judges the best factors, [`super::outer_loop::Correlation::best_factors`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Why it ended.
+    pub outcome: Outcome,
+    /// Whether the exact modes at the best factors meet the tolerances.
+    pub is_within: bool,
+    /// Error sum there.
+    pub error_sum: f64,
+    /// The test mode with the largest errors there, from zero.
+    pub worst_mode: usize,
+    /// Its errors.
+    pub worst: ModeError,
+    /// Parameters at an end of their range, from zero.
+    pub at_bound: Vec<usize>,
+    /// Parameters that no test mode has [`UNSEEN_SHARE`] of its stiffness or mass in, from zero.
+    pub unseen: Vec<usize>,
+}
+
+impl Verdict {
+    /// The verdict on a correlation that began with `first`, made `passes`, and is best at `check` and `factors`.
+    pub(crate) fn new(
+        first: &ModalModel,
+        passes: &[Pass],
+        check: &Check,
+        factors: &[f64],
+        ranges: &[Option<Range>],
+        is_within: bool,
+    ) -> Self {
+        let steps: usize = passes.iter().map(|pass| pass.inner.iterations.len()).sum();
+        let outcome = match passes.last() {
+            _ if steps == 0 && !is_within => Outcome::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
+            _ if is_within => Outcome::Tolerance,
+            _ => Outcome::Cap,
+        };
+        let errors = mode_errors(&check.modes, &check.pairing, &first.test);
+        let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
+        let worst_mode = (0..errors.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+        let at_end = |e: &usize| {
+            let near = |end: f64| (factors[*e] / end - 1.0).abs() < AT_BOUND;
+            ranges[*e].is_some_and(|range| near(range.lower) || near(range.upper))
+        };
+        let is_unseen = |e: &usize| factors[*e] * first.test_shares[*e].diagonal().amax() < UNSEEN_SHARE;
+        Self {
+            outcome,
+            is_within,
+            error_sum: Errors::sum(&check.errors),
+            worst_mode,
+            worst: errors.get(worst_mode).copied().unwrap_or_default(),
+            at_bound: (0..factors.len()).filter(at_end).collect(),
+            unseen: (0..factors.len()).filter(is_unseen).collect(),
+        }
+    }
+
+    /// The verdict in sentences, with the parameters' names; numbers stand for those that have none.
+    pub fn in_words(&self, names: &[String]) -> String {
+        let named = |indices: &[usize]| {
+            let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
+            indices.iter().map(name).collect::<Vec<_>>().join(", ")
+        };
+        let within = if self.is_within { "within tolerance" } else { "outside tolerance" };
+        let mut words = match self.outcome {
+            Outcome::Tolerance => "Within tolerance".to_owned(),
+            Outcome::LocalMinimum => format!("Stopped at a local minimum, {within}"),
+            Outcome::Cap => "Stopped by the number of iterations or passes allowed, outside tolerance".to_owned(),
+            Outcome::Nothing => {
+                "Nothing could be done, outside tolerance: no step from the first model lowers the error \
+                                 sum, or none was allowed"
+                    .to_owned()
+            }
+        };
+        words += &format!(
+            ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
+            100.0 * self.error_sum,
+            self.worst_mode + 1,
+            100.0 * self.worst.frequency,
+            100.0 * self.worst.shape
+        );
+        if !self.at_bound.is_empty() {
+            words += &format!(" At a bound: {}.", named(&self.at_bound));
+        }
+        if !self.unseen.is_empty() {
+            words += &format!(" Hardly seen by the test modes, and so not to be trusted: {}.", named(&self.unseen));
+        }
+        if !self.is_within {
+            words += match self.outcome {
+                Outcome::Cap => " Try more iterations or passes.",
+                Outcome::Nothing => " Look for a mistake in the test's units, sensors or order of modes.",
+                _ if !self.at_bound.is_empty() => {
+                    " Try wider bounds, or look at how the elements at a bound are modeled."
+                }
+                _ => " Try other parameters or groups, or look at how the elements of the worst mode are modeled.",
+            };
+        }
+        words
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str(&self.in_words(&[]))
+    }
+}

@@ -1,0 +1,123 @@
+//! What condensation to the measured DOF costs, and that the test is not blamed for it: a bar of ten rods measured at five joints.
+
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::vibrations::modes_by_nalgebra;
+use corfem::method::appendix_b::{MovementLimits, Supports, examine};
+use corfem::method::assembly::{dense_stiffness, element_matrices};
+use corfem::method::error::Error;
+use corfem::method::model::{FiniteElementModel, LARGEST_CONDENSATION_ERROR, Parameter};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use nalgebra::{DMatrix, DVector, Vector3};
+use proptest::prelude::*;
+
+const RODS: usize = 10;
+
+/// Areas of the rods, and which joints (1 to 10, from the wall) are measured.
+fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
+    let material = Material::isotropic(1.0e7, 0.3).and_then(|material| material.with_density(2.5e-4)).expect("a metal");
+    let grids = (0..=RODS).map(|joint| Grid {
+        label: joint + 1,
+        // Rods of unlike lengths: in a bar of like ones all that is condensed vibrates at one frequency, and costs no orthogonality.
+        position: Vector3::new(10.0 * joint as f64 + 4.0 * (joint % 3) as f64, 0.0, 0.0),
+        constrained: [joint == 0, true, true],
+    });
+    let rods = areas.iter().enumerate().map(|(rod, &size)| Element {
+        label: rod + 1,
+        kind: ElementKind::Rod,
+        grids: vec![rod + 1, rod + 2],
+        size,
+        material,
+    });
+    let structure = Structure::new(grids.collect(), rods.collect()).expect("a bar");
+    let t = DMatrix::from_fn(RODS, measured.len(), |row, column| f64::from(u8::from(row + 1 == measured[column])));
+    let parameters = (1..=RODS).map(|rod| Parameter::element(rod, None)).collect();
+    let none = DMatrix::zeros(measured.len(), measured.len());
+    FiniteElementModel::new(structure, t, none, parameters).expect("a model")
+}
+
+const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
+const ONES: [f64; RODS] = [1.0; RODS];
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn whole_modes_are_those_of_the_assembled_pencil(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        let model = bar(&areas, &FIVE);
+        let elements = element_matrices(model.structure()).expect("rods");
+        let stiffness = dense_stiffness(&elements, &areas, RODS).expect("a stiffness");
+        let mut lumped = DVector::zeros(RODS);
+        for (element, area) in elements.iter().zip(&areas) {
+            element.dof.iter().zip(&element.unit_mass).for_each(|(&row, unit)| lumped[row] += area * unit);
+        }
+        let (omega_squared, shapes) = modes_by_nalgebra(&stiffness, &DMatrix::from_diagonal(&lumped));
+        let found = model.whole_modes(&ONES, 5).expect("modes");
+        for mode in 0..5 {
+            prop_assert!((found.omega_squared[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
+            let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
+            let (a, b) = (found.shapes.column(mode), &expected);
+            let sign = a.dot(b).signum();
+            prop_assert!((a - sign * b).amax() < 1e3 * EIGEN_ROUND_OFF * b.amax());
+        }
+    }
+
+    #[test]
+    fn condensed_frequencies_are_those_of_a_ritz_approximation(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        // Mode by mode none lies below the whole structure's.
+        let model = bar(&areas, &FIVE);
+        let condensed = model.modes(&ONES).expect("modes").frequencies_hz();
+        let whole = model.whole_modes(&ONES, 5).expect("modes").frequencies_hz();
+        for (condensed, whole) in condensed.iter().zip(whole) {
+            prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
+        }
+    }
+
+    #[test]
+    fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        let all: Vec<usize> = (1..=RODS).collect();
+        for error in bar(&areas, &all).condensation_errors(&ONES, RODS).expect("errors") {
+            prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
+        }
+    }
+}
+
+#[test]
+fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
+    let errors = bar(&[1.0; RODS], &FIVE).condensation_errors(&ONES, 5).expect("errors");
+    // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
+    assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
+    assert!(errors[4].frequency > 0.03, "{errors:?}");
+    let refused = errors.iter().filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR).count();
+    assert!((1..=4).contains(&refused), "{errors:?}");
+}
+
+#[test]
+fn a_perfect_test_is_not_blamed_for_condensation() {
+    let model = bar(&[1.0, 0.3, 1.0, 2.5, 1.0, 0.5, 3.0, 1.0, 0.4, 1.2], &FIVE);
+    let perfect = model.whole_modes(&ONES, 5).expect("modes");
+    let mass = model.condense(&ONES).expect("condensed").mass;
+    // A limit that the model's own modes exceed twofold, because they are not orthogonal with the condensed mass.
+    let by_default = model.limits_allowing_for_condensation(&ONES, 5, &MovementLimits::default()).expect("limits");
+    let own = by_default.shape - MovementLimits::default().shape;
+    assert!(own > 0.01, "{own}");
+    let usual = MovementLimits { shape: 0.5 * own, ..MovementLimits::default() };
+    let blamed = examine(&perfect, &mass, Supports::Held, &usual).expect("examined");
+    assert!(blamed.kept.len() < 5, "{:?}", blamed.reports);
+    let allowing = model.limits_allowing_for_condensation(&ONES, 5, &usual).expect("limits");
+    assert!(allowing.shape > usual.shape && allowing.balance == usual.balance);
+    let fair = examine(&perfect, &mass, Supports::Held, &allowing).expect("examined");
+    assert_eq!(fair.kept, [0, 1, 2, 3, 4]);
+    // A mode that is wrong by more is still found.
+    let mut wrong = perfect.clone();
+    let second = perfect.shapes.column(1).into_owned();
+    wrong.shapes.column_mut(4).axpy(2.0, &second, 1.0);
+    assert!(examine(&wrong, &mass, Supports::Held, &allowing).expect("examined").kept.len() < 5);
+}
+
+#[test]
+fn more_modes_than_there_are_is_an_error() {
+    let model = bar(&[1.0; RODS], &FIVE);
+    assert!(matches!(model.whole_modes(&ONES, 11), Err(Error::TooMany { available: 10, requested: 11, .. })));
+    assert!(matches!(model.whole_modes(&ONES, 0), Err(Error::Empty { .. })));
+    assert!(matches!(model.condensation_errors(&ONES, 6), Err(Error::TooMany { .. })));
+}

@@ -1,0 +1,93 @@
+//! What a correlation says it came to.
+
+use crate::common::loops::correlate_chain;
+use crate::common::tolerances::ROUND_OFF;
+use crate::common::vibrations::Chain;
+use corfem::cases::{Case, run_case};
+use corfem::method::error_sum::{errors, mode_errors};
+use corfem::method::model::Range;
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::method::verdict::{Outcome, UNSEEN_SHARE};
+
+const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
+
+fn chain_with(change: impl Fn(&mut Settings)) -> Correlation {
+    let mut settings = Settings::default();
+    change(&mut settings);
+    correlate_chain(&Chain::uniform(3), &TRUTH, &settings)
+}
+
+#[test]
+fn every_outcome_is_said_as_what_it_is() {
+    let within = chain_with(|_| {}).verdict;
+    assert_eq!((within.outcome, within.is_within), (Outcome::Tolerance, true));
+    assert!(within.to_string().starts_with("Within tolerance: error sum "));
+    let capped = chain_with(|settings| {
+        settings.most_passes = 1;
+        settings.inner.iterations = 1;
+    });
+    assert_eq!((capped.verdict.outcome, capped.verdict.is_within), (Outcome::Cap, false));
+    assert!(capped.verdict.to_string().contains("Try more iterations or passes."));
+    let none = chain_with(|settings| settings.most_passes = 0);
+    assert_eq!((none.verdict.outcome, none.verdict.is_within), (Outcome::Nothing, false));
+    assert!(none.verdict.to_string().starts_with("Nothing could be done"));
+    // Bounds that hold the truth out end in a local minimum at the bound.
+    let (chain, ranges) = (Chain::uniform(3), [Some(Range { lower: 0.9, upper: 1.1 }), None, None]);
+    let test = chain.modes(&TRUTH);
+    let settings = Settings { error_sum_tolerance: 1e-3, ..Settings::default() };
+    let held = correlate(|factors| chain.model(factors).analyze(&test, None), &ranges, &settings, |_, _| {}).unwrap();
+    assert_eq!((held.verdict.outcome, held.verdict.is_within), (Outcome::LocalMinimum, false));
+    assert_eq!(held.verdict.at_bound, [0]);
+    let words = held.verdict.in_words(&["wall".to_owned(), "b".to_owned(), "c".to_owned()]);
+    assert!(words.starts_with("Stopped at a local minimum, outside tolerance") && words.contains("At a bound: wall."));
+}
+
+#[test]
+fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
+    let settings = Settings { least_passes: 1, ..Settings::default() };
+    let found = correlate_chain(&Chain::uniform(3), &[1.0; 3], &settings).verdict;
+    assert_eq!((found.outcome, found.is_within), (Outcome::LocalMinimum, true));
+}
+
+#[test]
+fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
+    let found = chain_with(|settings| settings.inner.iterations = 2);
+    let best = found.best.map_or(&found.initial, |pass| &found.passes[pass].check);
+    let test = Chain::uniform(3).modes(&TRUTH);
+    let each = mode_errors(&best.modes, &best.pairing, &test);
+    let whole = errors(&best.modes, &best.pairing, &test);
+    let sum =
+        |of: fn(&corfem::method::error_sum::ModeError) -> f64| each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt();
+    assert!((sum(|e| e.frequency) - whole.frequency).abs() <= ROUND_OFF);
+    assert!((sum(|e| e.shape) - whole.shape).abs() <= ROUND_OFF);
+    let size = |mode: usize| each[mode].frequency.powi(2) + each[mode].shape.powi(2);
+    assert!((0..3).all(|mode| size(mode) <= size(found.verdict.worst_mode)));
+    let (worst, expected) = (found.verdict.worst, each[found.verdict.worst_mode]);
+    assert!(
+        (worst.frequency - expected.frequency).abs() <= ROUND_OFF && (worst.shape - expected.shape).abs() <= ROUND_OFF
+    );
+}
+
+#[test]
+fn an_element_in_no_test_mode_is_named_as_unseen() {
+    // A spring a thousand times too soft beside another between the same masses.
+    let chain = Chain::uniform(3);
+    let test = chain.modes(&[1.3, 0.8, 1.1]);
+    let analyze = |factors: &[f64]| {
+        let mut model = chain.model(&factors[..3]);
+        let soft = model.shares[1].map(|share| 1e-3 * factors[3] * share);
+        model.stiffness += soft.matrix();
+        model.shares.push(soft);
+        model.analyze(&test, None)
+    };
+    let found = correlate(analyze, &[None; 4], &Settings::default(), |_, _| {}).unwrap();
+    assert_eq!(found.verdict.unseen, [3]);
+    assert!(found.verdict.to_string().contains("Hardly seen by the test modes, and so not to be trusted: 4."));
+    assert!(UNSEEN_SHARE < 0.02);
+}
+
+#[test]
+fn case_4_is_never_called_within_tolerance() {
+    let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
+    assert_eq!((result.correlation.verdict.outcome, result.correlation.converged), (Outcome::Cap, false));
+}
