@@ -88,7 +88,7 @@ fn a_test_in_other_units_still_descends() {
         let test = case.test_modes().expect("modes");
         let hz: Vec<f64> = test.frequencies_hz().iter().map(|hz| times * hz).collect();
         let test = ModeSet::from_measured(&hz, &test.shapes).expect("modes");
-        let settings = Settings { most_passes: 2, ..Settings::default() };
+        let settings = Settings { most_passes: 2, ..case.settings.clone() };
         let found = correlate(|factors| model.analyze(factors, &test, None), &[None; 15], &settings, |_, _| {})
             .expect("it runs");
         let start = found.initial.errors.sum();
