@@ -182,3 +182,5 @@ pub const WRONG_FORM: f64 = 5e-5;
 pub const SECOND_ORDER_ROOT: f64 = 6e-5;
 /// A mean, a root mean square or a correlation of a sample of normal variates, in standard errors: one in 16,000 is farther off.
 pub const STANDARD_ERRORS: f64 = 4.0;
+/// Lowest squared frequency where stiffnesses differ 1e10 times: that many roundings of a sum of both, a few of them.
+pub const UNLIKE_STIFFNESS: f64 = 1e-5;
