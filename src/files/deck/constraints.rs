@@ -22,7 +22,7 @@ struct Sets {
 }
 
 impl Sets {
-    /// Keeps the cards of one set, or of the sets that it joins, and returns the others; the line of `selected` says which.
+    /// Keeps the cards of the selected set, or of the sets that it joins, and returns the others.
     fn select(&mut self, selected: Option<usize>) -> Result<Vec<Card>, FileError> {
         let (chosen, others): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.unions).into_iter().partition(|(set, _)| Some(*set) == selected);

@@ -9,13 +9,13 @@ use crate::method::structure::{DIRECTIONS, Structure, positive};
 use crate::studies::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
-pub(super) const MOST_MEMORY: f64 = 4.0;
-/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once.
-/// Chains of 1000 to 4000 masses took what 8.0 to 10.1 of them need.
-const DENSE_MATRICES: f64 = 8.0;
+const MOST_MEMORY: f64 = 4.0;
+/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once:
+/// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
+const DENSE_MATRICES: f64 = 10.0;
 const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
-/// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; behind a ratio of
-/// 1e10 six of the lowest frequency are left.
+/// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; behind a ratio
+/// of 1e10 six of the lowest frequency are left.
 const LARGEST_RATIO: f64 = 1e10;
 /// Eigenvalue of the Gram matrix of the masses' motions, each of length one, above which they are independent: motions
 /// that differ by one part in 1e5, far more than fields of 8 characters round.
@@ -27,7 +27,9 @@ const INDEPENDENT: f64 = 1e-10;
 /// # Errors
 /// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements and the factorization of $K_S$;
 /// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
-/// [`Error::NotPositive`](crate::method::error::Error::NotPositive) for a squared frequency or a generalized mass beyond the range of numbers.
+/// [`Error::NotPositive`] for a squared frequency or a generalized mass beyond the range of numbers.
+///
+/// [`Error::NotPositive`]: crate::method::error::Error::NotPositive
 pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
     let elements = element_matrices(&structure)?;
@@ -38,8 +40,8 @@ pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
     if found.modes.len() < found.dof.len() {
         check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
     }
-    for (mode, (&squared, shape)) in found.modes.omega_squared.iter().zip(found.modes.shapes.column_iter()).enumerate()
-    {
+    let (squared, shapes) = (found.modes.omega_squared.iter(), found.modes.shapes.column_iter());
+    for (mode, (&squared, shape)) in squared.zip(shapes).enumerate() {
         let owner = || format!("mode {}", mode + 1);
         positive("squared frequency", owner, squared)?;
         positive("generalized mass", owner, shape.amax().powi(-2))?;

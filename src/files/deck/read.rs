@@ -22,7 +22,7 @@ pub struct Deck {
     pub unread: Vec<Unread>,
 }
 
-/// Reads a deck, in UTF-8 or Latin-1; `file` is its name in messages.
+/// Reads a deck; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
 /// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2 and
@@ -33,20 +33,20 @@ pub struct Deck {
 /// # Errors
 /// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and
 /// [`FileError::DeckField`] name file, line, card and field.
-pub fn read(file: &str, text: impl AsRef<[u8]>) -> Result<Deck, FileError> {
-    read_without(file, text, &[])
+pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
+    read_without(file, text.as_bytes(), &[])
 }
 
-/// Reads a deck as [`read`] does, but leaves out cards of the names `ignored`, in capitals, where they are not understood;
-/// [`Deck::unread`] lists them.
+/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored`, in capitals, that are not
+/// understood; [`Deck::unread`] lists them.
 ///
 /// # Errors
 /// Those of [`read`]; [`FileError::IgnoredCard`] for the name of a card that is read.
-pub fn read_without(file: &str, text: impl AsRef<[u8]>, ignored: &[String]) -> Result<Deck, FileError> {
+pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
         return Err(FileError::IgnoredCard { card: card.clone() });
     }
-    let (selected, lines) = sections(file, &decoded(text.as_ref()))?;
+    let (selected, lines) = sections(file, &decoded(text))?;
     let (cards, others): (Vec<Card>, Vec<Card>) =
         join(&file.into(), lines)?.into_iter().partition(|card| is_read(&name(card)));
     let others = others.iter().map(|card| {
