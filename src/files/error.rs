@@ -60,8 +60,8 @@ pub enum FileError {
     },
     /// More masses than memory has room for.
     #[error(
-        "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of freedom \
-         with mass among {free} free ones"
+        "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \
+         freedom with mass among {free} free ones"
     )]
     TooManyMasses {
         /// Most memory, GiB.

@@ -26,12 +26,15 @@ macro_rules! families {
         fn $family() {
             for card in [$($card),+] {
                 let name = card.split([',', ' ']).next().expect("a name");
-                let name = if name == "PARAM" { card[..card.rfind(',').expect("a value")].replace(',', " ") } else { name.into() };
+                let parameter = || card[..card.rfind(',').expect("a value")].replace(',', " ");
+                let name = if name == "PARAM" { parameter() } else { name.to_owned() };
                 let expected = [unknown(&name, 8, 1)];
                 assert_eq!(refused(&format!("{GOOD}{card}\n")), expected, "behind the others");
                 assert_eq!(refused(&format!("{GOOD}{}\n", card.to_lowercase())), expected, "in small letters");
                 assert_eq!(refused(&format!("SPC = 1\nBEGIN BULK\n{GOOD}{card}\n"))[0].line, 10, "with case control");
-                let ignored = deck::read_without("wing.dat", format!("{GOOD}{card}\n").as_bytes(), std::slice::from_ref(&name)).expect(card);
+                let deck = format!("{GOOD}{card}\n");
+                let names = std::slice::from_ref(&name);
+                let ignored = deck::read_without("wing.dat", deck.as_bytes(), names).expect(card);
                 assert_eq!(ignored.unread, [Unread { reason: Reason::Ignored, ..unknown(&name, 8, 1) }]);
                 assert_eq!(ignored.model, deck::read("wing.dat", GOOD).expect("good").model);
             }
@@ -63,8 +66,8 @@ fn all_of_them_stand_in_one_error_before_any_other() {
     assert_eq!(
         deck::read("wing.dat", &deck).expect_err("three cards").to_string(),
         "wing.dat: expected cards that are read here, found CBAR (line 1, 2 cards), CSHAER (line 9, 1 card); they may \
-         carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them out with \
-         --ignore 'CBAR,CSHAER'"
+         carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them out \
+         with --ignore 'CBAR,CSHAER'"
     );
 }
 

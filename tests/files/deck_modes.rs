@@ -163,8 +163,8 @@ fn parts_too_unlike_are_named() {
         assert_eq!(
             error.to_string(),
             format!(
-                "stiffness: expected no element more than 1e10 times as stiff as another, found {stiff:.3e} in element 2 \
-                 and 1.000e5 in element 1"
+                "stiffness: expected no element more than 1e10 times as stiff as another, found {stiff:.3e} in element \
+                 2 and 1.000e5 in element 1"
             )
         );
     }
@@ -209,7 +209,7 @@ fn masses_beyond_the_memory_are_refused_before_they_take_it() {
     let error = modes(&deck).expect_err("20,000 masses");
     assert_eq!(
         error.to_string(),
-        "modes: expected dense matrices of at most 4.0 GiB, found 29.8 GiB for 20000 degrees of freedom with mass among \
-         20000 free ones"
+        "modes: expected dense matrices of at most 4.0 GiB, found 29.8 GiB for 20000 degrees of freedom with mass \
+         among 20000 free ones"
     );
 }

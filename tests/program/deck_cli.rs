@@ -192,8 +192,8 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
     assert_eq!(
         text(&refused.stderr),
         format!(
-            "corfem: {path}: expected cards that are read here, found CBAR (line 7, 2 cards), PBAR (line 8, 1 card); they \
-             may carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them \
+            "corfem: {path}: expected cards that are read here, found CBAR (line 7, 2 cards), PBAR (line 8, 1 card); \
+             they may carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them \
              out with --ignore 'CBAR,PBAR'\n"
         )
     );

@@ -14,8 +14,8 @@
 //!
 //! which is similar to $K_D^{-1} M$. So NASTRAN's own solution of the deck must be the modes of Appendix A, and is.
 //!
-//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, `known` says which may be left out, and
-//! [`read()`] makes a model of the others; [`modes()`] finds its modes.
+//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, `known` says which may be left out,
+//! and [`read()`] makes a model of the others; [`modes()`] finds its modes.
 
 mod card;
 mod constraints;

@@ -14,8 +14,8 @@ const MOST_MEMORY: f64 = 4.0;
 /// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
 const DENSE_MATRICES: f64 = 10.0;
 const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
-/// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; behind a ratio
-/// of 1e10 six of the lowest frequency are left.
+/// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
+/// 1e10 six digits of the lowest frequency are left.
 const LARGEST_RATIO: f64 = 1e10;
 /// Eigenvalue of the Gram matrix of the masses' motions, each of length one, above which they are independent: motions
 /// that differ by one part in 1e5, far more than fields of 8 characters round.
@@ -59,8 +59,8 @@ pub(super) fn check_memory(masses: usize, free: usize) -> Result<(), FileError> 
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
 ///
-/// The stiffness of an element is the largest entry of its matrix, held DOF included: what its direction leaves of it at
-/// the free ones may be round-off.
+/// The stiffness of an element is the largest entry of its matrix, held DOF included: what its direction leaves of it
+/// at the free ones may be round-off.
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
     let mut extremes: Option<[(f64, usize); 2]> = None;
     for (element, matrix) in structure.elements().iter().zip(elements) {

@@ -25,8 +25,8 @@ pub struct Deck {
 /// Reads a deck; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
-/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2 and
-/// `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
+/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
+/// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
 /// supports or coordinates, such as loads, are listed in [`Deck::unread`], except EIGR and EIGRL: they say how to look
 /// for eigenvalues. Every other card is an error.
 ///
@@ -37,8 +37,8 @@ pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
     read_without(file, text.as_bytes(), &[])
 }
 
-/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored`, in capitals, that are not
-/// understood; [`Deck::unread`] lists them.
+/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored`, in capitals, that are
+/// not understood; [`Deck::unread`] lists them.
 ///
 /// # Errors
 /// Those of [`read`]; [`FileError::IgnoredCard`] for the name of a card that is read.

@@ -11,8 +11,8 @@ const FREQUENCY: Digits = Digits::Significant(7);
 const MASS: Digits = Digits::Significant(6);
 const SHAPE: Digits = Digits::Fixed(5);
 
-/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table of
-/// what was left out by request.
+/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table
+/// of what was left out by request.
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
 pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
