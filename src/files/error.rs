@@ -1,5 +1,6 @@
 //! What can go wrong with files of other programs and with the programs themselves.
 
+use crate::files::deck::Unread;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -37,6 +38,70 @@ pub enum FileError {
         expected: String,
         /// What it is.
         found: String,
+    },
+    /// Cards that may be part of the model and are not understood.
+    #[error(
+        "{file}: expected cards that are read here, found {}; they may carry stiffness, mass, supports or coordinates: \
+         correct them, or take responsibility for leaving them out with --ignore '{}'",
+        .cards.iter().map(Unread::place).collect::<Vec<_>>().join(", "),
+        .cards.iter().map(|unread| unread.card.as_str()).collect::<Vec<_>>().join(",")
+    )]
+    DeckCards {
+        /// The deck.
+        file: String,
+        /// All of them, by name.
+        cards: Vec<Unread>,
+    },
+    /// A card to be ignored that is read.
+    #[error("--ignore: expected a card that is not read here, found {card}")]
+    IgnoredCard {
+        /// Its name.
+        card: String,
+    },
+    /// More masses than memory has room for.
+    #[error(
+        "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \
+         freedom with mass among {free} free ones"
+    )]
+    TooManyMasses {
+        /// Most memory, GiB.
+        most: f64,
+        /// Memory that they need, GiB.
+        needed: f64,
+        /// Degrees of freedom with mass.
+        masses: usize,
+        /// Free structural degrees of freedom.
+        free: usize,
+    },
+    /// Elements so unlike in stiffness that double precision loses the softer one.
+    #[error(
+        "stiffness: expected no element more than {most:.0e} times as stiff as another, found {:.3e} in element {} and \
+         {:.3e} in element {}",
+        .stiffest.0, .stiffest.1, .softest.0, .softest.1
+    )]
+    StiffnessRange {
+        /// Largest ratio.
+        most: f64,
+        /// Smallest largest entry of an element's stiffness matrix, lbf/in, and the element.
+        softest: (f64, usize),
+        /// Largest one, lbf/in, and the element.
+        stiffest: (f64, usize),
+    },
+    /// Modes whose frequencies are too far above the lowest for double precision.
+    #[error(
+        "modes: expected {expected}, one for every mass that moves by itself, found {found}: frequencies some three \
+         million times the lowest are lost, for the masses go from {:.3e} at {} to {:.3e} at {}",
+        .lightest.0, .lightest.1, .heaviest.0, .heaviest.1
+    )]
+    LostModes {
+        /// Masses that move independently.
+        expected: usize,
+        /// Modes with a finite frequency.
+        found: usize,
+        /// Smallest mass, lbf·s²/in, and its grid and direction.
+        lightest: (f64, String),
+        /// Largest mass, lbf·s²/in, and its grid and direction.
+        heaviest: (f64, String),
     },
     /// An element at a degree of freedom that an MPC equation makes dependent.
     #[error("element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}")]

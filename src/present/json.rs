@@ -177,6 +177,7 @@ pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<Strin
     let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
     document(json!({
         "dof": dof.collect::<Value>(),
+        "rigid_body_modes": modes.rigid_body,
         "frequencies_hz": scaled.frequencies_hz,
         "generalized_masses": scaled.masses,
         "shapes": scaled.shapes,

@@ -1,10 +1,11 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, put, read, reconstruction};
+use super::output::{OutputArguments, put, reconstruction};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
+use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
@@ -39,6 +40,9 @@ pub struct ModesArguments {
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
     count: Option<usize>,
+    /// Leave out cards of these names that are not understood; the report repeats them
+    #[arg(long, value_name = "CARD", value_delimiter = ',')]
+    ignore: Vec<String>,
 }
 
 /// Writes the deck of a case.
@@ -67,7 +71,9 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 /// Prints the modes of a deck.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let name = arguments.deck.display().to_string();
-    let deck = deck::read(&name, &read(&arguments.deck)?)?;
+    let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
+    let ignored: Vec<String> = arguments.ignore.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
+    let deck = deck::read_without(&name, &bytes, &ignored)?;
     for card in &deck.unread {
         eprintln!("corfem: {name}: {}", not_read(card));
     }

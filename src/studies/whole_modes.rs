@@ -5,6 +5,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::structure::{StructuralDof, Structure};
+use crate::studies::free_modes::{CountedModes, counted_modes};
 use nalgebra::{DMatrix, DVector};
 
 /// Eigenvalue of the weighted flexibility relative to the largest below which a frequency counts as infinite: far above
@@ -58,8 +59,24 @@ pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) 
 pub struct WholeModes {
     /// Rows of the shapes.
     pub dof: Vec<StructuralDof>,
-    /// Every mode with a finite frequency.
+    /// Every vibration with a finite frequency.
     pub modes: Modes,
+    /// How many rigid-body modes there are beside them.
+    pub rigid_body: usize,
+}
+
+/// The same of a structure that hangs free, its rigid-body modes found by a shift, counted and left out ([`counted_modes`]).
+///
+/// `stiffness` is $K_S$ at all free SDOF (lbf/in).
+///
+/// # Errors
+/// Those of [`counted_modes`].
+pub fn free_whole_modes(stiffness: &DMatrix<f64>, at: MassDof) -> Result<WholeModes, Error> {
+    let t = &at.load_distribution;
+    let mass = t * DMatrix::from_diagonal(&at.mass) * t.transpose();
+    let CountedModes { rigid_body, vibrations } = counted_modes(stiffness, &mass)?;
+    let modes = Modes::ascending(vibrations.omega_squared, t.tr_mul(&vibrations.shapes));
+    Ok(WholeModes { dof: at.dof, modes, rigid_body: rigid_body.ncols() })
 }
 
 /// All modes of finite frequency at the DOF that have mass.
@@ -85,5 +102,5 @@ pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<Whole
     let mut shapes = vectors.select_columns(&finite);
     shapes.column_iter_mut().for_each(|mut shape| shape.component_div_assign(&root_mass));
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
-    Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes) })
+    Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes), rigid_body: 0 })
 }

@@ -185,3 +185,5 @@ pub const STANDARD_ERRORS: f64 = 4.0;
 /// Roots and modes of small pencils found through a shift of a thousandth of the mean root: round-off of the inverse, a thousand
 /// times for roots a thousand times apart.
 pub const COUNTED_ROOT: f64 = 1e-9;
+/// Lowest squared frequency where stiffnesses differ 1e10 times: that many roundings of a sum of both, a few of them.
+pub const UNLIKE_STIFFNESS: f64 = 1e-5;

@@ -84,6 +84,7 @@ const BAD_FIELDS: &str = "\
 6 | SPC1,1,1,1,5 | 5 | the number of a GRID card | 5
 6 | SPC1,1,1,3,THRU,8 | 4 | the number of a GRID card | 3
 6 | SPC1,1,1,2,THRU,1 | 6 | a grid after 2 | 1
+6 | SPC1,1,1,1,1,1,1,1,THRU | 12 | a grid after THRU | a blank
 6 | SPC1,1,1,1,THRU | 6 | a grid after THRU | a blank
 6 | SPC1,1,1,THRU,2 | 4 | a positive integer | THRU
 - | SPC1,2,1,2 | 2 | set 1 again | 2

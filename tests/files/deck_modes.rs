@@ -1,10 +1,12 @@
 //! Modes of decks whose answers are known in closed form.
 
-use crate::common::tolerances::EIGEN_ROUND_OFF;
+use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF, UNLIKE_STIFFNESS};
 use corfem::files::deck;
+use corfem::files::deck::number::{large_real, nearest_in_field};
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::studies::whole_modes::WholeModes;
+use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {
@@ -100,4 +102,127 @@ fn an_element_at_a_tied_grid_is_refused() {
     let error = modes(&tied).expect_err("rod 2 is tied");
     assert!(matches!(error, FileError::TiedElement { element: 2, grid: 3, direction: 'x' }), "{error}");
     assert_eq!(error.to_string(), "element 2: expected its grids free of MPC equations, found grid 3 tied along x");
+}
+
+/// Two masses on two rods of 10 in and 1 in² from a fixed grid along x.
+fn chain(moduli: [f64; 2], masses: [f64; 2]) -> String {
+    format!(
+        "GRID,1,,0.,0.,0.,,123\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nCONROD,1,1,2,1,1.\nCONROD,2,2,3,2,1.\n\
+         MAT1*,1,{},,.3\nMAT1*,2,{},,.3\nCMASS2*,7,{},2,1\n*,,,,\nCMASS2*,8,{},3,1\n*,,,,\n",
+        real(moduli[0]),
+        real(moduli[1]),
+        real(masses[0]),
+        real(masses[1])
+    )
+}
+
+fn real(value: f64) -> String {
+    large_real(value).expect("a finite number")
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// However unlike the parts, there are both modes and they are right, or an error says which parts are too unlike.
+    #[test]
+    fn no_mode_is_lost_in_silence(
+        stiff in -10.0..20.0_f64, unlike in -20.0..20.0_f64, heavy in -3.0..3.0_f64, light in -20.0..20.0_f64,
+    ) {
+        let moduli = [stiff, stiff + unlike].map(|power| nearest_in_field(10.0_f64.powf(power)));
+        let masses = [heavy, heavy + light].map(|power| nearest_in_field(10.0_f64.powf(power)));
+        match modes(&chain(moduli, masses)) {
+            Ok(found) => {
+                prop_assert_eq!(found.modes.len(), 2);
+                // The larger root in closed form, and the smaller by the product of both, k1 k2 / (m1 m2).
+                let [k1, k2] = moduli.map(|modulus| modulus / 10.0);
+                let half = 0.5 * ((k1 + k2) / masses[0] + k2 / masses[1]);
+                let product = k1 / masses[0] * (k2 / masses[1]);
+                let larger = half + (half * half - product).max(0.0).sqrt();
+                let ratio = found.modes.omega_squared[0] / (product / larger);
+                prop_assert!((ratio - 1.0).abs() < UNLIKE_STIFFNESS, "{}", ratio);
+            }
+            Err(FileError::StiffnessRange { softest, stiffest, .. }) => {
+                prop_assert!(stiffest.0 > 1e10 * softest.0);
+                let (soft, stiff) = if unlike > 0.0 { (1, 2) } else { (2, 1) };
+                prop_assert_eq!((softest.1, stiffest.1), (soft, stiff));
+            }
+            Err(FileError::LostModes { expected: 2, found: 1, lightest, heaviest }) => {
+                prop_assert!(heaviest.0 > lightest.0);
+                prop_assert_eq!(lightest.1, if light > 0.0 { "grid 2 x" } else { "grid 3 x" });
+            }
+            Err(error) => prop_assert!(false, "{}", error),
+        }
+    }
+}
+
+#[test]
+fn parts_too_unlike_are_named() {
+    for power in [14, 16] {
+        let error = modes(&chain([1e6, 1e6 * 10.0_f64.powi(power)], [1.0; 2])).expect_err("too unlike");
+        let stiff = 1e5 * 10.0_f64.powi(power);
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "stiffness: expected no element more than 1e10 times as stiff as another, found {stiff:.3e} in element \
+                 2 and 1.000e5 in element 1"
+            )
+        );
+    }
+    assert!(modes(&chain([1e6, 9.9e15], [1.0; 2])).is_ok());
+    let error = modes(&chain([1e6; 2], [1.0, 1e-16])).expect_err("a mode is lost");
+    assert_eq!(
+        error.to_string(),
+        "modes: expected 2, one for every mass that moves by itself, found 1: frequencies some three million times the \
+         lowest are lost, for the masses go from 1.000e-16 at grid 3 x to 1.000e0 at grid 2 x"
+    );
+}
+
+#[test]
+fn an_element_that_no_free_motion_stretches_may_be_stiff() {
+    let deck = chain([1e6; 2], [1.0; 2]);
+    let held = format!("{deck}GRID,4,,30.,0.,0.,,123\nCONROD,9,1,4,9,1.\nMAT1,9,1.+30,,.3\n");
+    assert_eq!(modes(&held).expect("modes"), modes(&deck).expect("modes"));
+}
+
+#[test]
+fn numbers_beyond_the_range_are_refused() {
+    for (modulus, mass, message) in [
+        ("1.+306", "1.-6", "squared frequency of mode 1: expected a positive finite number, found inf"),
+        ("1.-303", "1.+300", "weighted dynamic flexibility: expected finite numbers, found inf at entry (0, 0)"),
+        ("1.+300", "1.-40", "modes: expected 1, one for every mass that moves by itself, found 0: "),
+    ] {
+        let deck = format!("{ROD}CMASS2,7,{mass},2,1").replace("MAT1,1,1.+6", &format!("MAT1,1,{modulus}"));
+        let error = modes(&deck).expect_err("beyond the range").to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
+}
+
+#[test]
+fn masses_beyond_the_memory_are_refused_before_they_take_it() {
+    let mut deck = String::from("GRID,1,,0.,0.,0.,,123\nPROD,1,1,.01\nMAT1,1,1.+6,,.3\n");
+    for label in 2..=20_001 {
+        deck += &format!(
+            "GRID,{label},,{label}.,0.,0.,,23\nCROD,{label},1,{},{label}\nCONM2,{label},{label},,1.\n",
+            label - 1
+        );
+    }
+    let error = modes(&deck).expect_err("20,000 masses");
+    assert_eq!(
+        error.to_string(),
+        "modes: expected dense matrices of at most 4.0 GiB, found 29.8 GiB for 20000 degrees of freedom with mass \
+         among 20000 free ones"
+    );
+}
+
+#[test]
+fn a_free_structure_has_its_rigid_body_modes_counted_and_left_out() {
+    // Two masses and a rod between them: ω² = k(1/m₁ + 1/m₂).
+    let free = "GRID,1,,0.,0.,0.,,23\nGRID,2,,10.,0.,0.,,23\nCONROD,1,1,2,1,1.\nMAT1,1,1.+4,,.3\n\
+                CMASS2,7,.4,1,1\nCMASS2,8,.1,2,1";
+    let found = modes(free).expect("modes");
+    assert_eq!((found.rigid_body, found.modes.len()), (1, 1));
+    approx::assert_relative_eq!(found.modes.omega_squared[0], 1000.0 * (2.5 + 10.0), max_relative = COUNTED_ROOT);
+    // They move against each other, the lighter one four times as far.
+    let ratio = found.modes.shapes[1] / found.modes.shapes[0];
+    approx::assert_relative_eq!(ratio, -4.0, max_relative = COUNTED_ROOT);
 }

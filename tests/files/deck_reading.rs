@@ -4,6 +4,7 @@ use crate::common::tolerances::ROUND_OFF;
 use corfem::files::deck::bulk_data;
 use corfem::files::deck::{self, Reason, Unread};
 use corfem::files::error::FileError;
+use proptest::prelude::*;
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
 const ROD: &str = "\
@@ -23,26 +24,133 @@ fn case_control_selects_the_sets() {
          MPC,5,3,1,-1.,2,1,3.\nSPC1,2,1,2\nCMASS2,8,.4,3,1\nENDDATA\nnonsense"
     );
     let read = deck::read("test", &deck).expect("it reads");
-    let skipped = |card: &str, line| Unread { card: card.into(), line, reason: Reason::NotSelected };
-    assert_eq!(read.unread, [skipped("MPC", 15), skipped("SPC1", 16)]);
+    let skipped = |card: &str, line, count| Unread { card: card.into(), line, count, reason: Reason::NotSelected };
+    assert_eq!(read.unread, [skipped("MPC", 15, 1), skipped("SPC1", 16, 1)]);
     assert_eq!(read.model.ties.len(), 1);
     assert_eq!(read.model.ties[0].terms[0].1, 1.0);
     assert!(!read.model.grids[1].constrained[0]);
     // Case control that selects nothing holds nothing.
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
     let read = deck::read("test", &loose).expect("it reads");
-    assert_eq!(read.unread.len(), 2);
+    assert_eq!(read.unread, [skipped("SPC1", 8, 2)]);
     assert!(read.model.grids.iter().all(|grid| grid.constrained == [false; 3]));
 }
 
 #[test]
-fn unknown_cards_are_listed_in_the_order_of_the_file() {
-    let deck = format!("PARAM,WTMASS,2.\n{ROD}CMASS2,8,.4,2,1\nCBAR,9,1,1,2,1.,0.,0.\nEIGR,1,INV\n+X,MAX\n");
+fn cards_without_part_in_the_model_are_listed_by_name() {
+    let deck = format!("PARAM,GRDPNT,0\n{ROD}CMASS2,8,.4,2,1\nFORCE,9,2,0,1.,1.\nEIGR,1,INV\nPARAM,POST,-1\n+X,MAX\n");
     let error = deck::read("test", &deck).expect_err("+X continues nothing");
-    assert!(matches!(error, FileError::DeckLine { line: 12, .. }), "{error}");
+    assert!(matches!(error, FileError::DeckLine { line: 13, .. }), "{error}");
     let read = deck::read("test", &deck.replace("+X,MAX\n", "")).expect("it reads");
-    let unknown = |card: &str, line| Unread { card: card.into(), line, reason: Reason::Unknown };
-    assert_eq!(read.unread, [unknown("PARAM", 1), unknown("CBAR", 10)]);
+    let listed = |card: &str, line, count| Unread { card: card.into(), line, count, reason: Reason::WithoutPart };
+    assert_eq!(read.unread, [listed("PARAM", 1, 2), listed("FORCE", 10, 1)]);
+}
+
+/// Grids 1 to 4 along x, and what the SPC1 cards of a deck constrain of their x, or its error.
+fn held(control: &str, supports: &str) -> Result<Vec<bool>, FileError> {
+    let deck = format!("{control}GRID,1\nGRID,2\nGRID,3\nGRID,4\n{supports}");
+    let grids = deck::read("test", &deck)?.model.grids;
+    Ok(grids.into_iter().map(|grid| grid.constrained[0]).collect())
+}
+
+#[test]
+fn spcadd_joins_sets() {
+    let supports = "SPCADD,10,1,2\nSPC1,1,1,1\nSPC1,2,1,2,3\n";
+    assert_eq!(held("", supports).expect("one union"), [true, true, true, false]);
+    let more = format!("{supports}SPC1,7,1,4\nSPCADD,11,1,,7\n");
+    for (set, expected) in
+        [(10, [true, true, true, false]), (11, [true, false, false, true]), (2, [false, true, true, false])]
+    {
+        assert_eq!(held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).expect("it reads"), expected, "{set}");
+    }
+    let own = format!("{supports}SPC1,10,1,4\n");
+    assert_eq!(held("SPC = 10\nBEGIN BULK\n", &own).expect("it reads"), [true, true, true, false], "its sets alone");
+    let long = "SPCADD,10,1,1,1,1,1,1,1,+A\n+A,2\nSPC1,1,1,1\nSPC1,2,1,2\n";
+    assert_eq!(held("", long).expect("it reads"), [true, true, false, false]);
+}
+
+#[test]
+fn mpcadd_joins_sets() {
+    let ties = "MPCADD,10,1,2\nMPC,1,2,1,-1.,1,1,1.\nMPC,2,3,1,-1.,1,1,1.\n";
+    let read = deck::read("test", &format!("GRID,1\nGRID,2\nGRID,3\n{ties}")).expect("it reads");
+    assert_eq!(read.model.ties.len(), 2);
+}
+
+#[test]
+fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
+    for (supports, line, field, expected) in [
+        ("SPCADD,10,1,3\nSPC1,1,1,1\n", 5, 4, "the set of an SPC1 card"),
+        ("SPCADD,10\nSPC1,1,1,1\n", 5, 3, "a positive integer of at most eight digits"),
+        ("SPCADD,10,1\nSPC1,1,1,1\nSPC1,2,1,2\n", 7, 2, "set 10 again, for no case control selects one"),
+        ("SPCADD,10,1\nSPC1,1,1,1\nSPCADD,11,1\n", 7, 2, "set 10 again, for no case control selects one"),
+    ] {
+        let error = held("", supports).expect_err(supports);
+        assert!(
+            matches!(&error, FileError::DeckField { line: at, field: of, expected: wanted, .. }
+                if (*at, *of, wanted.as_str()) == (line, field, expected)),
+            "{error}"
+        );
+    }
+    let error = held("TITLE = A\nSPC = 3\nBEGIN BULK\n", "SPC1,1,1,1\n").expect_err("no set 3");
+    assert_eq!(error.to_string(), "test, line 2: expected a set of constraints that the deck has, found 3");
+    let ignored = ["SPC".to_owned()];
+    let deck = "SPC = 3\nBEGIN BULK\nGRID,1\nSPC,3,1,1\n";
+    assert!(deck::read_without("test", deck.as_bytes(), &ignored).is_ok(), "its cards are left out by request");
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// The deck of a weighted model is another deck of the same model, without the parameter.
+    #[test]
+    fn wtmass_multiplies_masses_and_densities(model in crate::common::decks::bulk_data(), factor in 1e-4..1e4_f64) {
+        let factor = deck::number::nearest_in_field(factor);
+        let value = deck::number::large_real(factor).expect("a number");
+        let text = bulk_data(&model).expect("a deck");
+        let weighted = deck::read("test", &format!("PARAM*,WTMASS,{value}\n{text}")).expect("it reads");
+        prop_assert!(weighted.unread.is_empty());
+        let mut expected = model;
+        for element in &mut expected.elements {
+            element.material.density = deck::number::nearest_in_field(factor * element.material.density);
+        }
+        for point in &mut expected.masses {
+            point.mass = deck::number::nearest_in_field(factor * point.mass);
+        }
+        prop_assert_eq!(&weighted.model, &expected);
+        let again = deck::read("test", &bulk_data(&weighted.model).expect("a deck")).expect("it reads");
+        prop_assert_eq!(&again.model, &expected);
+    }
+}
+
+#[test]
+fn wtmass_may_stand_in_case_control_and_counts_once() {
+    let text = format!("PARAM,WTMASS,.5\nSPC = 1\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1\n");
+    for text in [text.clone(), format!("SUBCASE 1\n  {text}")] {
+        assert_eq!(deck::read("test", &text).expect("it reads").model.masses[0].mass, 0.2);
+    }
+    for (more, line, what) in [
+        ("PARAM,WTMASS,.5", 12, "one PARAM,WTMASS at most"),
+        ("PARAM,WTMASS,0.", 1, "a positive real number"),
+        ("PARAM,WTMASS,2", 1, "a real number with a decimal point"),
+        ("PARAM,WTMASS,1.-308", 1, "a factor that leaves every mass within the range of numbers"),
+    ] {
+        let text = if line == 1 { text.replace("PARAM,WTMASS,.5", more) } else { format!("{text}{more}\n") };
+        let error = deck::read("test", &text).expect_err(more).to_string();
+        assert!(error.starts_with(&format!("test, line {line}:")) && error.contains(what), "{error}");
+    }
+}
+
+#[test]
+fn latin_1_and_a_byte_order_mark_are_read() {
+    let expected = deck::read("test", ROD).expect("it reads");
+    let marked = [b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(), ROD.as_bytes()].concat();
+    let latin_1 = [b"$ \xC4nderung f\xFCr Fl\xFCgel\n".as_slice(), ROD.as_bytes()].concat();
+    for bytes in [[b"\xEF\xBB\xBF".as_slice(), ROD.as_bytes()].concat(), marked, latin_1] {
+        assert_eq!(deck::read_without("test", &bytes, &[]).expect("it reads"), expected);
+    }
+    let name = [ROD.as_bytes(), b"CR\xD6D,2,1,1,2\n"].concat();
+    let error = deck::read_without("test", &name, &[]).expect_err("no card has such a letter");
+    assert!(matches!(&error, FileError::DeckCards { cards, .. } if cards[0].card == "CR\u{d6}D"), "{error}");
 }
 
 #[test]

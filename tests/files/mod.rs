@@ -1,6 +1,7 @@
 //! Decks and the solver.
 
 pub mod deck;
+pub mod deck_cards;
 pub mod deck_errors;
 pub mod deck_errors_lines;
 pub mod deck_mass_law;

@@ -100,7 +100,7 @@ fn modes_are_tables_with_what_was_not_read() {
     let path = path.to_str().expect("UTF-8");
     let plain = corfem(&["modes", path]);
     assert_eq!(plain.status.code(), Some(0));
-    let sentence = "Not read: card PARAM in line 1 is not known here.";
+    let sentence = "Not read: PARAM (line 1, 1 card), nothing of stiffness, mass, supports or coordinates.";
     assert!(text(&plain.stderr).ends_with(&format!("{sentence}\n")), "{}", text(&plain.stderr));
     let report = text(&plain.stdout);
     assert!(report.starts_with("Natural frequencies at 1 degree of freedom with mass\n"), "{report}");
@@ -167,12 +167,76 @@ fn bad_input_is_exit_status_2() {
     assert!(text(&absent.stderr).contains("no/such.dat: expected to read it"));
 }
 
+/// A rod that holds one mass, with three cards that the crate does not understand.
+const BARS: &str = "\
+GRID,1,,0.,0.,0.,,123
+GRID,2,,10.,0.,0.,,23
+CROD,1,1,1,2
+PROD,1,1,.01
+MAT1,1,1.+6,,.3
+CMASS2,7,.4,2,1
+CBAR,8,2,1,2,0.,1.,0.
+PBAR,2,1,.01
+CBAR,9,2,1,2,0.,1.,0.
+";
+
+#[test]
+fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bars.dat");
+    std::fs::write(&path, BARS).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let refused = corfem(&["modes", path]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(refused.stdout.is_empty());
+    assert_eq!(
+        text(&refused.stderr),
+        format!(
+            "corfem: {path}: expected cards that are read here, found CBAR (line 7, 2 cards), PBAR (line 8, 1 card); \
+             they may carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them \
+             out with --ignore 'CBAR,PBAR'\n"
+        )
+    );
+    let some = corfem(&["modes", path, "--ignore", "CBAR"]);
+    assert_eq!(some.status.code(), Some(2));
+    assert!(text(&some.stderr).contains("found PBAR (line 8, 1 card);"), "{}", text(&some.stderr));
+    let read = corfem(&["modes", path, "--ignore", "CROD"]);
+    assert_eq!(read.status.code(), Some(2));
+    assert_eq!(text(&read.stderr), "corfem: --ignore: expected a card that is not read here, found CROD\n");
+    let run = |format| corfem(&["modes", path, "--ignore", "cbar,PBAR", "--format", format]);
+    let sentence = "Not read: CBAR (line 7, 2 cards), left out by request; these modes lack what they say.";
+    let report = run("text");
+    assert_eq!(report.status.code(), Some(0));
+    assert!(text(&report.stderr).contains(sentence), "{}", text(&report.stderr));
+    let title = "Cards left out by request: these modes lack what they say";
+    assert!(text(&report.stdout).starts_with(title), "{}", text(&report.stdout));
+    assert!(text(&report.stdout).contains("1      7.957747     0.400000\n"), "{}", text(&report.stdout));
+    let markdown = text(&run("markdown").stdout);
+    assert!(markdown.contains(title) && markdown.contains("| CBAR | 2 | 7 |\n| PBAR | 1 | 8 |"), "{markdown}");
+    let csv = text(&run("csv").stdout);
+    assert!(csv.contains("ignored,CBAR,Cards,,2,\n") && csv.contains("ignored,PBAR,Cards,,1,\n"), "{csv}");
+    let json: Value = serde_json::from_slice(&run("json").stdout).expect("JSON");
+    assert_eq!(json["not_read"][0], sentence);
+    assert_eq!(json["not_read"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn a_deck_in_latin_1_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("latin.dat");
+    let bytes = [b"$ Fl\xFCgel\n".as_slice(), BARS.split("CBAR").next().expect("a part").as_bytes()].concat();
+    std::fs::write(&path, bytes).expect("written");
+    let report = corfem(&["modes", path.to_str().expect("UTF-8")]);
+    assert_eq!(report.status.code(), Some(0), "{}", text(&report.stderr));
+    assert!(report.stderr.is_empty());
+}
+
 #[test]
 fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
-    let unread =
-        corfem::files::deck::Unread { card: "MPC".into(), line: 7, reason: corfem::files::deck::Reason::NotSelected };
+    let reason = corfem::files::deck::Reason::NotSelected;
+    let unread = corfem::files::deck::Unread { card: "MPC".into(), line: 7, count: 2, reason };
     assert_eq!(
         corfem::present::tables::deck::not_read(&unread),
-        "Not read: card MPC in line 7 belongs to a set that case control does not select."
+        "Not read: MPC (line 7, 2 cards), of a set that case control does not select."
     );
 }

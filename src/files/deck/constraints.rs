@@ -1,49 +1,89 @@
-//! Cards of constraints: what SPC1 fixes to ground and what MPC ties.
+//! Cards of constraints: what SPC1 fixes to ground, what MPC ties, and which sets of them count.
 
 use super::card::Card;
 use super::lines::Selected;
 use super::model::Tie;
 use crate::files::error::FileError;
 use crate::method::structure::{Grid, StructuralDof};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The constraints of the selected sets, as cards.
-#[derive(Debug)]
+/// The constraints of a deck as cards, from [`Self::select`] on those of the selected sets alone.
+#[derive(Debug, Default)]
 pub(super) struct Constraints {
-    by_case_control: bool,
-    selected: Selected,
-    supports: Vec<Card>,
-    equations: Vec<Card>,
+    supports: Sets,
+    equations: Sets,
+}
+
+/// Cards of one kind with their sets: SPC1 or MPC, and the SPCADD or MPCADD that join sets.
+#[derive(Debug, Default)]
+struct Sets {
+    cards: Vec<(usize, Card)>,
+    unions: Vec<(usize, Card)>,
+}
+
+impl Sets {
+    /// Keeps the cards of the selected set, or of the sets that it joins, and returns the others.
+    fn select(&mut self, selected: Option<usize>) -> Result<Vec<Card>, FileError> {
+        let (chosen, others): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.unions).into_iter().partition(|(set, _)| Some(*set) == selected);
+        let known: BTreeSet<usize> = self.cards.iter().map(|(set, _)| *set).collect();
+        let mut sets = BTreeSet::new();
+        for (_, card) in &chosen {
+            card.label(3)?;
+            for field in card.filled().into_iter().filter(|&field| field > 2) {
+                let set = card.label(field)?;
+                if !known.contains(&set) {
+                    return Err(card.error(field, format!("the set of an {} card", card.name.replace("ADD", "1"))));
+                }
+                sets.insert(set);
+            }
+        }
+        // A set that joins others has their cards alone, as in NASTRAN.
+        if chosen.is_empty() {
+            sets.extend(selected);
+        }
+        let (kept, left_out): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.cards).into_iter().partition(|(set, _)| sets.contains(set));
+        self.cards = kept;
+        Ok(left_out.into_iter().chain(others).map(|(_, card)| card).collect())
+    }
 }
 
 impl Constraints {
-    /// None yet; without case control the one set in the deck counts.
-    pub fn new(selected: Option<Selected>) -> Self {
-        let by_case_control = selected.is_some();
-        Self { by_case_control, selected: selected.unwrap_or_default(), supports: Vec::new(), equations: Vec::new() }
+    /// Takes an SPC1, SPCADD, MPC or MPCADD card.
+    pub fn take(&mut self, card: Card) -> Result<(), FileError> {
+        let sets = if card.name.starts_with("SPC") { &mut self.supports } else { &mut self.equations };
+        let cards = if card.name.ends_with("ADD") { &mut sets.unions } else { &mut sets.cards };
+        cards.push((card.label(2)?, card));
+        Ok(())
     }
 
-    /// Takes an SPC1 or MPC card if its set counts; whether it does. Without case control a second set is an error.
-    pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
-        let set = card.label(2)?;
-        let (chosen, cards) = match card.name.as_str() {
-            "SPC1" => (&mut self.selected.spc, &mut self.supports),
-            _ => (&mut self.selected.mpc, &mut self.equations),
-        };
-        if !self.by_case_control {
-            let first = *chosen.get_or_insert(set);
-            if first != set {
-                return Err(card.error(2, format!("set {first} again, for no case control selects one")));
+    /// Keeps the cards of the sets that case control selects, and returns the others. Without case control (`None`) the
+    /// set of SPCADD counts, or else the one set there is, and every other card is an error.
+    ///
+    /// A set that case control selects must exist in `file`, unless cards `may_lack`.
+    pub fn select(&mut self, file: &str, selected: Option<Selected>, may_lack: bool) -> Result<Vec<Card>, FileError> {
+        let by_control = selected.map(|selected| [selected.spc, selected.mpc]);
+        let mut left_out = Vec::new();
+        for (row, sets) in [&mut self.supports, &mut self.equations].into_iter().enumerate() {
+            let Some(chosen) = by_control.map(|chosen| chosen[row]) else {
+                let first = sets.unions.first().or(sets.cards.first()).map(|(set, _)| *set);
+                if let (Some(first), Some(other)) = (first, sets.select(first)?.first()) {
+                    return Err(other.error(2, format!("set {first} again, for no case control selects one")));
+                }
+                continue;
+            };
+            left_out.extend(sets.select(chosen.map(|(set, _)| set))?);
+            if let Some((set, line)) = chosen.filter(|_| sets.cards.is_empty() && !may_lack) {
+                return Err(FileError::line(file, line, "a set of constraints that the deck has", set.to_string()));
             }
         }
-        let is_chosen = *chosen == Some(set);
-        cards.extend(is_chosen.then(|| card.clone()));
-        Ok(is_chosen)
+        Ok(left_out)
     }
 
     /// Marks what is constrained: the grids of every card one by one, or from the first to the last of `G1 THRU G2`.
     pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
-        for card in &self.supports {
+        for (_, card) in &self.supports.cards {
             let directions = card.directions(3)?;
             if card.text(3).is_empty() {
                 return Err(card.error(3, "components from 1 to 6"));
@@ -56,7 +96,7 @@ impl Constraints {
                 let first = card.label(field)?;
                 let mut last = first;
                 if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
-                    let end = fields.next().ok_or_else(|| card.error(word + 1, "a grid after THRU"))?;
+                    let end = fields.next().ok_or_else(|| card.error(after(word), "a grid after THRU"))?;
                     last = card.label(end)?;
                     if last < first {
                         return Err(card.error(end, format!("a grid after {first}")));
@@ -77,7 +117,7 @@ impl Constraints {
     /// The equations, by dependent DOF: it may not be constrained nor in another equation, nor its coefficient zero.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
-        for card in &self.equations {
+        for (_, card) in &self.equations.cards {
             let mut terms = terms(card, grids)?.into_iter();
             let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
             let key = (dependent.grid, dependent.direction);
@@ -112,6 +152,11 @@ fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDo
         Ok((StructuralDof { grid, direction: card.direction(field + 1)? }, card.real(field + 2)?))
     };
     fields.map(term).collect()
+}
+
+/// The field after another: fields 10 and 11 are no data.
+fn after(field: usize) -> usize {
+    if field % 10 == 9 { field + 3 } else { field + 1 }
 }
 
 /// Field of the grid of a term, counted from zero: two terms to a line, in fields 3 and 6.

@@ -36,8 +36,8 @@ enum Size {
 }
 
 impl ElementCards {
-    /// Takes a card if it is one of an element, a property or a material; whether it was.
-    pub fn take(&mut self, card: &Card) -> Result<bool, FileError> {
+    /// Takes a card of an element, a property or a material.
+    pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
         let is_double = TWO_TO_A_CARD.contains(&name) && card.filled().last().is_some_and(|&last| last > 5);
         let starts = if is_double { &[2, 6][..] } else { &[2] };
@@ -64,9 +64,9 @@ impl ElementCards {
                 card.keep(2, rod, &mut self.connections)?;
             }
             "MAT1" => card.keep(2, material(card)?, &mut self.materials)?,
-            _ => return Ok(ELEMENT_CARDS.iter().any(|known| name == known.0 || name == known.1)),
+            _ => {}
         }
-        Ok(true)
+        Ok(())
     }
 
     /// The elements by number; property, material and grids must exist.

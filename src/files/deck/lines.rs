@@ -3,17 +3,23 @@
 use super::card::{FIELDS_PER_LINE, Field};
 use super::number::{LARGE_FIELD, SMALL_FIELD};
 use crate::files::error::FileError;
+use std::borrow::Cow;
 
 /// Data fields of a line in the large format.
 pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Columns of a line that count.
 const LINE_WIDTH: usize = 80;
 
-/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`.
+/// Statements that read another file, in any section.
+const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
+/// What stands behind the first word of such a statement, or of a parameter.
+const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
+
+/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Selected {
-    pub spc: Option<usize>,
-    pub mpc: Option<usize>,
+    pub spc: Option<(usize, usize)>,
+    pub mpc: Option<(usize, usize)>,
 }
 
 /// One line of bulk data, cut into fields.
@@ -42,7 +48,16 @@ impl Line {
     }
 }
 
+/// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
+pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect::<String>();
+    std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
+}
+
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
+///
+/// What stands in front of the bulk data and yet is part of the model, parameters and other files, is among its lines.
 ///
 /// # Errors
 /// [`FileError::DeckLine`] for a line that is neither card nor continuation and for a selection that is not one set.
@@ -58,9 +73,16 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
             select(file, *number, line, selected)?;
         }
     }
+    let of_model = |(_, line): &&(usize, String)| statement(line, &["PARAM"]).or(statement(line, &INCLUDES)).is_some();
     let bulk = bulk.iter().take_while(|(_, line)| line.trim() != "ENDDATA");
-    let bulk = bulk.map(|(number, line)| fields(file, *number, line.trim_end()));
+    let bulk = control.iter().filter(of_model).chain(bulk).map(|(number, line)| fields(file, *number, line.trim_end()));
     Ok((selected, bulk.collect::<Result<_, _>>()?))
+}
+
+/// Which of these words a line begins with.
+fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
+    let begins = |name: &&&str| line.trim_start().strip_prefix(**name).is_some_and(|rest| rest.starts_with(WORD_ENDS));
+    names.iter().find(begins).copied()
 }
 
 /// Takes notice of `SPC = n` and `MPC = n`.
@@ -71,7 +93,7 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
         _ => return Ok(()),
     };
     match set.trim().parse() {
-        Ok(set) if slot.is_none_or(|earlier| earlier == set) => *slot = Some(set),
+        Ok(set) if slot.is_none_or(|(earlier, _)| earlier == set) => *slot = Some((set, line)),
         _ => return Err(FileError::line(file, line, "one set of constraints, by its number", text.trim())),
     }
     Ok(())
@@ -80,6 +102,9 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
 /// Cuts a line into its fields. With a comma it is in free format; otherwise an asterisk behind the name or in front of
 /// a continuation means fields of 16 characters, its absence fields of 8.
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
+    if let Some(name) = statement(text, &INCLUDES) {
+        return Ok(Line { number, first: name.to_owned(), data: Vec::new(), large: false, tag: String::new() });
+    }
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
     let is_large = |name: &str| name.ends_with('*') || name.starts_with('*');
     let mut parts: Vec<String> = if text.contains(',') {

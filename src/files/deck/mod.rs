@@ -14,19 +14,23 @@
 //!
 //! which is similar to $K_D^{-1} M$. So NASTRAN's own solution of the deck must be the modes of Appendix A, and is.
 //!
-//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, [`read()`] makes a model of them;
-//! [`modes()`] finds its modes.
+//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, `known` says which may be left out,
+//! and [`read()`] makes a model of the others; [`modes()`] finds its modes.
 
 mod card;
 mod constraints;
 mod continuation;
 mod elements;
+mod known;
 mod lines;
 mod model;
+mod modes;
 pub mod number;
 mod read;
 mod write;
 
-pub use model::{BulkData, PointMass, Tie, modes};
-pub use read::{Deck, Reason, Unread, read};
+pub use known::{Reason, Unread};
+pub use model::{BulkData, PointMass, Tie};
+pub use modes::modes;
+pub use read::{Deck, read, read_without};
 pub use write::{Task, bulk_data, write};

@@ -1,12 +1,13 @@
 //! What a deck says: grids, elements, ties and masses, whatever the order and the format of its cards.
 
+use super::modes::check_memory;
 use crate::files::error::FileError;
-use crate::method::assembly::{ElementMatrix, FactorizedStiffness, element_matrices};
+use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
-use crate::studies::whole_modes::{MassDof, WholeModes, lumped_mass, whole_modes};
+use crate::studies::whole_modes::{MassDof, lumped_mass};
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
@@ -145,7 +146,7 @@ impl BulkData {
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
     ///
     /// # Errors
-    /// [`Error::Empty`] when no mass can move.
+    /// [`Error::Empty`] when no mass can move; [`FileError::TooManyMasses`] for more than memory has room for.
     pub fn mass_dof(&self, structure: &Structure, elements: &[ElementMatrix]) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, &self.sizes(), free.len());
@@ -157,8 +158,12 @@ impl BulkData {
             }
         }
         let tie_of = self.tie_of();
+        mass.retain(|at, mass| {
+            *mass > 0.0 && (structure.free_dof_index(at.0, at.1).is_some() || tie_of.contains_key(at))
+        });
+        check_memory(mass.len(), free.len())?;
         let (mut dof, mut columns, mut masses) = (Vec::new(), Vec::new(), Vec::new());
-        for ((grid, direction), mass) in mass.into_iter().filter(|(_, mass)| *mass > 0.0) {
+        for ((grid, direction), mass) in mass {
             let mut column = DVector::zeros(free.len());
             let own = StructuralDof { grid, direction };
             let terms = match tie_of.get(&(grid, direction)) {
@@ -183,19 +188,7 @@ impl BulkData {
         Ok(MassDof { dof, load_distribution: DMatrix::from_columns(&columns), mass: DVector::from_vec(masses) })
     }
 
-    fn sizes(&self) -> Vec<f64> {
+    pub(super) fn sizes(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.size).collect()
     }
-}
-
-/// All modes of finite frequency of the model that a deck describes, at its DOF with mass ([`BulkData::mass_dof`]).
-///
-/// # Errors
-/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements and the factorization of $K_S$.
-pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
-    let structure = model.structure()?;
-    let elements = element_matrices(&structure)?;
-    let at = model.mass_dof(&structure, &elements)?;
-    let stiffness = FactorizedStiffness::new(&elements, &model.sizes(), structure.free_dof())?;
-    Ok(whole_modes(&stiffness, at)?)
 }

@@ -11,7 +11,8 @@ const FREQUENCY: Digits = Digits::Significant(7);
 const MASS: Digits = Digits::Significant(6);
 const SHAPE: Digits = Digits::Fixed(5);
 
-/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one.
+/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table
+/// of what was left out by request.
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
 pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
@@ -20,11 +21,15 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
     let title = format!("Natural frequencies at {dof} of freedom with mass");
     let mut table =
         Table::new("frequencies", title, "Mode").column("Frequency", "Hz").column("Generalized mass", "lbf·s²/in");
-    table.notes = deck.unread.iter().map(not_read).collect();
+    table.notes = deck.unread.iter().filter(|unread| unread.reason != Reason::Ignored).map(not_read).collect();
+    if modes.rigid_body > 0 {
+        let rigid = counted(modes.rigid_body, "rigid-body mode is", "rigid-body modes are");
+        table = table.note(format!("The structure hangs free: {rigid} not listed."));
+    }
     for (mode, frequency) in scaled.frequencies_hz.iter().enumerate() {
         table.row(mode + 1, [Cell::number(*frequency, FREQUENCY), Cell::number(scaled.masses[mode], MASS)]);
     }
-    let mut tables = vec![table];
+    let mut tables: Vec<Table> = ignored(deck).into_iter().chain([table]).collect();
     for (part, shapes) in scaled.shapes.chunks(MODES_PER_TABLE).enumerate() {
         let (first, last) = (MODES_PER_TABLE * part + 1, MODES_PER_TABLE * part + shapes.len());
         let title = format!("Shapes of modes {first} to {last}, largest component one");
@@ -39,14 +44,25 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
     tables
 }
 
-/// One sentence about a card that was not read.
+/// Cards left out by request, where there are any.
+fn ignored(deck: &Deck) -> Option<Table> {
+    let mut table = Table::new("ignored", "Cards left out by request: these modes lack what they say", "Card")
+        .columns(["Cards", "First line"], "");
+    for unread in deck.unread.iter().filter(|unread| unread.reason == Reason::Ignored) {
+        table.row(&unread.card, [unread.count, unread.line].map(Cell::count));
+    }
+    (!table.rows.is_empty()).then_some(table)
+}
+
+/// One sentence about cards that were not read.
 pub fn not_read(unread: &Unread) -> String {
-    let Unread { card, line, reason } = unread;
-    let why = match reason {
-        Reason::Unknown => "is not known here",
-        Reason::NotSelected => "belongs to a set that case control does not select",
+    let why = match unread.reason {
+        Reason::Unknown => "not known here",
+        Reason::Ignored => "left out by request; these modes lack what they say",
+        Reason::WithoutPart => "nothing of stiffness, mass, supports or coordinates",
+        Reason::NotSelected => "of a set that case control does not select",
     };
-    format!("Not read: card {card} in line {line} {why}.")
+    format!("Not read: {}, {why}.", unread.place())
 }
 
 /// Modes scaled for a reader.

@@ -1,0 +1,104 @@
+//! The modes of a deck, refused where neither memory nor double precision suffices for them.
+
+use super::model::BulkData;
+use crate::files::error::FileError;
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
+use crate::method::elements::unit_stiffness;
+use crate::method::error::Error;
+use crate::method::linear_algebra::symmetric_eigen;
+use crate::method::structure::{DIRECTIONS, Structure, positive};
+use crate::studies::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};
+
+/// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
+const MOST_MEMORY: f64 = 4.0;
+/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once:
+/// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
+const DENSE_MATRICES: f64 = 10.0;
+const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
+/// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
+/// 1e10 six digits of the lowest frequency are left.
+const LARGEST_RATIO: f64 = 1e10;
+/// Eigenvalue of the Gram matrix of the masses' motions, each of length one, above which they are independent: motions
+/// that differ by one part in 1e5, far more than fields of 8 characters round.
+const INDEPENDENT: f64 = 1e-10;
+
+/// All vibrations of finite frequency of the model that a deck describes, held or free, at its DOF with mass ([`BulkData::mass_dof`]): as
+/// many as there are masses that move independently.
+///
+/// # Errors
+/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements and the factorization of $K_S$;
+/// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
+/// [`Error::NotPositive`] for a squared frequency or a generalized mass beyond the range of numbers.
+pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
+    let structure = model.structure()?;
+    let elements = element_matrices(&structure)?;
+    check_stiffness(&structure, &elements)?;
+    let at = model.mass_dof(&structure, &elements)?;
+    let (sizes, free) = (model.sizes(), structure.free_dof());
+    let found = match FactorizedStiffness::new(&elements, &sizes, free) {
+        Ok(stiffness) => whole_modes(&stiffness, at)?,
+        // It may hang free; a motion that has no mass either is refused by its grid.
+        Err(singular @ Error::SingularStiffness { .. }) => {
+            let dense = dense_stiffness(&elements, &sizes, free.len())?;
+            free_whole_modes(&dense, at).map_err(|error| match error {
+                Error::NotPositiveDefinite { .. } => singular,
+                other => other,
+            })?
+        }
+        Err(other) => return Err(other.into()),
+    };
+    if found.rigid_body == 0 && found.modes.len() < found.dof.len() {
+        check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
+    }
+    let (squared, shapes) = (found.modes.omega_squared.iter(), found.modes.shapes.column_iter());
+    for (mode, (&squared, shape)) in squared.zip(shapes).enumerate() {
+        let owner = || format!("mode {}", mode + 1);
+        positive("squared frequency", owner, squared)?;
+        positive("generalized mass", owner, shape.amax().powi(-2))?;
+    }
+    Ok(found)
+}
+
+/// Refuses dense matrices that memory does not hold, before they are made.
+pub(super) fn check_memory(masses: usize, free: usize) -> Result<(), FileError> {
+    let entries = masses as f64 * masses.max(free) as f64;
+    let needed = DENSE_MATRICES * entries * size_of::<f64>() as f64 / BYTES_PER_GIB;
+    let refused = FileError::TooManyMasses { most: MOST_MEMORY, needed, masses, free };
+    if needed <= MOST_MEMORY { Ok(()) } else { Err(refused) }
+}
+
+/// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
+///
+/// The stiffness of an element is the largest entry of its matrix, held DOF included: what its direction leaves of it
+/// at the free ones may be round-off.
+fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
+    let mut extremes: Option<[(f64, usize); 2]> = None;
+    for (element, matrix) in structure.elements().iter().zip(elements) {
+        if matrix.dof.is_empty() {
+            continue;
+        }
+        let unit = unit_stiffness(element.kind, &structure.corners(element), &element.material)?;
+        let own = (element.size * unit.amax(), element.label);
+        let [low, high] = extremes.unwrap_or([own; 2]);
+        extremes = Some([if own.0 < low.0 { own } else { low }, if own.0 > high.0 { own } else { high }]);
+    }
+    match extremes {
+        Some([softest, stiffest]) if stiffest.0 > LARGEST_RATIO * softest.0 => {
+            Err(FileError::StiffnessRange { most: LARGEST_RATIO, softest, stiffest })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses fewer modes than masses that move independently.
+fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
+    let place = |row: usize| format!("grid {} {}", at.dof[row].grid, DIRECTIONS[at.dof[row].direction]);
+    let [lightest, heaviest] = [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
+    let mut motions = at.load_distribution;
+    for mut motion in motions.column_iter_mut() {
+        motion.normalize_mut();
+    }
+    let (values, _) = symmetric_eigen("motions of masses", &motions.tr_mul(&motions))?;
+    let expected = values.iter().filter(|&&value| value > INDEPENDENT).count();
+    if found >= expected { Ok(()) } else { Err(FileError::LostModes { expected, found, lightest, heaviest }) }
+}
