@@ -3,9 +3,11 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
+use crate::common::signals::{SIGNALS, send, undisturbed};
 use corfem::files::error::FileError;
 use corfem::files::nastran95::{Nastran95, default_folder};
-use std::os::unix::fs::PermissionsExt;
+use rustix::process::Signal;
+use std::os::unix::{fs::PermissionsExt, process::ExitStatusExt};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -57,12 +59,12 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
 #[test]
 fn a_run_without_an_answer_says_what_was_printed_last() {
     let home = fake("echo one; echo two; echo; echo three; echo four");
-    let error = solver(&home).matrices("").expect_err("nothing on unit 15");
+    let error = solver(&home).matrices("", 0).expect_err("nothing on unit 15");
     assert_eq!(
         error.to_string(),
         "NASTRAN-95: expected matrices on Fortran unit 15, found none; printed last: two / three / four"
     );
-    let silent = solver(&fake("exit 0")).matrices("").expect_err("nothing at all");
+    let silent = solver(&fake("exit 0")).matrices("", 0).expect_err("nothing at all");
     assert!(
         matches!(&silent, FileError::SolverAnswer { found, .. } if found == "none; printed last: nothing printed"),
         "{silent}"
@@ -118,6 +120,65 @@ fn a_hang_is_stopped_with_everything_it_started() {
 }
 
 #[test]
+fn what_a_run_leaves_running_is_ended_with_it() {
+    let outside = tempfile::tempdir().expect("a folder");
+    let file = outside.path().join("process");
+    let home = fake(&format!("sleep 60 > /dev/null 2>&1 &\necho $! > {}", file.display()));
+    solver(&home).run("").expect("a run");
+    let process = std::fs::read_to_string(file).expect("its number");
+    let is_alive = || {
+        let state = std::fs::read_to_string(format!("/proc/{}/stat", process.trim())).unwrap_or_default();
+        state.split(' ').nth(2).is_some_and(|state| state != "Z")
+    };
+    let limit = Instant::now() + Duration::from_secs(20);
+    while is_alive() && Instant::now() < limit {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(!is_alive());
+}
+
+#[test]
+fn what_is_no_file_or_too_large_is_not_read() {
+    let found = |script: &str| {
+        let home = fake(script);
+        let mut solver = solver(&home);
+        solver.output_limit = 10_000;
+        let error = solver.run("").expect_err(script);
+        assert!(matches!(&error, FileError::SolverAnswer { .. }), "{script}: {error}");
+        error.to_string()
+    };
+    for name in ["ftn15", "printed"] {
+        let is_file = format!("NASTRAN-95: expected a regular file {name}, found something else in its place");
+        assert_eq!(found(&format!("rm -f {name}; mkfifo {name}")), is_file);
+        assert_eq!(found(&format!("rm -f {name}; ln -s /dev/zero {name}")), is_file);
+    }
+    // Stopped while it writes, and refused when it has ended.
+    for script in ["while :; do echo too much; done", "head -c 10001 /dev/zero > \"$FTN15\""] {
+        assert!(found(script).contains("expected at most 10000 bytes in its file"), "{script}");
+    }
+}
+
+#[test]
+fn words_of_the_solver_cannot_speak_to_the_terminal() {
+    for script in ["printf ' FATAL \\033[31mred\\007\\n'", "printf '\\033[31mred\\007\\n'; exit 3"] {
+        let error = solver(&fake(script)).run("").expect_err(script).to_string();
+        assert!(error.contains("\\u{1b}[31mred\\u{7}"), "{error}");
+        assert!(!error.contains(char::is_control), "{error:?}");
+    }
+    let long = solver(&fake("printf 'FATAL '; head -c 9000 /dev/zero | tr '\\0' x")).run("").expect_err("a long line");
+    assert!(long.to_string().len() < 500 && long.to_string().ends_with("x..."), "{long}");
+    let rubbish = fake("printf 'CORFEM\\n\\033[2Jxx\\n' > \"$FTN15\"");
+    let error = solver(&rubbish).matrices("", 1).expect_err("rubbish").to_string();
+    assert!(error.ends_with("found \\u{1b}[2Jxx"), "{error}");
+}
+
+#[test]
+fn its_folder_is_its_owners_alone() {
+    let answer = solver(&fake("ls -ld .")).run("").expect("a run");
+    assert!(answer.printed.starts_with("drwx------"), "{}", answer.printed);
+}
+
+#[test]
 fn a_request_to_stop_ends_the_run() {
     let home = fake("sleep 60");
     let solver = solver(&home);
@@ -166,14 +227,18 @@ fn no_run_leaves_anything_behind() {
     assert!(String::from_utf8_lossy(&missing.stderr).contains("found none at no/such/folder"));
 }
 
-#[test]
-fn an_interrupt_ends_the_solver_and_leaves_nothing() {
+/// Sends a signal to the program while its solver runs; how it ended, and how many files it left.
+fn stopped_by(signal: Signal, run_by: &[&str]) -> (std::process::ExitStatus, usize) {
     let temporary = tempfile::tempdir().expect("a folder");
-    let home = fake("touch started; sleep 60");
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("corfem"))
+    let home = fake("touch started; sleep 3");
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let words = run_by.iter().map(Path::new).chain([program.as_path()]).collect::<Vec<_>>();
+    let mut child = std::process::Command::new(words[0])
+        .args(&words[1..])
         .args(["cases", "4", "--solver", "nastran95", "--quiet", "--nastran"])
         .arg(home.path())
         .env("TMPDIR", temporary.path())
+        .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null())
         .spawn()
         .expect("it starts");
@@ -185,10 +250,19 @@ fn an_interrupt_ends_the_solver_and_leaves_nothing() {
     while !started() && Instant::now() < limit {
         std::thread::sleep(Duration::from_millis(20));
     }
-    let signal = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(signal.expect("kill").success());
-    assert_eq!(child.wait().expect("an end").code(), Some(2));
-    assert_eq!(entries(temporary.path()), 0);
+    send(&child, signal);
+    (child.wait().expect("an end"), entries(temporary.path()))
+}
+
+#[test]
+fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
+    for (signal, name) in SIGNALS {
+        let (ended, left) = stopped_by(signal, undisturbed());
+        assert_eq!((ended.signal(), left), (Some(signal.as_raw()), 0), "{name}");
+    }
+    // Started to ignore it, as nohup does, the program goes on: it refuses what the solver did not write.
+    let (ended, left) = stopped_by(Signal::HUP, &["nohup"]);
+    assert_eq!((ended.code(), left), (Some(2), 0));
 }
 
 #[test]
