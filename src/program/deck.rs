@@ -1,6 +1,6 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, put, read, reconstruction};
+use super::output::{OutputArguments, check, put, read, reconstruction, say};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
@@ -8,6 +8,7 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
@@ -21,7 +22,7 @@ pub struct DeckArguments {
     /// The gages after this pass of its correlation instead of the first ones
     #[arg(long, value_name = "N", default_value_t = 0)]
     pass: usize,
-    /// Write the deck to this file instead of standard output
+    /// Write the deck to this file instead of standard output, which is also -
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
@@ -38,11 +39,12 @@ pub struct ModesArguments {
     output: OutputArguments,
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
-    count: Option<usize>,
+    count: Option<NonZeroUsize>,
 }
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
+    check(arguments.output.as_deref())?;
     let case = Case::on(arguments.case, reconstruction(arguments.box_file.as_deref())?)?;
     let model = case.model()?;
     let mut factors = vec![1.0; model.parameters().len()];
@@ -66,14 +68,15 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 
 /// Prints the modes of a deck.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
+    arguments.output.check()?;
     let name = arguments.deck.display().to_string();
     let deck = deck::read(&name, &read(&arguments.deck)?)?;
     for card in &deck.unread {
-        eprintln!("corfem: {name}: {}", not_read(card));
+        say(format_args!("corfem: {name}: {}", not_read(card)));
     }
     let modes = deck::modes(&deck.model)?;
     let found = modes.modes.len();
-    let count = arguments.count.unwrap_or(found);
+    let count = arguments.count.map_or(found, NonZeroUsize::get);
     if count > found {
         return Err(Error::TooMany { what: "modes of finite frequency", available: found, requested: count }.into());
     }

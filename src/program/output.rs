@@ -1,11 +1,15 @@
-//! What commands read and write: the box, reports with the same options for every command, files whole or not at all.
+//! What commands read and write: the box, reports with the same options for every command, files whole or not at all,
+//! and words for the user.
 
+use super::signals;
 use clap::{Args, ValueEnum};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::files::error::FileError;
+use corfem::files::escaped;
 use corfem::present::table::Table;
 use corfem::present::{PresentError, render};
-use std::io::Write;
+use std::fs::{File, Metadata, OpenOptions};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -13,7 +17,7 @@ pub struct OutputArguments {
     /// How to write the report
     #[arg(short, long, value_enum, default_value = "text")]
     format: FormatArgument,
-    /// Write the report to this file instead of standard output
+    /// Write the report to this file instead of standard output, which is also -
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -31,6 +35,11 @@ enum FormatArgument {
 }
 
 impl OutputArguments {
+    /// Refuses a file that could not be written, before the work is done.
+    pub fn check(&self) -> Result<(), PresentError> {
+        check(self.output.as_deref())
+    }
+
     /// Writes tables as they are asked for; `json` makes the whole of what they show.
     pub fn write(
         &self,
@@ -59,49 +68,150 @@ pub fn read(path: &Path) -> Result<String, PresentError> {
     Ok(std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?)
 }
 
-/// Writes to a file, whole or not at all, or to standard output.
-pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
-    let Some(path) = path else {
-        // A reader that has seen enough closes the pipe; that is no error of ours.
-        let _ = std::io::stdout().write_all(text.as_bytes());
-        return Ok(());
-    };
-    // A bare name has an empty parent, which is the present folder.
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let write = || {
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        file.persist(path)?;
-        Ok(())
-    };
-    Ok(write().map_err(FileError::of_file(path, "write"))?)
+/// Where a report goes.
+enum Place {
+    StandardOutput,
+    /// What is there and no regular file.
+    Through(PathBuf),
+    /// A regular file, or a new one; links are followed.
+    File(PathBuf, Option<Metadata>),
 }
 
-/// Writes files into a folder, all of them or none: they are written elsewhere beside it first. A new folder then takes
-/// its place in one move; in an old one each file does, once every place is known to be free for a file.
-pub fn put_all(folder: &Path, files: &[(String, String)]) -> Result<(), PresentError> {
-    let failed = |path: &Path| FileError::of_file(path, "write");
-    let beside = folder.parent().unwrap_or(Path::new(""));
-    let scratch = tempfile::tempdir_in(beside).map_err(failed(folder))?;
-    // The scratch folder is its owner's alone; one made in it has the rights any new folder has.
-    let staged = scratch.path().join("staged");
-    std::fs::create_dir(&staged).map_err(failed(folder))?;
-    for (name, text) in files {
-        std::fs::write(staged.join(name), text).map_err(failed(&folder.join(name)))?;
+/// Refuses a path that could not be written, before there is anything to write. Nothing is changed by it.
+pub fn check(path: Option<&Path>) -> Result<(), PresentError> {
+    let check = || match place(path)? {
+        Place::File(path, None) => probe(path.parent().unwrap_or(&path)),
+        // A pipe is not opened yet: that is to wait for its reader.
+        Place::StandardOutput | Place::Through(_) | Place::File(_, Some(_)) => Ok(()),
+    };
+    Ok(check().map_err(FileError::of_file(named(path), "write"))?)
+}
+
+/// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
+pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
+    let write = || match place(path)? {
+        Place::StandardOutput => to(std::io::stdout().lock(), text),
+        Place::Through(path) => to(OpenOptions::new().append(true).open(path)?, text),
+        Place::File(path, old) => {
+            let _held = signals::hold();
+            replace(&path, old.as_ref(), text)
+        }
+    };
+    Ok(write().map_err(FileError::of_file(named(path), "write"))?)
+}
+
+fn named(path: Option<&Path>) -> &Path {
+    path.filter(|path| path.as_os_str() != "-").unwrap_or(Path::new("standard output"))
+}
+
+/// Whether files can be made in a folder: one without a name is, for a moment.
+pub fn probe(folder: &Path) -> io::Result<()> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+/// What is known of a file that is to be replaced, if it is there and may be written.
+pub fn old_file(path: &Path) -> io::Result<Option<Metadata>> {
+    match OpenOptions::new().write(true).open(path) {
+        Ok(file) => file.metadata().map(Some),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
     }
-    if !folder.exists() {
-        return Ok(std::fs::rename(&staged, folder).map_err(failed(folder))?);
-    }
-    for (name, _) in files {
-        let path = folder.join(name);
-        if path.is_dir() {
-            let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
-            return Err(failed(&path)(source).into());
+}
+
+/// Gives a new file the owner and the mode of the old one.
+pub fn as_old(new: &File, old: &Metadata) -> io::Result<()> {
+    new.set_permissions(old.permissions())?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, fchown};
+        let found = new.metadata()?;
+        if (found.uid(), found.gid()) != (old.uid(), old.gid()) {
+            fchown(new, Some(old.uid()), Some(old.gid()))?;
         }
     }
-    for (name, _) in files {
-        let path = folder.join(name);
-        std::fs::rename(staged.join(name), &path).map_err(failed(&path))?;
-    }
     Ok(())
+}
+
+fn place(path: Option<&Path>) -> io::Result<Place> {
+    let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
+        return Ok(Place::StandardOutput);
+    };
+    let found = match std::fs::metadata(path) {
+        Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+        Ok(found) if is_standard_output(&found) => return Ok(Place::StandardOutput),
+        Ok(found) if !found.is_file() => return Ok(Place::Through(path.to_owned())),
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        found => found.ok(),
+    };
+    let mut path = path.to_owned();
+    while let Ok(target) = std::fs::read_link(&path) {
+        if is_descriptor(&path) {
+            // A file that is open already is written on, from its end.
+            return Ok(Place::Through(path));
+        }
+        path = path.parent().unwrap_or(Path::new("")).join(target);
+    }
+    if path.file_name().is_none() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let old = if found.is_some() { old_file(&path)? } else { None };
+    Ok(Place::File(path, old))
+}
+
+/// Whether it is a name of one of the program's own open files, such as `/dev/fd/3`.
+fn is_descriptor(path: &Path) -> bool {
+    let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
+    folder.is_some_and(|folder| folder.starts_with("/proc"))
+}
+
+#[cfg(unix)]
+fn is_standard_output(found: &Metadata) -> bool {
+    use std::os::{fd::AsFd, unix::fs::MetadataExt};
+    let own = std::io::stdout().as_fd().try_clone_to_owned().and_then(|own| File::from(own).metadata());
+    own.is_ok_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn is_standard_output(_: &Metadata) -> bool {
+    false
+}
+
+/// Writes all of a text. A reader that has seen enough closes the pipe; that is no error of ours.
+fn to(mut out: impl Write, text: &str) -> io::Result<()> {
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        done => done,
+    }
+}
+
+/// Puts a new file in the place of the old one, with its owner and mode. One that cannot be replaced, because its
+/// folder takes no files or it is mounted or another's, is written over where it stands.
+fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
+    let mut staged = match new_file_beside(path) {
+        Err(_) if old.is_some() => return to(File::create(path)?, text),
+        staged => staged?,
+    };
+    staged.write_all(text.as_bytes())?;
+    if old.is_some_and(|old| as_old(staged.as_file(), old).is_err()) {
+        return to(File::create(path)?, text);
+    }
+    match staged.persist(path) {
+        Err(_) if old.is_some() => to(File::create(path)?, text),
+        done => Ok(done.map(drop)?),
+    }
+}
+
+/// A file with a name of its own, with the rights that any new file has.
+fn new_file_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    // A bare name has an empty parent, which is the present folder.
+    builder.prefix(".corfem-").tempfile_in(path.parent().unwrap_or(Path::new("")))
+}
+
+/// Says something on standard error, with control characters shown. Nobody may be there to hear it.
+pub fn say(words: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "{}", escaped(&words.to_string()));
 }
