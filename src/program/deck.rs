@@ -1,6 +1,7 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, check, put, read, reconstruction, say};
+use super::output::{OutputArguments, read, reconstruction, say};
+use super::place::{check, put};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};

@@ -7,7 +7,7 @@
 //!
 //! Where there are no symbolic links, files are replaced one by one.
 
-use super::output::{as_old, old_file, probe};
+use super::place::{as_old, old_file, probe};
 use super::signals;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;

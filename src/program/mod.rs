@@ -5,6 +5,7 @@ mod deck;
 mod folder;
 mod output;
 mod pictures;
+mod place;
 mod settings;
 mod signals;
 mod solver;
@@ -15,8 +16,9 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
-use output::{OutputArguments, put, say};
+use output::{OutputArguments, say};
 use pictures::FolderArguments;
+use place::put;
 use std::process::ExitCode;
 use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
 

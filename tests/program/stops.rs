@@ -92,7 +92,7 @@ fn next_run(folder: &Path) {
 /// Random delays, the same ones every time; the machine adds its own.
 fn delays(count: u64) -> impl Iterator<Item = Duration> {
     let random = |at: u64| at.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
-    (1..=count).map(move |at| Duration::from_micros(random(at) % 4000))
+    (1..=count).map(move |at| Duration::from_micros(random(at) % 8000))
 }
 
 #[test]
