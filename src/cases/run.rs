@@ -53,13 +53,16 @@ impl CaseResult {
         self.correlation.passes.first().map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
+    /// Whether the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
+    /// nothing.
+    pub fn is_detection(&self) -> bool {
+        (self.case.number, self.case.settings.inner.iterations) == (4, 1)
+    }
+
     /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
     /// faulty element.
     pub fn succeeded(&self) -> bool {
-        match (self.case.number, self.case.settings.inner.iterations) {
-            (4, 1) => self.anomaly.is_some(),
-            _ => self.correlation.converged,
-        }
+        if self.is_detection() { self.anomaly.is_some() } else { self.correlation.converged }
     }
 }
 

@@ -3,3 +3,9 @@
 pub mod deck;
 pub mod error;
 pub mod nastran95;
+
+/// A text with control characters shown as Rust writes them, but for line ends and tabs: a terminal would obey them.
+pub fn escaped(text: &str) -> String {
+    let shown = |c: char| c.is_control() && c != '\n' && c != '\t';
+    text.chars().map(|c| if shown(c) { c.escape_default().to_string() } else { c.to_string() }).collect()
+}

@@ -6,7 +6,7 @@
 
 use super::error::PresentError;
 use super::table::Table;
-use super::tables::cases::published_iterations;
+use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{UnitShapes, not_read};
 use crate::cases::CaseResult;
 use crate::cases::fewer_modes::FewerModesRun;
@@ -102,6 +102,7 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
     Ok(json!({
         "case": result.case.number,
         "settings": result.case.settings,
+        "outcome": outcome(result),
         "succeeded": result.succeeded(),
         "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
         "published_iterations": published_iterations(result)?,

@@ -1,6 +1,7 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, put, reconstruction};
+use super::output::{OutputArguments, reconstruction, say};
+use super::place::{check, put};
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
@@ -9,6 +10,7 @@ use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
@@ -22,7 +24,7 @@ pub struct DeckArguments {
     /// The gages after this pass of its correlation instead of the first ones
     #[arg(long, value_name = "N", default_value_t = 0)]
     pass: usize,
-    /// Write the deck to this file instead of standard output
+    /// Write the deck to this file instead of standard output, which is also -
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
@@ -39,7 +41,7 @@ pub struct ModesArguments {
     output: OutputArguments,
     /// How many modes, from the lowest; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
-    count: Option<usize>,
+    count: Option<NonZeroUsize>,
     /// Leave out cards of these names that are not understood; the report repeats them
     #[arg(long, value_name = "CARD", value_delimiter = ',')]
     ignore: Vec<String>,
@@ -47,6 +49,7 @@ pub struct ModesArguments {
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
+    check(arguments.output.as_deref())?;
     let case = Case::on(arguments.case, reconstruction(arguments.box_file.as_deref())?)?;
     let model = case.model()?;
     let mut factors = vec![1.0; model.parameters().len()];
@@ -70,16 +73,17 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 
 /// Prints the modes of a deck.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
+    arguments.output.check()?;
     let name = arguments.deck.display().to_string();
     let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
     let ignored: Vec<String> = arguments.ignore.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
     let deck = deck::read_without(&name, &bytes, &ignored)?;
     for card in &deck.unread {
-        eprintln!("corfem: {name}: {}", not_read(card));
+        say(format_args!("corfem: {name}: {}", not_read(card)));
     }
     let modes = deck::modes(&deck.model)?;
     let found = modes.modes.len();
-    let count = arguments.count.unwrap_or(found);
+    let count = arguments.count.map_or(found, NonZeroUsize::get);
     if count > found {
         return Err(Error::TooMany { what: "modes of finite frequency", available: found, requested: count }.into());
     }

@@ -2,17 +2,23 @@
 
 mod cases;
 mod deck;
+mod folder;
 mod output;
 mod pictures;
+mod place;
 mod settings;
+mod signals;
 mod solver;
 mod studies;
 
 use cases::CasesArguments;
-use clap::{Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser, Subcommand};
+use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
-use output::OutputArguments;
+use output::{OutputArguments, say};
 use pictures::FolderArguments;
+use place::put;
 use std::process::ExitCode;
 use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
 
@@ -24,20 +30,27 @@ const NOT_CONVERGED: u8 = 3;
 /// Without a command it does what `corfem cases` does: it correlates the paper's four cases on its wing torque box
 /// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones, and Table 1.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
+#[command(version, propagate_version = true, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
     cases: CasesArguments,
+    /// Do not report progress
+    #[arg(short, long, global = true)]
+    quiet: bool,
 }
 
 const AFTER_HELP: &str = "\
 Units: inch, pound-force, second; mass in lbf·s²/in; frequency in hertz.
 
-Exit status: 0 the cases converged, 2 bad input, 3 not converged within the limits (the best found is still printed).
+Exit status: 0 Cases 1 to 3 correlated and Case 4 detected a modeling error (its gages are not corrected); \
+2 bad input, or a file or standard output that cannot be read or written; \
+3 not converged within the limits, or nothing detected (the best found is still printed, and the outcome of every \
+case).
 
-Results go to standard output, progress to standard error.";
+Results go to standard output, progress to standard error. A signal that ends the program leaves no half-written file.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -67,27 +80,56 @@ enum Command {
 
 /// Runs the program.
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
-    let done = match arguments.command {
-        None => cases::cases(&arguments.cases),
-        Some(Command::Cases(arguments)) => cases::cases(&arguments),
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) if error.use_stderr() => {
+            let _ = error.print();
+            return ExitCode::from(BAD_INPUT);
+        }
+        Err(asked) => {
+            let is_version = asked.kind() == ErrorKind::DisplayVersion;
+            // A command's own would have the command's name in it.
+            let text = if is_version { Arguments::command().render_version() } else { asked.render().to_string() };
+            return status(put(None, &text).map(|()| true));
+        }
+    };
+    let quiet = arguments.quiet;
+    status(match arguments.command {
+        None => cases::cases(&arguments.cases, quiet),
+        Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
         Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
-        Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false).map(|()| true),
-        Some(Command::Report(arguments)) => pictures::pictures(&arguments, true).map(|()| true),
+        Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
+        Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
-    };
+    })
+}
+
+fn status(done: Result<bool, PresentError>) -> ExitCode {
     match done {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NOT_CONVERGED),
         Err(error) => {
-            eprintln!("corfem: {error}");
+            say(format_args!("corfem: {error}"));
             ExitCode::from(BAD_INPUT)
         }
+    }
+}
+
+/// The command that a word was meant for, if it is or nearly is one.
+fn command_meant(word: &str) -> Option<String> {
+    let commands = Command::augment_subcommands(clap::Command::new("corfem")).subcommand_required(true);
+    if commands.find_subcommand(word).is_some() {
+        return Some(word.to_owned());
+    }
+    let error = commands.try_get_matches_from(["corfem", word]).err()?;
+    match error.get(ContextKind::SuggestedSubcommand)? {
+        ContextValue::Strings(near) => near.first().cloned(),
+        _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! `corfem figures` and `corfem report`: files in a folder, all of them or none.
 
-use super::output::put_all;
+use super::folder::{check_folder, put_all};
+use super::output::say as tell;
 use clap::Args;
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs};
 use corfem::cases::fit::fit;
@@ -15,18 +16,20 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct FolderArguments {
-    /// Write into this folder, made if it is new
-    #[arg(short, long, value_name = "DIR")]
-    out: PathBuf,
-    /// Do not report progress
-    #[arg(short, long)]
-    quiet: bool,
+    /// Write into this folder, made if it is new (also as --out)
+    #[arg(short, long, alias = "out", value_name = "DIR")]
+    output: PathBuf,
 }
 
 /// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
 /// tables.
-pub fn pictures(FolderArguments { out, quiet }: &FolderArguments, as_page: bool) -> Result<(), PresentError> {
-    let say = |words: String| (!quiet).then(|| eprintln!("{words}"));
+pub fn pictures(
+    FolderArguments { output: out }: &FolderArguments,
+    as_page: bool,
+    quiet: bool,
+) -> Result<(), PresentError> {
+    check_folder(out)?;
+    let say = |words: String| (!quiet).then(|| tell(words));
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
@@ -44,7 +47,7 @@ pub fn pictures(FolderArguments { out, quiet }: &FolderArguments, as_page: bool)
             fewer_modes: &fewer_modes,
             matrices: &matrices,
             figures: &figures,
-            command: &format!("corfem report --out {}", out.display()),
+            command: &format!("corfem report --output {}", out.display()),
         })?;
         put_all(out, &[("report.html".to_owned(), html)])?;
         say(out.join("report.html").display().to_string());

@@ -1,12 +1,12 @@
 //! The program that does the finite element analyses of the outer loop.
 
+use super::signals;
 use clap::{Args, ValueEnum};
 use corfem::cases::BUILT_IN;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::FiniteElementModel;
 use corfem::present::PresentError;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 
 #[derive(Debug, Args)]
@@ -14,11 +14,12 @@ pub struct SolverArguments {
     /// Which program does the finite element analyses of the outer loop
     #[arg(long, value_enum, default_value = "built-in")]
     solver: SolverArgument,
-    /// Folder of NASTRAN-95, with bin/nastrn and rf/; without it .cache/nastran95/nastran95/_data in the home folder
-    #[arg(long, value_name = "FOLDER", env = "NASTRAN95")]
+    /// Folder of NASTRAN-95, with bin/nastrn and rf/; without it that of the environment variable NASTRAN95, or
+    /// .cache/nastran95/nastran95/_data in the home folder
+    #[arg(long, value_name = "FOLDER", requires = "solver")]
     nastran: Option<PathBuf>,
     /// Seconds after which a run of NASTRAN-95 is stopped
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "SECONDS", requires = "solver", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
     time_limit: u32,
 }
 
@@ -40,13 +41,11 @@ impl Solver {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self(None));
         }
-        let folder = arguments.nastran.clone().unwrap_or_else(default_folder);
+        let set = || std::env::var_os("NASTRAN95").filter(|folder| !folder.is_empty()).map(PathBuf::from);
+        let folder = arguments.nastran.clone().or_else(set).unwrap_or_else(default_folder);
         let mut nastran = Nastran95::in_folder(&folder)?;
         nastran.time_limit = Duration::from_secs(arguments.time_limit.into());
-        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-            // A program that cannot be told to stop still does its work.
-            let _ = signal_hook::flag::register(signal, Arc::clone(&nastran.stop));
-        }
+        signals::tell(&nastran.stop);
         Ok(Self(Some(nastran)))
     }
 
@@ -57,7 +56,11 @@ impl Solver {
 
     /// The model with the solver's elements, at the given factors on the parameters.
     pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, PresentError> {
-        let elements = self.0.as_ref().map(|nastran| nastran.elements(model, factors));
-        Ok(elements.unwrap_or_else(|| Ok(model.clone()))?)
+        let Some(nastran) = &self.0 else {
+            return Ok(model.clone());
+        };
+        // A signal stops the run first, which removes its files, and then this program.
+        let _held = signals::hold();
+        Ok(nastran.elements(model, factors)?)
     }
 }

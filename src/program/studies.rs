@@ -1,6 +1,6 @@
 //! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise` and `corfem delta-wing`.
 
-use super::output::OutputArguments;
+use super::output::{OutputArguments, say};
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
@@ -55,6 +55,7 @@ pub struct FewerModesArguments {
 
 /// Runs every reading of the step against the printed gages.
 pub fn readings(output: &OutputArguments) -> Result<(), PresentError> {
+    output.check()?;
     let reconstruction = Reconstruction::embedded()?;
     let columns = all_columns(&reconstruction)?;
     let detection = |reading| detection(&reconstruction, reading);
@@ -65,6 +66,7 @@ pub fn readings(output: &OutputArguments) -> Result<(), PresentError> {
 
 /// Writes Table 1, computed anew, and the paper's other tables as printed.
 pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
+    arguments.output.check()?;
     let all: Vec<u8> = (1..=13).collect();
     let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
     let table = |&number: &u8| match number {
@@ -77,6 +79,7 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
 pub fn fewer_modes(FewerModesArguments { settings, output }: &FewerModesArguments) -> Result<(), PresentError> {
+    output.check()?;
     let mut case = Case::new(PUBLISHED_CASE)?;
     settings.apply(&mut case.settings)?;
     let (published, all) = (published_runs(&case)?, all_runs(&case)?);
@@ -86,6 +89,7 @@ pub fn fewer_modes(FewerModesArguments { settings, output }: &FewerModesArgument
 
 /// Corrects a case by elements and by matrices and writes what either knows afterwards.
 pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
+    arguments.output.check()?;
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
@@ -94,12 +98,14 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 
 /// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
 pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
+    output.check()?;
     let study = noisy_modes(&Case::new(NOISY_CASE)?, Noise::USUAL, SEEDS)?;
     output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
 pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
+    arguments.output.check()?;
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
     let mut settings = settings();
@@ -113,5 +119,8 @@ pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> 
     )?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
     arguments.output.write(&tables, || json::delta_wing(&wing, &run))?;
+    if !run.correlation.converged {
+        say("corfem: the correlation did not converge within its limits; the best found is in the report");
+    }
     Ok(run.correlation.converged)
 }

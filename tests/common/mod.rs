@@ -17,6 +17,8 @@ pub mod nastran95;
 pub mod outer_loop;
 pub mod pairings;
 pub mod panels;
+#[cfg(unix)]
+pub mod signals;
 pub mod strategies;
 pub mod structures;
 pub mod tolerances;

@@ -10,6 +10,7 @@ pub mod deck_numbers;
 pub mod deck_reading;
 
 pub mod nastran95_analysis;
+pub mod nastran95_bounds;
 pub mod nastran95_delta_wing;
 pub mod nastran95_model;
 pub mod nastran95_outer_loop;

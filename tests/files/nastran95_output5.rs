@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 #[test]
 fn a_file_of_module_output5_reads() {
     let text = include_str!("../../golden/nastran95/output5_rod.txt");
-    let matrices = read_output5(text).expect("it reads");
+    let matrices = read_output5(text, 144).expect("it reads");
     assert_eq!(matrices.len(), 1);
     let kgg = &matrices["KGG"];
     assert_eq!(kgg.shape(), (12, 12));
@@ -22,9 +22,12 @@ fn a_file_of_module_output5_reads() {
         ("A", &DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0])),
         ("B", &DMatrix::zeros(1, 1)),
     ]);
-    let read = read_output5(&two).expect("it reads");
+    let read = read_output5(&two, 7).expect("it reads");
     assert_eq!(read["A"], DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0]));
     assert_eq!(read["B"], DMatrix::zeros(1, 1));
+    // No header is too large, but both together are.
+    let error = read_output5(&two, 6).expect_err("seven entries");
+    assert!(error.to_string().contains("at most 6 entries in all in line 9 "), "{error}");
 }
 
 #[test]
@@ -34,7 +37,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     let refused = |line: usize, text: &str, expected: &str| {
         let mut lines = lines.clone();
         lines[line - 1] = text;
-        let error = read_output5(&lines.join("\n")).expect_err(text);
+        let error = read_output5(&lines.join("\n"), 144).expect_err(text);
         let FileError::SolverAnswer { expected: wanted, .. } = &error else {
             panic!("{error}");
         };
@@ -47,7 +50,9 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     refused(2, "       1       1       1", "a matrix's header before its columns in line 2");
     refused(3, "   0.00000000000000000D+00      1x", "an integer in line 3");
     refused(3, &header(12, 1), "the header of a real double precision matrix in line 3");
-    refused(3, &header(20_001, 2), "the header of a real double precision matrix in line 3");
+    for columns in [13, 99_999_999] {
+        refused(3, &header(columns, 2), "matrices of at most 144 entries in all in line 3");
+    }
     for outside in
         ["      13       1       9", "       1       0       9", "       1       1      13", "       1       3       2"]
     {
@@ -57,7 +62,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     refused(5, "   0.20188163729412143X+05", "reals of the format D26.17, as many as rows in line 5");
     refused(4, "       1       1       4", "reals of the format D26.17, as many as rows in line 5");
     let cut = lines[..4].join("\n");
-    let error = read_output5(&cut).expect_err("its end");
+    let error = read_output5(&cut, 144).expect_err("its end");
     assert!(
         matches!(&error, FileError::SolverAnswer { expected, found } if expected == "reals in line 5 of the OUTPUT5 file" && found == "its end"),
         "{error}"

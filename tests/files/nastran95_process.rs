@@ -3,9 +3,11 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
+use crate::common::signals::{SIGNALS, send, undisturbed};
 use corfem::files::error::FileError;
 use corfem::files::nastran95::{Nastran95, default_folder};
-use std::os::unix::fs::PermissionsExt;
+use rustix::process::Signal;
+use std::os::unix::{fs::PermissionsExt, process::ExitStatusExt};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -57,12 +59,12 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
 #[test]
 fn a_run_without_an_answer_says_what_was_printed_last() {
     let home = fake("echo one; echo two; echo; echo three; echo four");
-    let error = solver(&home).matrices("").expect_err("nothing on unit 15");
+    let error = solver(&home).matrices("", 0).expect_err("nothing on unit 15");
     assert_eq!(
         error.to_string(),
         "NASTRAN-95: expected matrices on Fortran unit 15, found none; printed last: two / three / four"
     );
-    let silent = solver(&fake("exit 0")).matrices("").expect_err("nothing at all");
+    let silent = solver(&fake("exit 0")).matrices("", 0).expect_err("nothing at all");
     assert!(
         matches!(&silent, FileError::SolverAnswer { found, .. } if found == "none; printed last: nothing printed"),
         "{silent}"
@@ -166,14 +168,18 @@ fn no_run_leaves_anything_behind() {
     assert!(String::from_utf8_lossy(&missing.stderr).contains("found none at no/such/folder"));
 }
 
-#[test]
-fn an_interrupt_ends_the_solver_and_leaves_nothing() {
+/// Sends a signal to the program while its solver runs; how it ended, and how many files it left.
+fn stopped_by(signal: Signal, run_by: &[&str]) -> (std::process::ExitStatus, usize) {
     let temporary = tempfile::tempdir().expect("a folder");
-    let home = fake("touch started; sleep 60");
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("corfem"))
+    let home = fake("touch started; sleep 3");
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let words = run_by.iter().map(Path::new).chain([program.as_path()]).collect::<Vec<_>>();
+    let mut child = std::process::Command::new(words[0])
+        .args(&words[1..])
         .args(["cases", "4", "--solver", "nastran95", "--quiet", "--nastran"])
         .arg(home.path())
         .env("TMPDIR", temporary.path())
+        .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null())
         .spawn()
         .expect("it starts");
@@ -185,10 +191,19 @@ fn an_interrupt_ends_the_solver_and_leaves_nothing() {
     while !started() && Instant::now() < limit {
         std::thread::sleep(Duration::from_millis(20));
     }
-    let signal = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(signal.expect("kill").success());
-    assert_eq!(child.wait().expect("an end").code(), Some(2));
-    assert_eq!(entries(temporary.path()), 0);
+    send(&child, signal);
+    (child.wait().expect("an end"), entries(temporary.path()))
+}
+
+#[test]
+fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
+    for (signal, name) in SIGNALS {
+        let (ended, left) = stopped_by(signal, undisturbed());
+        assert_eq!((ended.signal(), left), (Some(signal.as_raw()), 0), "{name}");
+    }
+    // Started to ignore it, as nohup does, the program goes on: it refuses what the solver did not write.
+    let (ended, left) = stopped_by(Signal::HUP, &["nohup"]);
+    assert_eq!((ended.code(), left), (Some(2), 0));
 }
 
 #[test]

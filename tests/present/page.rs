@@ -116,7 +116,7 @@ fn summary_repeats_the_first_and_last_errors() {
     let text = |text: &str| Cell::Text(text.to_owned());
     assert_eq!(words(0), [text("12, 6"), text("correlated")]);
     assert_eq!(words(2), [text("30, 30, 30"), text("correlated")]);
-    assert_eq!(words(3), [text("1"), text("modeling error in element 8")]);
+    assert_eq!(words(3), [text("1"), text("modeling error detected in element 8")]);
     assert!(table.rows.iter().all(|row| row.cells.len() == table.columns.len()));
 }
 

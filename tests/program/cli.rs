@@ -99,9 +99,10 @@ fn help_says_what_it_does_and_what_the_exit_status_means() {
         assert!(help.contains(words), "{words}");
     }
     let cases = text(&corfem(&["cases", "--help"]).stdout);
-    for words in ["--format", "--output", "--box", "--iterations", "--quiet"] {
+    for words in ["--format", "--output", "--box", "--iterations", "--quiet", "detects a modeling"] {
         assert!(cases.contains(words), "{words}");
     }
+    assert!(help.contains("Case 4 detected a modeling error"), "{help}");
 }
 
 #[test]

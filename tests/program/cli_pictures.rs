@@ -22,14 +22,14 @@ fn report_command_writes_one_page_into_a_new_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("new");
     let out_text = out.to_str().expect("UTF-8");
-    let run = corfem(&["report", "--out", out_text]);
+    let run = corfem(&["report", "--output", out_text]);
     assert_eq!(run.status.code(), Some(0));
     assert!(run.stdout.is_empty());
     assert_eq!(String::from_utf8_lossy(&run.stderr).lines().count(), 5);
     assert_eq!(names_in(&out), ["report.html"]);
     assert_eq!(names_in(folder.path()), ["new"], "no scratch folder is left");
     let html = std::fs::read_to_string(out.join("report.html")).expect("it reads");
-    assert!(html.contains(&format!("<code>corfem report --out {out_text}</code>")));
+    assert!(html.contains(&format!("<code>corfem report --output {out_text}</code>")));
 }
 
 #[test]
@@ -64,9 +64,9 @@ fn what_cannot_be_written_is_exit_status_2_and_leaves_nothing() {
     };
     failed(&["figures", "-q", "--out", &path("no/such")], "such");
     assert!(names_in(folder.path()).is_empty());
-    failed(&["report", "-q"], "--out");
+    failed(&["report", "-q"], "--output");
     std::fs::write(path("file"), "mine").expect("written");
-    failed(&["report", "-q", "--out", &path("file")], "report.html");
+    failed(&["report", "-q", "--out", &path("file")], "file: expected to write it");
     assert_eq!(std::fs::read_to_string(path("file")).expect("it reads"), "mine");
     // A folder stands where a figure should: none of the others is written.
     std::fs::create_dir_all(path("out/cover_gages.svg")).expect("made");

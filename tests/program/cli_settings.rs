@@ -49,6 +49,7 @@ fn fewer_modes_and_the_delta_wing_take_them_too() {
     assert!(counts.max() < Some(Some(30)));
     let wing = corfem(&["delta-wing", "--format", "json", "--iterations", "2", "--passes", "1"]);
     assert_eq!(wing.status.code(), Some(3));
+    assert!(text(&wing.stderr).contains("did not converge within its limits"));
     let wing: Value = serde_json::from_slice(&wing.stdout).expect("JSON");
     assert_eq!(wing["correlation"]["passes"][0]["iterations"], 2);
 }

@@ -4,5 +4,7 @@ pub mod cli;
 pub mod cli_comparisons;
 pub mod cli_settings;
 pub mod cli_pictures;
+pub mod cli_streams;
 pub mod cli_tables;
 pub mod deck_cli;
+pub mod stops;

@@ -34,6 +34,12 @@ pub(super) fn with_single_elements(bulk: &BulkData) -> BulkData {
     all
 }
 
+/// Entries that KGG, KAA and MAA have at most.
+pub(super) fn numbers_in_answer(bulk: &BulkData) -> usize {
+    let size = GRID_DOF.saturating_mul(bulk.grids.len());
+    size.saturating_mul(size).saturating_mul(3)
+}
+
 /// Unit stiffness of every element at its free DOF, in the order of the model's structure, from the blocks of KGG.
 pub(super) fn unit_stiffness(
     model: &FiniteElementModel,

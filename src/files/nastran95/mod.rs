@@ -34,6 +34,9 @@ pub const NAME: &str = "NASTRAN-95";
 /// How long a run may take unless told otherwise; the box takes half a second.
 pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(60);
 
+/// Bytes that a run may print, and write on Fortran unit 15, unless told otherwise; the box takes a few thousandths.
+pub const DEFAULT_OUTPUT_LIMIT: u64 = 1 << 28;
+
 /// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
 pub fn default_folder() -> PathBuf {
     std::env::home_dir().unwrap_or_default().join(".cache/nastran95/nastran95/_data")
@@ -54,6 +57,8 @@ pub struct Nastran95 {
     home: PathBuf,
     /// When a run counts as hanging and is stopped.
     pub time_limit: Duration,
+    /// Bytes of a file of a run above which the run is stopped and nothing read.
+    pub output_limit: u64,
     /// Set from outside, for example by a signal, it stops the run and removes its files.
     pub stop: Arc<AtomicBool>,
 }
@@ -70,26 +75,29 @@ impl Nastran95 {
         if !home.join(process::PROGRAM).is_file() || !home.join(process::RIGID_FORMATS).is_dir() {
             return Err(missing());
         }
-        Ok(Self { home, time_limit: DEFAULT_TIME_LIMIT, stop: Arc::default() })
+        Ok(Self { home, time_limit: DEFAULT_TIME_LIMIT, output_limit: DEFAULT_OUTPUT_LIMIT, stop: Arc::default() })
     }
 
     /// Runs a deck in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
     /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`],
-    /// [`FileError::SolverFatal`] with NASTRAN's own message; [`FileError::File`].
+    /// [`FileError::SolverFatal`] with NASTRAN's own message; [`FileError::SolverAnswer`] when it writes too much or
+    /// something else than files; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         process::run(self, deck)
     }
 
-    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15.
+    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, with no more than `numbers`
+    /// entries in all.
     ///
     /// # Errors
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
-    pub fn matrices(&self, deck: &str) -> Result<Matrices, FileError> {
+    pub fn matrices(&self, deck: &str, numbers: usize) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
         let found = || format!("none; printed last: {}", process::last_lines(&answer.printed));
-        read_output5(&answer.unit_15.ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?)
+        let unit_15 = answer.unit_15.ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?;
+        read_output5(&unit_15, numbers)
     }
 
     /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
@@ -101,8 +109,9 @@ impl Nastran95 {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
-        let deck = write(&matrices::with_single_elements(&bulk), "ANALYSIS", &Task::Matrices)?;
-        let answer = self.matrices(&deck)?;
+        let all = matrices::with_single_elements(&bulk);
+        let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
+        let answer = self.matrices(&deck, matrices::numbers_in_answer(&all))?;
         let units = matrices::unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;
         matrices::check_assembled(&model, factors, &answer)?;

@@ -1,5 +1,6 @@
 //! The formatted file of NASTRAN's module OUTPUT5.
 
+use super::process::shown;
 use crate::files::deck::number::parse_real;
 use crate::files::error::FileError;
 use nalgebra::DMatrix;
@@ -16,22 +17,21 @@ const HEADER_SIZES: usize = 26;
 const HEADER_NAME: usize = 74;
 /// NASTRAN's number for the type real double precision.
 const DOUBLE_PRECISION: usize = 2;
-/// Largest matrix read; a damaged header must not ask for all memory.
-const LARGEST: usize = 20_000;
 
 /// Reads matrices that OUTPUT5 wrote with formatted records.
 ///
 /// After a title line every matrix has a header (number of columns, of rows, form, type, name), then a record for every
 /// column that is not zero: its number, its first and last row that are not, and what stands between them; then
-/// a column of number zero begins the next matrix.
+/// a column of number zero begins the next matrix. Together they have at most `numbers` entries: a damaged header must
+/// not ask for all memory.
 ///
 /// # Errors
 /// [`FileError::SolverAnswer`] naming the line for anything else.
-pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
+pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, expected: &str| {
         let expected = format!("{expected} in line {} of the OUTPUT5 file", line + 1);
-        FileError::answer(expected, lines.get(line).map_or("its end", |l| l.trim()))
+        FileError::answer(expected, lines.get(line).map_or("its end".to_owned(), |l| shown(l.trim())))
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         let field = lines.get(line).and_then(|l| l.get(start..start + INTEGER));
@@ -40,6 +40,7 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
     };
     let mut matrices = Matrices::new();
     let mut current: Option<(String, DMatrix<f64>)> = None;
+    let mut left = numbers;
     let mut at = 1;
     while at < lines.len() {
         let number = |place: usize| integer(at, place * INTEGER);
@@ -49,9 +50,11 @@ pub fn read_output5(text: &str) -> Result<Matrices, FileError> {
             matrices.extend(current.take());
             let size = |place: usize| integer(at, HEADER_SIZES + place * INTEGER);
             let (columns, rows, kind) = (size(0)?, size(1)?, size(3)?);
-            if kind != DOUBLE_PRECISION || columns.max(rows) > LARGEST {
+            if kind != DOUBLE_PRECISION {
                 return Err(wrong(at, "the header of a real double precision matrix"));
             }
+            let fewer = columns.checked_mul(rows).and_then(|entries| left.checked_sub(entries));
+            left = fewer.ok_or_else(|| wrong(at, &format!("matrices of at most {numbers} entries in all")))?;
             let name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
             current = Some((name.to_owned(), DMatrix::zeros(rows, columns)));
             at += 1;

@@ -2,7 +2,9 @@
 
 use super::{Answer, Nastran95};
 use crate::files::error::FileError;
+use crate::files::escaped;
 use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::Ordering;
@@ -20,13 +22,20 @@ const UNITS: std::ops::RangeInclusive<u32> = 11..=23;
 const ANSWER: &str = "ftn15";
 /// Lines of a fatal message, and of the end of the output of a crashed run, that an error carries.
 const MESSAGE_LINES: usize = 3;
+/// Characters of them that it carries.
+const MESSAGE_LENGTH: usize = 300;
+/// Files of a run that are looked at while it runs and read when it has ended.
+const PRINTED: &str = "printed";
+const ERRORS: &str = "errors";
 
 /// Runs a deck in a folder of its own.
 pub(super) fn run(solver: &Nastran95, deck: &str) -> Result<Answer, FileError> {
-    let scratch = tempfile::Builder::new()
-        .prefix("corfem-nastran95-")
-        .tempdir()
-        .map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
+    let mut builder = tempfile::Builder::new();
+    // What is analyzed may be nobody else's business.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+    let scratch =
+        builder.prefix("corfem-nastran95-").tempdir().map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
     let answer = in_scratch(solver, deck, scratch.path());
     let path = scratch.path().to_owned();
     let removed = scratch.close().map_err(FileError::of_file(&path, "remove"));
@@ -46,8 +55,8 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     command
         .current_dir(scratch)
         .stdin(Stdio::from(open("deck")?))
-        .stdout(Stdio::from(create("printed")?))
-        .stderr(Stdio::from(create("errors")?))
+        .stdout(Stdio::from(create(PRINTED)?))
+        .stderr(Stdio::from(create(ERRORS)?))
         .envs(MEMORY)
         .env("RFDIR", solver.home.join(RIGID_FORMATS))
         .env("DIRCTY", scratch)
@@ -58,54 +67,61 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     command.envs(UNITS.map(|unit| (format!("FTN{unit}"), path(&format!("ftn{unit}")))));
     own_group(&mut command);
     let child = command.spawn().map_err(FileError::of_file(&program, "run"))?;
-    let status = wait(solver, child, &program)?;
-    let printed = read(&path("printed"))?;
+    let status = wait(solver, child, &program, scratch)?;
+    let printed = read(scratch, PRINTED, solver.output_limit)?.unwrap_or_default();
     if let Some(message) = fatal_message(&printed) {
         return Err(FileError::SolverFatal { message });
     }
     if !status.success() {
-        let message = last_lines(&format!("{printed}\n{}", read(&path("errors"))?));
+        let errors = read(scratch, ERRORS, solver.output_limit)?.unwrap_or_default();
+        let message = last_lines(&format!("{printed}\n{errors}"));
         return Err(FileError::SolverCrashed { status: status.to_string(), message });
     }
-    let unit_15 = path(ANSWER).is_file().then(|| read(&path(ANSWER))).transpose()?;
+    let unit_15 = read(scratch, ANSWER, solver.output_limit)?;
     Ok(Answer { printed, unit_15 })
 }
 
-/// Waits for the end of the program, but not for ever.
-fn wait(solver: &Nastran95, child: Child, program: &Path) -> Result<ExitStatus, FileError> {
-    let mut running = Running(child);
+/// Waits for the end of the program, but not for ever, and ends what is left of it: nothing of it writes into the
+/// folder that is read and removed next.
+fn wait(solver: &Nastran95, mut child: Child, program: &Path, scratch: &Path) -> Result<ExitStatus, FileError> {
+    let ended = watch(solver, &mut child, program, scratch);
+    // What it started is in its group, whose number is not given to others before the program is waited for.
+    kill(&mut child);
+    let status = child.wait().map_err(FileError::of_file(program, "run"))?;
+    ended.map(|()| status)
+}
+
+/// Returns when the program has ended, or an error when it is to be stopped.
+fn watch(solver: &Nastran95, child: &mut Child, program: &Path, scratch: &Path) -> Result<(), FileError> {
     let start = Instant::now();
-    loop {
-        if let Some(status) = running.0.try_wait().map_err(FileError::of_file(program, "run"))? {
-            return Ok(status);
-        }
+    while !has_ended(child).map_err(FileError::of_file(program, "run"))? {
         if solver.stop.load(Ordering::Relaxed) {
             return Err(FileError::SolverInterrupted);
         }
         if start.elapsed() >= solver.time_limit {
             return Err(FileError::SolverTimeLimit { seconds: solver.time_limit.as_secs_f64() });
         }
+        for name in [PRINTED, ERRORS, ANSWER] {
+            let bytes = std::fs::symlink_metadata(scratch.join(name)).map_or(0, |found| found.len());
+            within_limit(name, bytes, solver.output_limit)?;
+        }
         std::thread::sleep(POLL);
     }
-}
-
-/// A child that does not outlive the wait for it.
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        if matches!(self.0.try_wait(), Ok(None)) {
-            kill(&mut self.0);
-            // Reaped here, so that nothing of it writes into the folder that is removed next.
-            let _ = self.0.wait();
-        }
-    }
+    Ok(())
 }
 
 /// Puts the program and what it may start into a process group of their own, to be stopped together.
 #[cfg(unix)]
 fn own_group(command: &mut Command) {
     std::os::unix::process::CommandExt::process_group(command, 0);
+}
+
+/// Whether the program has ended; it is not waited for yet, and its number not given to others.
+#[cfg(unix)]
+fn has_ended(child: &mut Child) -> std::io::Result<bool> {
+    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+    Ok(waitid(WaitId::Pid(Pid::from_child(child)), options)?.is_some())
 }
 
 #[cfg(unix)]
@@ -116,6 +132,11 @@ fn kill(child: &mut Child) {
 
 #[cfg(not(unix))]
 fn own_group(_: &mut Command) {}
+
+#[cfg(not(unix))]
+fn has_ended(child: &mut Child) -> std::io::Result<bool> {
+    Ok(child.try_wait()?.is_some())
+}
 
 #[cfg(not(unix))]
 fn kill(child: &mut Child) {
@@ -130,7 +151,7 @@ fn fatal_message(printed: &str) -> Option<String> {
     let rest = lines.take(MESSAGE_LINES - 1).take_while(|line| !line.trim().is_empty() && !line.contains("***"));
     let words: Vec<&str> = std::iter::once(first).chain(rest).flat_map(str::split_whitespace).collect();
     // The first column is the printer's carriage control.
-    Some(words.join(" ").trim_start_matches(['0', '1', '*', ' ']).to_owned())
+    Some(shown(words.join(" ").trim_start_matches(['0', '1', '*', ' '])))
 }
 
 /// The last lines that are not blank.
@@ -138,12 +159,35 @@ pub(super) fn last_lines(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
-        last => last.join(" / "),
+        last => shown(&last.join(" / ")),
     }
 }
 
-/// A file's text; NASTRAN prints bytes that are no text.
-fn read(path: &Path) -> Result<String, FileError> {
-    let bytes = std::fs::read(path).map_err(FileError::of_file(path, "read"))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+/// What an error carries of another program's words: not all of them, and nothing a terminal obeys.
+pub(super) fn shown(words: &str) -> String {
+    let start: String = words.chars().take(MESSAGE_LENGTH).collect();
+    escaped(&start) + if start.len() < words.len() { "..." } else { "" }
+}
+
+/// A file's text, if it is there; NASTRAN prints bytes that are no text.
+fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileError> {
+    let path = scratch.join(name);
+    // Nothing else is opened: a pipe would be waited for. The program has ended and cannot exchange it.
+    let found = match std::fs::symlink_metadata(&path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        found => found.map_err(FileError::of_file(&path, "read"))?,
+    };
+    if !found.is_file() {
+        return Err(FileError::answer(format!("a regular file {name}"), "something else in its place"));
+    }
+    within_limit(name, found.len(), limit)?;
+    let mut bytes = Vec::new();
+    let read = File::open(&path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
+    read.map_err(FileError::of_file(&path, "read"))?;
+    Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
+}
+
+fn within_limit(name: &str, bytes: u64, limit: u64) -> Result<(), FileError> {
+    let too_large = || FileError::answer(format!("at most {limit} bytes in its file {name}"), bytes.to_string());
+    (bytes <= limit).then_some(()).ok_or_else(too_large)
 }

@@ -7,7 +7,7 @@ mod html;
 
 use super::figures::Figure;
 use super::table::{Digits, Table};
-use super::tables::cases::{fit_table, iteration_table, settings_table, summary, tables_of};
+use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
 use super::tables::{fewer_modes, matrices, paper_tables};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
@@ -93,7 +93,7 @@ fn part(tables: &[Table], figures: &[Figure], prefixes: &[&str]) -> String {
 
 fn summary_section(contents: &Contents) -> Result<String, PresentError> {
     let results = contents.results;
-    let mut body = table(&summary(results)?);
+    let mut body = table(&summary(results)?) + &table(&outcome_table(results));
     body += "<p class=\"note\">Computed numbers, the published ones behind them in parentheses.</p>\n";
     body += if results.iter().all(CaseResult::succeeded) {
         "<p>Every case did what was asked of it: correlated within the tolerances, or named its modeling error.</p>\n"

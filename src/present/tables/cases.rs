@@ -186,9 +186,34 @@ pub fn fit_table(fit: &Fit) -> Table {
     table
 }
 
+/// What became of every case, a line each.
+pub fn outcome_table(results: &[CaseResult]) -> Table {
+    let mut table = Table::new("outcome", "What became of every case", "Case")
+        .columns(["Passes", "Error sum", "TOLO", "Outcome"], "")
+        .note(
+            "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
+             detect a modeling error; its gages are not corrected.",
+        );
+    for result in results {
+        let run = &result.correlation;
+        if !result.is_detection() {
+            let verdict = run.verdict.in_words(&result.parameter_names);
+            table.notes.push(format!("Case {}: {verdict}", result.case.number));
+        }
+        let cells = [
+            Cell::count(run.passes.len()),
+            Cell::number(correlation::last_check(run).errors.sum(), Digits::Fixed(4)),
+            Cell::number(result.case.settings.error_sum_tolerance, Digits::Fixed(4)),
+            Cell::text(outcome(result)),
+        ];
+        table.row(result.case.number, cells);
+    }
+    table
+}
+
 /// Every table of a run, in the order of the report.
 pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
-    let mut tables = Vec::new();
+    let mut tables = vec![outcome_table(results)];
     for result in results {
         tables.extend(tables_of(result)?);
     }
@@ -248,10 +273,15 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
 }
 
 /// What became of a case, in a few words.
-fn outcome(result: &CaseResult) -> String {
-    match &result.anomaly {
-        _ if result.correlation.converged => "correlated".to_owned(),
-        Some(anomaly) => format!("modeling error in element {}", anomaly.parameter),
-        None => "not converged".to_owned(),
+pub fn outcome(result: &CaseResult) -> String {
+    let kind = if result.case.grouping == Grouping::Elements { "element " } else { "" };
+    let detected = result.anomaly.as_ref().map(|found| format!("modeling error detected in {kind}{}", found.parameter));
+    match (detected, result.is_detection()) {
+        (Some(detected), true) => detected,
+        (None, true) => "no modeling error detected".to_owned(),
+        (None, ..) if result.correlation.converged => "correlated".to_owned(),
+        (Some(detected), ..) if result.correlation.converged => format!("correlated but {detected}"),
+        (None, ..) => "not converged".to_owned(),
+        (Some(detected), ..) => format!("not converged; {detected}"),
     }
 }

@@ -21,13 +21,14 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 /// Those of the wing's analyses; [`PresentError::Case`] if what others found were damaged.
 pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, PresentError> {
     let passes = "Delta wing with wrong gages: passes";
+    let names: Vec<String> = run.groups.iter().map(|found| found.group.name.to_owned()).collect();
     Ok(vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
         frequency_table(wing)?,
         group_table(run),
         test_mode_table(run),
-        pass_table("delta_wing_passes", passes, &run.correlation),
+        pass_table("delta_wing_passes", passes, &run.correlation).note(run.correlation.verdict.in_words(&names)),
     ])
 }
 

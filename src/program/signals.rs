@@ -1,0 +1,65 @@
+//! The signals that ask a program to stop: held while files are put in place or another program runs, then obeyed.
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
+use std::sync::{Arc, Once};
+
+#[cfg(unix)]
+const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
+#[cfg(not(unix))]
+const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
+
+/// Whether the signals end the program at once, as they do by default.
+static FREE: AtomicBool = AtomicBool::new(true);
+/// The last signal that came while they did not; 0 for none.
+static CAME: AtomicUsize = AtomicUsize::new(0);
+
+/// The signals are held as long as this lives; one that came meanwhile ends the program then.
+pub struct Held(());
+
+/// Holds the signals.
+pub fn hold() -> Held {
+    take_over();
+    FREE.store(false, SeqCst);
+    Held(())
+}
+
+/// Takes the signals over from the operating system, once.
+fn take_over() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        for signal in asked_for() {
+            // A program that cannot be told to stop still does its work.
+            let _ = flag::register_conditional_default(signal, &FREE);
+            let _ = flag::register_usize(signal, &CAME, signal as usize);
+        }
+    });
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        FREE.store(true, SeqCst);
+        // A signal's number fits the type it came from.
+        let came = CAME.load(SeqCst) as i32;
+        if came != 0 {
+            let _ = signal_hook::low_level::emulate_default_handler(came);
+        }
+    }
+}
+
+/// Sets the flag too when one of the signals comes while they are held.
+pub fn tell(stop: &Arc<AtomicBool>) {
+    take_over();
+    for signal in asked_for() {
+        let _ = flag::register(signal, Arc::clone(stop));
+    }
+}
+
+/// The signals, but for those the program was started to ignore, as `nohup` starts it.
+fn asked_for() -> impl Iterator<Item = i32> {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    SIGNALS.into_iter().filter(move |signal| ignored >> (signal - 1) & 1 == 0)
+}
