@@ -4,4 +4,5 @@ pub mod delta_wing;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod noisy_modes;
+pub mod preflight;
 pub mod whole_modes;

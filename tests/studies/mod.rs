@@ -10,3 +10,6 @@ pub mod matrix_comparison_elements;
 pub mod matrix_correction;
 
 pub mod noisy_modes;
+
+pub mod preflight;
+pub mod preflight_rates;
