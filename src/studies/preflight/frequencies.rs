@@ -31,8 +31,8 @@ const fn named(factor: f64, name: &'static str, mistake: &'static str) -> NamedF
 
 /// Square roots of 1000, 386.09 and 9.81.
 const THOUSAND: f64 = 31.622_776_601_683_793;
-const INCHES: f64 = 19.649_173_009_766_565;
-const METERS: f64 = 3.132_091_952_673_165_4;
+const INCHES: f64 = 19.649_173_010_587_493;
+const METERS: f64 = 3.132_091_952_673_165;
 
 /// The factors known, in both directions.
 pub const FACTORS: [NamedFactor; 10] = [

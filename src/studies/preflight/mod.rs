@@ -117,12 +117,13 @@ pub fn preflight(
     settings: &Settings,
     ranges: &[Option<Range>],
 ) -> Result<Vec<Finding>, Error> {
-    let scaled = test.scaled_with(&model.mass)?;
-    let (apart, mut findings) = apart(test)?;
-    if apart.len() <= model.mass.nrows() {
-        beside_the_model(model, test, &apart, &mut findings)?;
+    test.scaled_with(&model.mass)?;
+    let (places, mut findings) = apart(test)?;
+    let mut modes = test.select(&places);
+    if modes.len() <= model.mass.nrows() {
+        modes.shapes = beside_the_model(model, &modes, &places, &mut findings)?;
     }
-    findings.extend(told_apart(&scaled.select(&apart), &model.mass)?);
+    findings.extend(told_apart(&modes.scaled_with(&model.mass)?, &model.mass)?);
     of_settings(settings, ranges, &mut findings);
     Ok(findings)
 }
@@ -145,24 +146,23 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     Ok((apart, findings))
 }
 
-/// What pairs of the given test modes and modes of the model say.
+/// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends them.
 fn beside_the_model(
     model: &DynamicModel,
     test: &ModeSet,
     places: &[usize],
     findings: &mut Vec<Finding>,
-) -> Result<(), Error> {
-    let test = test.select(places);
+) -> Result<DMatrix<f64>, Error> {
     let mut look = Look::new(&model.stiffness, &model.mass)?;
     let mut shapes = test.shapes.clone();
-    let mended = mend(model, &look, &test)?;
+    let mended = mend(model, &look, test)?;
     if let Some(mended) = &mended {
         shapes = changed(&shapes, &mended.change);
         if let Change::Columns(order) = &mended.change {
             look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
         }
     }
-    let Some(cross) = look.cross(&shapes) else { return Ok(()) };
+    let Some(cross) = look.cross(&shapes) else { return Ok(shapes) };
     let pairing = pair_modes(&cross)?;
     let all = look.analysis.frequencies_hz();
     let analysis: Vec<f64> = pairing.analysis_mode.iter().map(|&mode| all[mode]).collect();
@@ -179,7 +179,7 @@ fn beside_the_model(
     {
         findings.push(Finding::LowPair { test: places[mode], analysis: pairing.analysis_mode[mode], cross });
     }
-    Ok(())
+    Ok(shapes)
 }
 
 /// Whether the points tell test modes of unit generalized mass apart.
