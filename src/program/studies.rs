@@ -100,7 +100,8 @@ pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
     output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
 }
 
-/// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes are.
+/// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
+/// are.
 pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
     let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
     specimens.push(Specimen::delta_wing()?);

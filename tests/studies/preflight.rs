@@ -7,7 +7,7 @@ use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Range};
 use corfem::method::modes::{ModeSet, solve};
-use corfem::method::outer_loop::Settings;
+use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::studies::delta_wing::{DeltaWing, correlation};
 use corfem::studies::noisy_modes::{Noise, split_mix_64, with_noise};
@@ -154,6 +154,18 @@ fn every_reversed_sensor_is_named_with_its_numbers() {
             assert!(next != found.change && runner_up < found.after);
         }
     }
+}
+
+#[test]
+fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
+    let case = Case::new(2).unwrap();
+    let (model, mut test) = (case.model().unwrap(), ModeSet::from(case.test_modes().unwrap()));
+    test.shapes.row_mut(6).neg_mut();
+    let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
+    let run = correlate(analyze, &model.factor_ranges().unwrap(), &case.settings, |_, _| {}).unwrap();
+    let factors = run.best_factors();
+    assert!(!run.converged);
+    assert!(factors.iter().any(|factor| *factor < 0.01) && factors.iter().any(|factor| *factor > 8.0), "{factors:?}");
 }
 
 #[test]

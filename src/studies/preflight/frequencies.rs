@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 const MODEL_ERROR: f64 = 1.35;
 /// Median ratio beyond which a factor without a name is reported: a stiffness more than twice wrong in all modes.
 const UNNAMED: f64 = 1.5;
-/// Least gain of the mean deviation, times the number of modes, for two frequencies to be exchanged: three times what 0.3 % of
-/// noise makes of ten modes.
+/// Least gain of the mean deviation, times the number of modes, for two frequencies to be exchanged: three times what
+/// 0.3 % of noise makes of ten modes.
 const LEAST_GAIN: f64 = 0.05;
 /// Least part of the deviation that the exchange must mend; in a model with an element a hundred times too thin an
 /// exchange mends 0.10 of it.

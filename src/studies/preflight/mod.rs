@@ -6,9 +6,9 @@
 //!
 //! $$ a = \frac{1}{g} \sum_j \lvert m_{i(j) j} \rvert, \qquad m = V_F^t M V_G, $$
 //!
-//! with every test shape at unit generalized mass. In all d modes of a right model a reversed sensor makes $m_{jj}$ lower by
-//! $2 m_i v_{ij}^2$, which sum to 2 over the modes whatever the mass there is: no sensor is too light to be seen. Frequencies do not enter it; they are judged by their
-//! ratios after shapes have been paired.
+//! with every test shape at unit generalized mass. In all d modes of a right model a reversed sensor makes $m_{jj}$
+//! lower by $2 m_i v_{ij}^2$, which sum to 2 over the modes whatever the mass there is: no sensor is too light to be
+//! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
 
 mod frequencies;
 mod order;
@@ -33,14 +33,14 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{Look, changed, mend, paired_values, reordered};
 
-/// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ several
-/// hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the order and signs of
-/// the points, so that a mistake in these does not look like a mode measured twice.
+/// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
+/// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
+/// order and signs of the points, so that a mistake in these does not look like a mode measured twice.
 pub const NEARLY_SAME: f64 = 0.9;
 /// Frequencies that differ by less are one mode's, measured twice.
 const SAME_FREQUENCY: f64 = 0.02;
-/// Singular value of the test shapes at unit generalized mass below which they are not told apart: orthogonal shapes have
-/// one, and noise of 1 % leaves 0.78 where masses differ several hundredfold.
+/// Singular value of the test shapes at unit generalized mass below which they are not told apart: orthogonal shapes
+/// have one, and noise of 1 % leaves 0.78 where masses differ several hundredfold.
 pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance that nobody means: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
@@ -105,9 +105,10 @@ pub enum Finding {
 /// Looks at model and test before the first step.
 ///
 /// `model` has the first stiffness (lbf/in) and mass (lbf·s²/in) at the d points, `test` the modes as measured, of any
-/// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::FiniteElementModel::factor_ranges`] gives them.
-/// With more test modes than points nothing is said of pairs. Of modes that are nearly the same shape, pairs are made of the
-/// first alone.
+/// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::FiniteElementModel::factor_ranges`] gives
+/// them
+/// (which itself refuses bounds that exclude the start). With more test modes than points nothing is said of pairs. Of modes that are nearly the same shape, pairs are
+/// made of the first alone.
 ///
 /// # Errors
 /// Those of [`crate::method::modes::solve`] and [`ModeSet::scaled_with`].
@@ -146,7 +147,8 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     Ok((apart, findings))
 }
 
-/// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends them.
+/// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends
+/// them.
 fn beside_the_model(
     model: &DynamicModel,
     test: &ModeSet,

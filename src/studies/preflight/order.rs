@@ -38,8 +38,8 @@ fn exchange(
 
 /// The order of the test's points that agrees best with the model, as far as it is found, and its agreement.
 ///
-/// A point is known by what it does in all modes, each scaled to unit largest component. At first the modes are taken in the
-/// order of their frequencies and without sign; then they are paired by the order found, and so on.
+/// A point is known by what it does in all modes, each scaled to unit largest component. At first the modes are taken
+/// in the order of their frequencies and without sign; then they are paired by the order found, and so on.
 pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
     let count = test.len();
     let mut by_frequency: Vec<usize> = (0..count).collect();

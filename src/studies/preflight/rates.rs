@@ -46,7 +46,7 @@ pub struct Rates {
 /// Detection rates and false alarms on one structure.
 ///
 /// # Errors
-/// Those of [`with_noise`] and [`preflight`].
+/// Those of [`with_noise`] and [`super::preflight`].
 pub fn rates(specimen: &Specimen, seeds: RangeInclusive<u64>) -> Result<Rates, Error> {
     let clean = specimen.findings(&specimen.test)?;
     let is_low = |finding: &Finding| matches!(finding, Finding::LowPair { .. });

@@ -8,11 +8,12 @@ use crate::method::pairing::{Pairing, pair_modes};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-/// Least gain of the agreement that names a change. On good data, clean and noisy, no change gains at all; one of the
-/// right two sensors that lie close together gains 0.003.
+/// Least gain of the agreement that names a change. On good data, clean and noisy, no change gains at all; to exchange
+/// the right two sensors gains 0.003 and more, least where they lie close together.
 pub const LEAST_GAIN: f64 = 0.002;
-/// Least part of what is missing to full agreement that a change must mend. The right one mends what the model's own errors
-/// leave, mostly three quarters; in a model whose element is a hundred times too thin the best wrong one mends 0.18.
+/// Least part of what is missing to full agreement that a change must mend. The right one leaves what the model's own
+/// errors cost, and mostly mends three quarters; in a model whose element is a hundred times too thin the best wrong
+/// one mends 0.18.
 pub const LEAST_SHARE: f64 = 0.3;
 /// By how much columns of $T$ must agree better than sensors in the same order to be named first. The two differ by the
 /// masses alone, and where these are alike, noise decides between them.
@@ -32,7 +33,8 @@ pub enum Change {
     Reordered(Vec<usize>),
     /// Rows for columns.
     Transposed,
-    /// Columns of $T$ in another order, while the masses keep theirs: the places of the columns given, in the test's order.
+    /// Columns of $T$ in another order, while the masses keep theirs: the places of the columns given, in the test's
+    /// order.
     Columns(Vec<usize>),
 }
 
@@ -147,9 +149,10 @@ fn is_enough(before: f64, after: f64) -> bool {
 
 /// The change that mends the agreement most, if one mends it enough.
 ///
-/// All reversals, exchanges of sensors, and the transposition are tried. Where they leave a pair below [`LOW_PAIR`], so is
-/// another order of the points, and where that leaves one, another order of the columns of $T$, for which the model is solved
-/// anew. An order of the points is always compared with the same order of the columns: they differ by the masses alone.
+/// All reversals, exchanges of sensors, and the transposition are tried. Where they leave a pair below [`LOW_PAIR`], so
+/// is another order of the points, and where that leaves one, another order of the columns of $T$, for which the model
+/// is solved anew. An order of the points is always compared with the same order of the columns: they differ by the
+/// masses alone.
 pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<Option<Mended>, Error> {
     let shapes = &test.shapes;
     let (points, modes) = shapes.shape();

@@ -65,7 +65,8 @@ impl Specimen {
         })
     }
 
-    /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 % wrong.
+    /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 %
+    /// wrong.
     ///
     /// # Errors
     /// Those of [`solve`].

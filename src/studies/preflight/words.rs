@@ -50,8 +50,8 @@ impl Display for Finding {
             }
             Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], before, after }) => write!(
                 f,
-                "Frequencies of test modes {} and {} exchanged? It would lower the mean deviation of the ratios from {:.1} \
-                to {:.1} %.",
+                "Frequencies of test modes {} and {} exchanged? It would lower the mean deviation of the ratios \
+                from {:.1} to {:.1} %.",
                 a + 1,
                 b + 1,
                 100.0 * before,
