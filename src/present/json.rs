@@ -23,6 +23,8 @@ use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrela
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::matrix_comparison::MatrixComparison;
 use crate::studies::noisy_modes::NoisyModes;
+use crate::studies::preflight::Finding;
+use crate::studies::preflight::rates::Rates;
 use crate::studies::whole_modes::WholeModes;
 use serde_json::{Value, json};
 
@@ -138,6 +140,12 @@ pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
 /// Correlations with noisy test modes.
 pub fn noisy_modes(study: &NoisyModes) -> Result<String, PresentError> {
     document(json!({ "study": study }))
+}
+
+/// What the pre-flight finds in structures, and how often it finds mistakes; places count from zero.
+pub fn preflight(found: &[(String, Vec<Finding>)], rates: &[Rates]) -> Result<String, PresentError> {
+    let structure = |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
+    document(json!({ "structures": found.iter().map(structure).collect::<Value>(), "rates": rates }))
 }
 
 /// Tables cell by cell: what is computed as an object, what is printed as text.

@@ -66,6 +66,8 @@ enum Command {
     Matrices(MatricesArguments),
     /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
     Noise(OutputArguments),
+    /// Look at models and tests before the first step, and count how often mistakes made on purpose are named
+    Check(OutputArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -102,6 +104,7 @@ pub fn run() -> ExitCode {
         Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
+        Some(Command::Check(arguments)) => studies::check(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise` and `corfem delta-wing`.
+//! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise`, `corfem check` and `corfem delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::settings::SettingsArguments;
@@ -13,6 +13,8 @@ use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
+use corfem::studies::preflight::Specimen;
+use corfem::studies::preflight::rates::{self, all_rates};
 
 #[derive(Debug, Args)]
 pub struct TablesArguments {
@@ -101,6 +103,22 @@ pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
     output.check()?;
     let study = noisy_modes(&Case::new(NOISY_CASE)?, Noise::USUAL, SEEDS)?;
     output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
+}
+
+/// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
+/// are.
+pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
+    let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
+    specimens.push(Specimen::delta_wing()?);
+    let mut found = Vec::new();
+    for specimen in specimens {
+        let findings = specimen.findings(&specimen.test)?;
+        found.push((specimen.name, findings));
+    }
+    let rates = all_rates(rates::SEEDS)?;
+    let mut tables = vec![tables::preflight::findings_table(&found)];
+    tables.extend(tables::preflight::rate_tables(&rates));
+    output.write(&tables, || json::preflight(&found, &rates))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

@@ -5,4 +5,5 @@ pub mod free_modes;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod noisy_modes;
+pub mod preflight;
 pub mod whole_modes;

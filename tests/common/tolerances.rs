@@ -187,3 +187,16 @@ pub const STANDARD_ERRORS: f64 = 4.0;
 pub const COUNTED_ROOT: f64 = 1e-9;
 /// Lowest squared frequency where stiffnesses differ 1e10 times: that many roundings of a sum of both, a few of them.
 pub const UNLIKE_STIFFNESS: f64 = 1e-5;
+/// Counts of seeds of a hundred in a golden: one at a threshold may fall on its other side on another machine.
+pub const GOLDEN_COUNT: f64 = 1.0;
+/// Least detections of a mistake in a hundred seeds: frequencies of close modes are missed with up to five.
+pub const LEAST_DETECTIONS: usize = 95;
+/// The same for two columns of T named before two sensors: 61 on a chain whose masses are nearly alike.
+pub const LEAST_COLUMNS: usize = 50;
+/// Most seeds of a hundred in which 1 % of noise makes a pair of the box low: six, all of the mode that moves a light point
+/// alone, whose errors at heavy ones count most.
+pub const MOST_LOW_PAIRS: usize = 10;
+/// Smallest singular value of dependent shapes: the root of an eigenvalue that is zero to `MATRIX_ROUND_OFF`.
+pub const DEPENDENT_SHAPES: f64 = 1e-5;
+/// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
+pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;

@@ -10,5 +10,6 @@ pub mod figures_planform;
 pub mod matrix_tables;
 pub mod noisy_tables;
 pub mod page;
+pub mod preflight_tables;
 pub mod published_tables;
 pub mod render;

@@ -1,6 +1,7 @@
 //! The program from outside.
 
 pub mod cli;
+pub mod cli_check;
 pub mod cli_comparisons;
 pub mod cli_settings;
 pub mod cli_pictures;

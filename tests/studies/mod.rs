@@ -11,3 +11,6 @@ pub mod matrix_correction;
 
 pub mod free_modes;
 pub mod noisy_modes;
+
+pub mod preflight;
+pub mod preflight_rates;

@@ -8,12 +8,13 @@ mod html;
 use super::figures::Figure;
 use super::table::{Digits, Table};
 use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
-use super::tables::{fewer_modes, matrices, paper_tables};
+use super::tables::{fewer_modes, matrices, paper_tables, preflight};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
 use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
+use crate::studies::preflight::Specimen;
 use html::{escaped, figure, section, section_of, table};
 
 /// What the page tells.
@@ -45,6 +46,8 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         ("summary-section".to_owned(), "Summary".to_owned(), "Summary".to_owned(), summary_section(contents)?),
         ("box".to_owned(), "The box".to_owned(), "The box".to_owned(), box_section(contents)),
     ];
+    let before = "Before the first step";
+    parts.push(("preflight".to_owned(), "Pre-flight".to_owned(), before.to_owned(), preflight_section(contents)?));
     for result in contents.results {
         let number = result.case.number;
         let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
@@ -127,6 +130,17 @@ fn box_section(contents: &Contents) -> String {
         part(&[], contents.figures, &["box_", "cover_"]),
         table(&fit_table(fit)),
     )
+}
+
+/// What looks wrong with the cases before anything moves.
+fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
+    let found = |result: &CaseResult| {
+        let specimen = Specimen::of_case(&result.case)?;
+        let findings = specimen.findings(&result.test)?;
+        Ok((specimen.name, findings))
+    };
+    let found = contents.results.iter().map(found).collect::<Result<Vec<_>, PresentError>>()?;
+    Ok(table(&preflight::findings_table(&found)))
 }
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.

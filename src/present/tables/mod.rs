@@ -7,6 +7,7 @@ pub mod delta_wing;
 pub mod fewer_modes;
 pub mod matrices;
 pub mod noisy_modes;
+pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;

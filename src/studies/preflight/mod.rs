@@ -1,0 +1,213 @@
+//! A pre-flight: what looks wrong with model and test before the first step, each finding with its evidence.
+//!
+//! The loops scale gages until modes agree, whatever stands between: one reversed sensor, and the gages become nonsense
+//! without a word. So every single mistake that is often made is undone here on trial, and the one that makes model and
+//! test agree best is named. The *agreement* is the mean over the test modes of the paired cross-orthogonality (4),
+//!
+//! $$ a = \frac{1}{g} \sum_j \lvert m_{i(j) j} \rvert, \qquad m = V_F^t M V_G, $$
+//!
+//! with every test shape at unit generalized mass. In all d modes of a right model a reversed sensor makes $m_{jj}$
+//! lower by $2 m_i v_{ij}^2$, which sum to 2 over the modes whatever the mass there is: no sensor is too light to be
+//! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
+
+mod frequencies;
+mod order;
+mod plant;
+pub mod rates;
+mod shapes;
+mod specimen;
+mod words;
+
+pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
+pub use plant::{MISTAKES, Mistake};
+pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
+pub use specimen::Specimen;
+
+use crate::method::error::Error;
+use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::model::{DynamicModel, Range};
+use crate::method::modes::ModeSet;
+use crate::method::outer_loop::Settings;
+use crate::method::pairing::{modal_assurance, pair_modes};
+use nalgebra::DMatrix;
+use serde::Serialize;
+use shapes::{Look, changed, mend, paired_values, reordered};
+
+/// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
+/// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
+/// order and signs of the points, so that a mistake in these does not look like a mode measured twice.
+pub const NEARLY_SAME: f64 = 0.9;
+/// Frequencies that differ by less are one mode's, measured twice.
+const SAME_FREQUENCY: f64 = 0.02;
+/// Singular value of the test shapes at unit generalized mass below which they are not told apart: orthogonal shapes
+/// have one, and noise of 1 % leaves 0.78 where masses differ several hundredfold.
+pub const LEAST_SINGULAR: f64 = 0.3;
+/// Tolerance that nobody means: a fifth of the frequency, or of the largest component.
+pub const LARGEST_TOLERANCE: f64 = 0.2;
+
+/// Something that looks wrong. Places count from zero here and from one in [`std::fmt::Display`]'s words.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Finding {
+    /// All frequencies are wrong by one factor.
+    CommonFactor(CommonFactor),
+    /// One change of shapes or model makes them agree.
+    Mended(Mended),
+    /// Two frequencies stand beside each other's shapes.
+    FrequenciesExchanged(FrequenciesExchanged),
+    /// Two test modes have nearly the same shape.
+    NearlySame {
+        /// Which.
+        modes: [usize; 2],
+        /// Their modal assurance.
+        assurance: f64,
+        /// The second frequency over the first; close to one, the mode was measured twice.
+        frequency_ratio: f64,
+    },
+    /// A pair agrees badly, after the change named if there is one.
+    LowPair {
+        /// The test mode.
+        test: usize,
+        /// Its analysis mode.
+        analysis: usize,
+        /// The magnitude of their cross-orthogonality.
+        cross: f64,
+    },
+    /// There are more test modes than their shapes at the measured points tell apart.
+    TooManyModes {
+        /// Test modes.
+        modes: usize,
+        /// Measured points.
+        points: usize,
+        /// Singular values of the shapes, at unit generalized mass, that are not small.
+        distinct: usize,
+        /// The smallest singular value.
+        smallest: f64,
+    },
+    /// A tolerance looks like percent.
+    Percent {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter may not keep its first value.
+    ExcludesStart {
+        /// Which parameter.
+        parameter: usize,
+        /// Bounds on its factor.
+        range: Range,
+    },
+    /// Parameters without bounds.
+    Unbounded(Vec<usize>),
+}
+
+/// Looks at model and test before the first step.
+///
+/// `model` has the first stiffness (lbf/in) and mass (lbf·s²/in) at the d points, `test` the modes as measured, of any
+/// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::FiniteElementModel::factor_ranges`] gives
+/// them, which itself refuses bounds that exclude the start. With more test modes than points nothing is said of pairs.
+/// Of modes that are nearly the same shape, pairs are made of the first alone.
+///
+/// # Errors
+/// Those of [`crate::method::modes::solve`] and [`ModeSet::scaled_with`].
+pub fn preflight(
+    model: &DynamicModel,
+    test: &ModeSet,
+    settings: &Settings,
+    ranges: &[Option<Range>],
+) -> Result<Vec<Finding>, Error> {
+    test.scaled_with(&model.mass)?;
+    let (places, mut findings) = apart(test)?;
+    let mut modes = test.select(&places);
+    if modes.len() <= model.mass.nrows() {
+        modes.shapes = beside_the_model(model, &modes, &places, &mut findings)?;
+    }
+    findings.extend(told_apart(&modes.scaled_with(&model.mass)?, &model.mass)?);
+    of_settings(settings, ranges, &mut findings);
+    Ok(findings)
+}
+
+/// The test modes without those that are nearly the same shape as one before, and these.
+fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
+    let assurance = modal_assurance(&test.shapes, &test.shapes)?;
+    let frequencies = test.frequencies_hz();
+    let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
+    for b in 0..test.len() {
+        match apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) {
+            None => apart.push(b),
+            Some(&a) => findings.push(Finding::NearlySame {
+                modes: [a, b],
+                assurance: assurance[(a, b)],
+                frequency_ratio: frequencies[b] / frequencies[a],
+            }),
+        }
+    }
+    Ok((apart, findings))
+}
+
+/// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends
+/// them.
+fn beside_the_model(
+    model: &DynamicModel,
+    test: &ModeSet,
+    places: &[usize],
+    findings: &mut Vec<Finding>,
+) -> Result<DMatrix<f64>, Error> {
+    let mut look = Look::new(&model.stiffness, &model.mass)?;
+    let mut shapes = test.shapes.clone();
+    let mended = mend(model, &look, test)?;
+    if let Some(mended) = &mended {
+        shapes = changed(&shapes, &mended.change);
+        if let Change::Columns(order) = &mended.change {
+            look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
+        }
+    }
+    let Some(cross) = look.cross(&shapes) else { return Ok(shapes) };
+    let pairing = pair_modes(&cross)?;
+    let all = look.analysis.frequencies_hz();
+    let analysis: Vec<f64> = pairing.analysis_mode.iter().map(|&mode| all[mode]).collect();
+    let mut frequencies = test.frequencies_hz();
+    let exchanged = frequencies::exchanged(&frequencies, &analysis);
+    if let Some(FrequenciesExchanged { modes: [a, b], before, after }) = exchanged {
+        frequencies.swap(a, b);
+        let modes = [places[a], places[b]];
+        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged { modes, before, after }));
+    }
+    findings.extend(frequencies::common_factor(&frequencies, &analysis).map(Finding::CommonFactor));
+    findings.extend(mended.map(Finding::Mended));
+    for (mode, cross) in paired_values(&cross, &pairing).into_iter().enumerate().filter(|(_, value)| *value < LOW_PAIR)
+    {
+        findings.push(Finding::LowPair { test: places[mode], analysis: pairing.analysis_mode[mode], cross });
+    }
+    Ok(shapes)
+}
+
+/// Whether the points tell test modes of unit generalized mass apart.
+fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
+    let (points, modes) = test.shapes.shape();
+    let overlap = symmetric_part(&test.shapes.tr_mul(&(mass * &test.shapes)));
+    let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
+    let smallest = squares[0].max(0.0).sqrt();
+    let distinct = squares.iter().filter(|square| **square >= LEAST_SINGULAR.powi(2)).count();
+    Ok((distinct < modes).then_some(Finding::TooManyModes { modes, points, distinct, smallest }))
+}
+
+fn of_settings(settings: &Settings, ranges: &[Option<Range>], findings: &mut Vec<Finding>) {
+    let tolerances = [
+        ("inner.tolerance", settings.inner.tolerance),
+        ("later_inner_tolerance", settings.later_inner_tolerance),
+        ("error_sum_tolerance", settings.error_sum_tolerance),
+        ("frequency_tolerance", settings.frequency_tolerance),
+        ("shape_tolerance", settings.shape_tolerance),
+    ];
+    let large = tolerances.into_iter().filter(|(_, value)| *value > LARGEST_TOLERANCE);
+    findings.extend(large.map(|(setting, value)| Finding::Percent { setting, value }));
+    let bounded = ranges.iter().enumerate().filter_map(|(parameter, range)| Some((parameter, (*range)?)));
+    let excluding = bounded.filter(|(_, range)| !range.contains(1.0));
+    findings.extend(excluding.map(|(parameter, range)| Finding::ExcludesStart { parameter, range }));
+    let unbounded: Vec<usize> = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none()).collect();
+    if !unbounded.is_empty() {
+        findings.push(Finding::Unbounded(unbounded));
+    }
+}

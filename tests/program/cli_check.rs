@@ -1,0 +1,28 @@
+//! `corfem check` from outside.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+#[test]
+fn check_says_what_it_finds_and_how_often_it_would() {
+    let corfem = |format: &str| {
+        let arguments = ["check", "--format", format];
+        let done =
+            Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts");
+        assert!(done.status.success() && done.stderr.is_empty());
+        String::from_utf8(done.stdout).expect("UTF-8")
+    };
+    let report = corfem("text");
+    let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(report.starts_with("Before the first step"), "{report:.200}");
+    assert!(words.contains("Test mode 7 and analysis mode 6 have a cross-orthogonality of 0.667 only."));
+    assert!(report.contains("one sensor reversed"));
+    let json: Value = serde_json::from_str(&corfem("json")).expect("JSON");
+    let structures = json["structures"].as_array().expect("a list");
+    let names: Vec<&str> = structures.iter().map(|found| found["name"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["Case 1", "Case 2", "Case 3", "Case 4", "Delta wing"]);
+    assert_eq!(structures[2]["findings"], Value::Array(Vec::new()));
+    assert_eq!(structures[3]["findings"][1]["low_pair"]["test"], 6);
+    assert_eq!(json["rates"].as_array().map(Vec::len), Some(4));
+    assert_eq!(json["rates"][0]["rates"][1]["mistake"], "reversed");
+}

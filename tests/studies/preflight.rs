@@ -1,0 +1,425 @@
+//! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
+
+use crate::common::tolerances::{DEPENDENT_SHAPES, FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::cases::Case;
+use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
+use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Range};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::studies::delta_wing::{DeltaWing, correlation};
+use corfem::studies::noisy_modes::{Noise, split_mix_64, with_noise};
+use corfem::studies::preflight::{
+    Change, CommonFactor, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, LEAST_DIFFERENCE, LOW_PAIR,
+    Mended, Specimen, preflight,
+};
+use nalgebra::DMatrix;
+
+fn case(number: usize) -> Specimen {
+    Specimen::of_case(&Case::new(number).unwrap()).unwrap()
+}
+
+fn chain() -> Specimen {
+    Specimen::spring_chain().unwrap()
+}
+
+fn wing() -> Specimen {
+    Specimen::delta_wing().unwrap()
+}
+
+/// What is found beside parameters without bounds.
+fn findings(specimen: &Specimen) -> Vec<Finding> {
+    let mut found = specimen.findings(&specimen.test).unwrap();
+    found.retain(|finding| !matches!(finding, Finding::Unbounded(_)));
+    found
+}
+
+fn with_shapes(specimen: &Specimen, shapes: DMatrix<f64>) -> Specimen {
+    Specimen { test: ModeSet { shapes, ..specimen.test.clone() }, ..specimen.clone() }
+}
+
+/// The change that alone is found.
+fn mended(specimen: &Specimen) -> Mended {
+    match &findings(specimen)[..] {
+        [Finding::Mended(mended)] => mended.clone(),
+        other => panic!("{}: {other:?}", specimen.name),
+    }
+}
+
+/// The mean of the paired cross-orthogonality, by its definition.
+fn agreement(model: &DynamicModel, test: &ModeSet) -> f64 {
+    let analysis = solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap();
+    let test = test.scaled_with(&model.mass).unwrap();
+    let cross = cross_orthogonality(&analysis, &test, &model.mass).unwrap();
+    let pairing = pair_modes(&cross).unwrap();
+    let pairs = pairing.analysis_mode.iter().enumerate().map(|(test, &mode)| cross[(mode, test)].abs());
+    pairs.sum::<f64>() / test.len() as f64
+}
+
+#[test]
+fn nothing_is_said_of_the_papers_cases_and_of_the_wing_but_what_is_so() {
+    for specimen in [case(1), case(2), case(3), wing(), chain()] {
+        assert_eq!(findings(&specimen), [], "{}", specimen.name);
+    }
+    // Case 3 alone bounds its gages.
+    let unbounded = |specimen: Specimen| specimen.findings(&specimen.test).unwrap();
+    assert_eq!(unbounded(case(3)), []);
+    assert_eq!(unbounded(case(2)), [Finding::Unbounded((0..15).collect())]);
+    assert_eq!(unbounded(wing()), [Finding::Unbounded((0..21).collect())]);
+}
+
+#[test]
+fn low_pairs_of_case_4_come_from_its_faulty_element() {
+    let low = findings(&case(4));
+    let pairs: Vec<_> = low
+        .iter()
+        .map(|finding| match finding {
+            Finding::LowPair { test, analysis, cross } if *cross < LOW_PAIR => (*test, *analysis),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(pairs, [(4, 4), (6, 5), (7, 7)]);
+    // Element 8 made right.
+    let mut gages = Case::new(4).unwrap().first_gages();
+    gages[7] *= 100.0;
+    let model = Case::new(4).unwrap().model_with(&gages).unwrap().matrices(&[1.0; PANEL_COUNT]).unwrap();
+    assert_eq!(findings(&Specimen { model, ..case(4) }), []);
+}
+
+#[test]
+fn models_with_any_gages_within_two_thirds_cause_no_false_alarm() {
+    let case = Case::new(2).unwrap();
+    let (test, mut state) = (ModeSet::from(case.test_modes().unwrap()), 7);
+    let mut unit = || (split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64;
+    for seed in 1..=100 {
+        let gages: Vec<f64> = (0..PANEL_COUNT).map(|_| TEST_GAGE * 0.6_f64.powf(2.0 * unit() - 1.0)).collect();
+        let model = case.model_with(&gages).unwrap().matrices(&[1.0; PANEL_COUNT]).unwrap();
+        let noisy = with_noise(&test, Noise::USUAL, seed).unwrap();
+        for finding in preflight(&model, &noisy, &case.settings, &[]).unwrap() {
+            assert!(matches!(finding, Finding::LowPair { .. }), "{seed}: {finding}");
+        }
+    }
+}
+
+#[test]
+fn every_factor_is_named_and_a_models_error_is_none() {
+    for specimen in [case(2), case(3), wing(), chain()] {
+        let with_factor = |factor: f64| {
+            let mut wrong = specimen.clone();
+            wrong.test.omega_squared *= factor * factor;
+            findings(&wrong)
+        };
+        for known in FACTORS {
+            match with_factor(known.factor)[..] {
+                [Finding::CommonFactor(CommonFactor { median, named: Some(named), .. })] => {
+                    assert_eq!(named, known);
+                    assert!((median / known.factor - 1.0).abs() < FIRST_FREQUENCY_RATIO, "{median}");
+                }
+                ref other => panic!("{}: {other:?}", known.name),
+            }
+        }
+        assert_eq!(with_factor(1.2), []);
+        let unnamed = with_factor(2.1);
+        assert!(matches!(unnamed[..], [Finding::CommonFactor(CommonFactor { named: None, .. })]), "{unnamed:?}");
+    }
+}
+
+#[test]
+fn factors_are_what_they_are_called() {
+    for (known, squared) in FACTORS.iter().step_by(2).zip([std::f64::consts::TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
+    {
+        assert!((known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF, "{}", known.name);
+    }
+    for pair in FACTORS.chunks(2) {
+        assert!((pair[0].factor * pair[1].factor - 1.0).abs() < ROUND_OFF);
+        assert_eq!(format!("1/{}", pair[0].name), pair[1].name);
+    }
+}
+
+#[test]
+fn every_reversed_sensor_is_named_with_its_numbers() {
+    for specimen in [case(2), case(3), wing(), chain()] {
+        let right = agreement(&specimen.model, &specimen.test);
+        for sensor in 0..specimen.test.shapes.nrows() {
+            let mut shapes = specimen.test.shapes.clone();
+            shapes.row_mut(sensor).neg_mut();
+            let wrong = with_shapes(&specimen, shapes);
+            let found = mended(&wrong);
+            assert_eq!(found.change, Change::Reversed(sensor), "{}", specimen.name);
+            assert!((found.after - right).abs() < MATRIX_ROUND_OFF);
+            assert!((found.before - agreement(&wrong.model, &wrong.test)).abs() < MATRIX_ROUND_OFF);
+            let (next, runner_up) = found.next.expect("there are others");
+            assert!(next != found.change && runner_up < found.after);
+        }
+    }
+}
+
+#[test]
+fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
+    let case = Case::new(2).unwrap();
+    let (model, mut test) = (case.model().unwrap(), ModeSet::from(case.test_modes().unwrap()));
+    test.shapes.row_mut(6).neg_mut();
+    let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
+    let run = correlate(analyze, &model.factor_ranges().unwrap(), &case.settings, |_, _| {}).unwrap();
+    let factors = run.best_factors();
+    assert!(!run.converged);
+    assert!(factors.iter().any(|factor| *factor < 0.01) && factors.iter().any(|factor| *factor > 8.0), "{factors:?}");
+}
+
+#[test]
+fn a_reversed_sensor_costs_a_right_model_two_of_all_its_modes() {
+    let (count, stiffness, mass) = (8, 2.0e4, 0.3);
+    let springs = (0..=count).map(|spring| spring_stiffness(count, spring, stiffness));
+    let model = DynamicModel {
+        stiffness: springs.fold(DMatrix::zeros(count, count), |sum, spring| sum + spring),
+        mass: DMatrix::from_diagonal_element(count, count, mass),
+        shares: Vec::new(),
+    };
+    let test = ModeSet::from(uniform_held_modes(count, stiffness, mass).unwrap());
+    let right = Specimen { model, test, ..chain() };
+    for sensor in 0..count {
+        let mut shapes = right.test.shapes.clone();
+        shapes.row_mut(sensor).neg_mut();
+        let found = mended(&with_shapes(&right, shapes));
+        assert_eq!(found.change, Change::Reversed(sensor));
+        // No mode has more than 2/9 of its generalized mass at one point, so that no pair and no sign changes.
+        assert!((found.before - (1.0 - 2.0 / count as f64)).abs() < MATRIX_ROUND_OFF);
+        assert!((found.after - 1.0).abs() < MATRIX_ROUND_OFF);
+    }
+}
+
+#[test]
+fn every_two_sensors_exchanged_are_named() {
+    for specimen in [case(2), case(3), chain()] {
+        for b in 0..specimen.test.shapes.nrows() {
+            for a in 0..b {
+                let mut shapes = specimen.test.shapes.clone();
+                shapes.swap_rows(a, b);
+                assert_eq!(
+                    mended(&with_shapes(&specimen, shapes)).change,
+                    Change::Exchanged([a, b]),
+                    "{}",
+                    specimen.name
+                );
+            }
+        }
+    }
+    let wing = wing();
+    for [a, b] in [[0, 18], [3, 10], [1, 2]] {
+        let mut shapes = wing.test.shapes.clone();
+        shapes.swap_rows(a, b);
+        assert_eq!(mended(&with_shapes(&wing, shapes)).change, Change::Exchanged([a, b]));
+    }
+}
+
+#[test]
+fn columns_of_t_in_another_order_are_named() {
+    let case_2 = Case::new(2).unwrap();
+    let model = case_2.model().unwrap();
+    let ones = [1.0; PANEL_COUNT];
+    // Rear, mid, front of each rib written station by station, and two exchanged.
+    for order in [[0, 3, 6, 1, 4, 7, 2, 5, 8], [0, 1, 2, 7, 4, 5, 6, 3, 8]] {
+        let t = model.load_distribution().select_columns(&order);
+        let parameters = model.parameters().to_vec();
+        let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
+        let wrong = Specimen { model: wrong.matrices(&ones).unwrap(), ..case(2) };
+        let found = mended(&wrong);
+        let Change::Columns(back) = &found.change else { panic!("{found:?}") };
+        let round: Vec<usize> = back.iter().map(|&place| order[place]).collect();
+        assert_eq!(round, (0..9).collect::<Vec<_>>());
+        assert!((found.after - agreement(&case(2).model, &case(2).test)).abs() < MATRIX_ROUND_OFF);
+    }
+    // The wing's masses are made with T and take its order: to the test it is the points that have another.
+    let model = correlation::first_model(&DeltaWing::embedded().unwrap()).unwrap();
+    let order: Vec<usize> = (0..19).map(|place| (7 * place + 3) % 19).collect();
+    let t = model.load_distribution().select_columns(&order);
+    let parameters = model.parameters().to_vec();
+    let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
+    let wrong = Specimen { model: wrong.matrices(&[1.0; 21]).unwrap(), ..wing() };
+    assert_eq!(mended(&wrong).change, Change::Reordered(order));
+}
+
+#[test]
+fn sensors_and_columns_are_told_apart_by_the_masses_alone() {
+    // Masses 4 and 6 of the chain are 0.82 and 0.70; exchanged columns look almost like exchanged sensors.
+    let right = chain();
+    let mut order: Vec<usize> = (0..8).collect();
+    order.swap(3, 5);
+    let mut wrong = right.clone();
+    wrong.model.stiffness = right.model.stiffness.select_rows(&order).select_columns(&order);
+    let found = mended(&wrong);
+    assert_eq!(found.change, Change::Exchanged([3, 5]));
+    let (next, agreement) = found.next.clone().expect("the columns");
+    assert_eq!(next, Change::Columns(order.clone()));
+    assert!((agreement - found.after).abs() < LEAST_DIFFERENCE);
+    let alike = DMatrix::from_diagonal_element(8, 8, 1.0);
+    wrong.model.mass = alike.clone();
+    wrong.test = solve(&right.model.stiffness, &alike, 8).unwrap().into();
+    let found = mended(&wrong);
+    let (_, agreement) = found.next.expect("the columns");
+    assert!((agreement - found.after).abs() < MATRIX_ROUND_OFF, "with equal masses they are the same mistake");
+}
+
+#[test]
+fn points_in_another_order_and_transposed_shapes_are_named() {
+    for specimen in [case(2), case(3), wing(), chain()] {
+        let (points, modes) = specimen.test.shapes.shape();
+        let order: Vec<usize> = (0..points).map(|place| (place + 1) % points).collect();
+        let found = mended(&with_shapes(&specimen, specimen.test.shapes.select_rows(&order)));
+        let back: Vec<usize> = (0..points).map(|place| (place + points - 1) % points).collect();
+        assert_eq!(found.change, Change::Reordered(back), "{}", specimen.name);
+        if points == modes {
+            let found = mended(&with_shapes(&specimen, specimen.test.shapes.transpose()));
+            assert_eq!(found.change, Change::Transposed, "{}", specimen.name);
+        }
+    }
+}
+
+#[test]
+fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
+    for specimen in [case(2), wing()] {
+        for first in 0..specimen.test.len() - 1 {
+            let mut wrong = specimen.clone();
+            wrong.test.omega_squared.swap_rows(first, first + 1);
+            match findings(&wrong)[..] {
+                [Finding::FrequenciesExchanged(FrequenciesExchanged { modes, before, after })] => {
+                    assert_eq!(modes, [first, first + 1]);
+                    assert!(after < before);
+                }
+                ref other => panic!("{} {first}: {other:?}", specimen.name),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mode_measured_twice_and_dependent_modes_are_told() {
+    for specimen in [case(2), case(3), wing(), chain()] {
+        let mut wrong = specimen.clone();
+        let copy = specimen.test.shapes.column(1).into_owned();
+        wrong.test.shapes.set_column(4, &(-3.0 * copy));
+        let same = |wrong: &Specimen| match findings(wrong)[..] {
+            [Finding::NearlySame { modes, assurance, frequency_ratio }] => {
+                assert_eq!(modes, [1, 4], "{}", specimen.name);
+                assert!((assurance - 1.0).abs() < ROUND_OFF);
+                (frequency_ratio, findings(wrong)[0].to_string())
+            }
+            ref other => panic!("{}: {other:?}", specimen.name),
+        };
+        let (ratio, words) = same(&wrong);
+        assert!(ratio > 1.1 && !words.contains("twice"));
+        wrong.test.omega_squared[4] = specimen.test.omega_squared[1];
+        let (ratio, words) = same(&wrong);
+        assert!((ratio - 1.0).abs() < ROUND_OFF && words.contains("measured twice?"), "{words}");
+        // A shape between two others.
+        let unit = |mode: usize| specimen.test.shapes.column(mode).normalize();
+        wrong.test.shapes.set_column(4, &(unit(1) + unit(3)));
+        let modes = specimen.test.len();
+        let is_told = |finding: &Finding| match finding {
+            Finding::TooManyModes { modes: all, distinct, smallest, .. } => {
+                (*all, *distinct) == (modes, modes - 1) && smallest.abs() < 1.0
+            }
+            _ => false,
+        };
+        assert!(findings(&wrong).iter().any(is_told), "{}", specimen.name);
+    }
+}
+
+#[test]
+fn more_modes_than_points_are_told_and_nothing_else() {
+    let right = chain();
+    let points = [0, 2, 4, 6];
+    let [stiffness, mass] =
+        [&right.model.stiffness, &right.model.mass].map(|matrix| matrix.select_rows(&points).select_columns(&points));
+    let mut few = with_shapes(&right, right.test.shapes.select_rows(&points));
+    few.model = DynamicModel { stiffness, mass, shares: Vec::new() };
+    let found = findings(&few);
+    let (last, others) = found.split_last().expect("a finding");
+    let Finding::TooManyModes { modes, points: 4, distinct: 4, smallest } = *last else { panic!("{found:?}") };
+    assert!(others.iter().all(|finding| matches!(finding, Finding::NearlySame { .. })), "{found:?}");
+    assert!(modes + others.len() == 8 && smallest < DEPENDENT_SHAPES);
+}
+
+#[test]
+fn two_mistakes_at_once_are_both_named() {
+    let mut wrong = case(2);
+    wrong.test.omega_squared *= FACTORS[0].factor.powi(2);
+    wrong.test.shapes.row_mut(3).neg_mut();
+    let found = findings(&wrong);
+    assert!(
+        matches!(&found[..], [Finding::CommonFactor(factor), Finding::Mended(mended)]
+        if factor.named == Some(FACTORS[0]) && mended.change == Change::Reversed(3)),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
+    for right in [case(3), wing(), chain()] {
+        let ranges = vec![Some(Range { lower: 0.5, upper: 2.0 }); right.ranges.len()];
+        let found = |settings: &Settings, ranges: &[Option<Range>]| {
+            preflight(&right.model, &right.test, settings, ranges).unwrap()
+        };
+        assert_eq!(found(&right.settings, &ranges), []);
+        let mut settings = right.settings.clone();
+        settings.inner.tolerance = 2.5;
+        settings.shape_tolerance = 4.0;
+        settings.frequency_tolerance = LARGEST_TOLERANCE;
+        let percent = |setting, value| Finding::Percent { setting, value };
+        assert_eq!(found(&settings, &ranges), [percent("inner.tolerance", 2.5), percent("shape_tolerance", 4.0)]);
+        settings = Settings { later_inner_tolerance: 1.5, error_sum_tolerance: 5.0, ..right.settings.clone() };
+        let expected = [percent("later_inner_tolerance", 1.5), percent("error_sum_tolerance", 5.0)];
+        assert_eq!(found(&settings, &ranges), expected);
+        settings = Settings { frequency_tolerance: 1.5, ..right.settings.clone() };
+        assert_eq!(found(&settings, &ranges), [percent("frequency_tolerance", 1.5)]);
+        let mut wrong = ranges.clone();
+        wrong[2] = Some(Range { lower: 55.0, upper: 150.0 });
+        wrong[5] = None;
+        let range = Range { lower: 55.0, upper: 150.0 };
+        let expected = [Finding::ExcludesStart { parameter: 2, range }, Finding::Unbounded(vec![5])];
+        assert_eq!(found(&right.settings, &wrong), expected);
+    }
+}
+
+#[test]
+fn a_test_that_does_not_fit_the_model_is_an_error() {
+    let (right, other) = (case(2), chain());
+    assert!(matches!(right.findings(&other.test), Err(Error::WrongShape { .. })));
+}
+
+#[test]
+fn findings_are_said_with_places_from_one() {
+    let mut wrong = case(2);
+    wrong.test.shapes.row_mut(3).neg_mut();
+    wrong.test.omega_squared.swap_rows(0, 1);
+    wrong.test.omega_squared *= FACTORS[0].factor.powi(2);
+    wrong.settings.shape_tolerance = 4.0;
+    wrong.ranges[2] = Some(Range { lower: 55.0, upper: 150.0 });
+    let said: Vec<String> = wrong.findings(&wrong.test).unwrap().iter().map(Finding::to_string).collect();
+    let all = said.join("\n");
+    for words in [
+        "times the model's, near 2π: the test is in rad/s?",
+        "Sensor 4 reversed? It would raise the mean cross-orthogonality from 0.9",
+        "the next best, ",
+        "Frequencies of test modes 1 and 2 exchanged? It would lower the mean deviation of the ratios from ",
+        "shape_tolerance is 4, that is 400 %: a percentage where a fraction is meant?",
+        "Bounds on the factor of parameter 3, 55 to 150, exclude its first value.",
+        "Parameters without bounds: 1, 2, 4, 5, ",
+    ] {
+        assert!(all.contains(words), "{words} in {all}");
+    }
+    let last = case(4);
+    let said = last.findings(&last.test).unwrap().iter().map(Finding::to_string).collect::<Vec<_>>().join("\n");
+    assert!(said.starts_with("Test mode 5 and analysis mode 5 have a cross-orthogonality of 0.7"), "{said}");
+    assert!(said.ends_with("Parameters without bounds: 1 to 15."), "{said}");
+    for (change, words) in [
+        (Change::Exchanged([0, 4]), "sensors 1 and 5 exchanged"),
+        (Change::Reordered(vec![2, 0, 1]), "points in another order (3, 1, 2)"),
+        (Change::Columns(vec![1, 0]), "columns of T in another order (2, 1)"),
+        (Change::Transposed, "shapes transposed"),
+    ] {
+        assert_eq!(change.to_string(), words);
+    }
+}
