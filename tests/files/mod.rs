@@ -8,6 +8,7 @@ pub mod deck_mass_law;
 pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;
+pub mod readers_survive;
 
 pub mod nastran95_analysis;
 pub mod nastran95_bounds;

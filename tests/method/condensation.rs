@@ -7,6 +7,7 @@ use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, LARGEST_CONDENSATION_ERROR, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::studies::preflight::coarse_condensation;
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -89,6 +90,12 @@ fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
     assert!(errors[4].frequency > 0.03, "{errors:?}");
     let refused = errors.iter().filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR).count();
     assert!((1..=4).contains(&refused), "{errors:?}");
+    // The pre-flight says so, mode by mode, and says nothing where every joint is measured.
+    let findings = coarse_condensation(&bar(&[1.0; RODS], &FIVE), &ONES, 5).expect("findings");
+    assert_eq!(findings.len(), refused);
+    assert!(findings[0].to_string().starts_with("Condensation to the measured points raises mode "), "{}", findings[0]);
+    let all: Vec<usize> = (1..=RODS).collect();
+    assert_eq!(coarse_condensation(&bar(&[1.0; RODS], &all), &ONES, RODS).expect("findings"), []);
 }
 
 #[test]

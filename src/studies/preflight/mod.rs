@@ -25,7 +25,7 @@ pub use specimen::Specimen;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::model::{DynamicModel, Range};
+use crate::method::model::{CondensationError, DynamicModel, FiniteElementModel, LARGEST_CONDENSATION_ERROR, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
@@ -100,6 +100,24 @@ pub enum Finding {
     },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
+    /// Condensation to the measured points makes a mode of the model itself too stiff.
+    CoarseCondensation {
+        /// The mode of the condensed model.
+        mode: usize,
+        /// What condensation does to it.
+        error: CondensationError,
+    },
+}
+
+/// The lowest `count` modes that condensation to the measured points raises by more than
+/// [`LARGEST_CONDENSATION_ERROR`]: what a correlation would take for an error of the elements.
+///
+/// # Errors
+/// Those of [`FiniteElementModel::condensation_errors`].
+pub fn coarse_condensation(model: &FiniteElementModel, factors: &[f64], count: usize) -> Result<Vec<Finding>, Error> {
+    let errors = model.condensation_errors(factors, count)?.into_iter().enumerate();
+    let coarse = errors.filter(|(_, error)| error.frequency > LARGEST_CONDENSATION_ERROR);
+    Ok(coarse.map(|(mode, error)| Finding::CoarseCondensation { mode, error }).collect())
 }
 
 /// Looks at model and test before the first step.

@@ -1,6 +1,6 @@
 //! Structures before their correlation.
 
-use super::{Finding, preflight};
+use super::{Finding, coarse_condensation, preflight};
 use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::closed_forms::spring_chain::spring_stiffness;
@@ -27,6 +27,8 @@ pub struct Specimen {
     pub settings: Settings,
     /// Bounds on its parameters' factors.
     pub ranges: Vec<Option<Range>>,
+    /// What condensation to the measured points does to the modes that are compared.
+    pub condensation: Vec<Finding>,
     /// Whether the masses are made with the columns of $T$, and so take their order.
     pub mass_follows: bool,
 }
@@ -44,6 +46,8 @@ impl Specimen {
             test: case.test_modes()?.into(),
             ranges: model.factor_ranges()?,
             settings: case.settings.clone(),
+            // All mass is at the dynamic points, so that condensation is exact.
+            condensation: Vec::new(),
             mass_follows: false,
         })
     }
@@ -55,7 +59,9 @@ impl Specimen {
     pub fn delta_wing() -> Result<Self, CaseError> {
         let wing = DeltaWing::embedded()?;
         let model = correlation::first_model(&wing)?;
+        let highest = correlation::TEST_MODES.into_iter().max().unwrap_or(1);
         Ok(Self {
+            condensation: coarse_condensation(&model, &vec![1.0; model.parameters().len()], highest)?,
             name: "Delta wing".to_owned(),
             model: model.matrices(&vec![1.0; model.parameters().len()])?,
             test: correlation::test_modes(&wing)?,
@@ -84,6 +90,7 @@ impl Specimen {
             model: DynamicModel { stiffness: sum(&wrong), mass, shares: Vec::new() },
             settings: Settings::default(),
             ranges: vec![None; count],
+            condensation: Vec::new(),
             mass_follows: false,
         })
     }
@@ -93,6 +100,8 @@ impl Specimen {
     /// # Errors
     /// Those of [`preflight`].
     pub fn findings(&self, test: &ModeSet) -> Result<Vec<Finding>, Error> {
-        preflight(&self.model, test, &self.settings, &self.ranges)
+        let mut findings = self.condensation.clone();
+        findings.extend(preflight(&self.model, test, &self.settings, &self.ranges)?);
+        Ok(findings)
     }
 }

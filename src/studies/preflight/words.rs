@@ -30,6 +30,14 @@ impl Display for Change {
 impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> Result {
         match self {
+            Self::CoarseCondensation { mode, error } => write!(
+                f,
+                "Condensation to the measured points raises mode {} by {:.1} %, from {:.4} Hz: measure more points, or \
+                leave the mode out.",
+                mode + 1,
+                100.0 * error.frequency,
+                error.whole_hz
+            ),
             Self::CommonFactor(CommonFactor { median, named: Some(known), .. }) => {
                 let said = known.mistake;
                 write!(f, "Test frequencies are {median:.4} times the model's, near {}: {said}?", known.name)

@@ -1,0 +1,97 @@
+//! Whatever stands in a file, its reader answers with a model or with an error: it does not panic, and it does not hang.
+//!
+//! Valid files are damaged at random, one seed a call: characters changed, lost and doubled, lines cut and exchanged, numbers made
+//! extreme. `CORFEM_CALLS=100000 cargo test --release readers_survive` makes so many calls of every reader.
+
+use corfem::cases::published::PublishedTable;
+use corfem::cases::torque_box::Reconstruction;
+use corfem::files::deck::{modes, read_without};
+use corfem::files::nastran95::read_output5;
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::noisy_modes::split_mix_64;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.
+const BYTES: &[u8] = b" ,.+-*=0123456789eEdD$#\"'\t\r\n[]\0\xff\xefAG";
+const WORDS: [&[u8]; 8] = [b"1.+308", b"-1", b"99999999999999999999", b"NaN", b"THRU", b"GRID,1", b"1e-320", b"\n*"];
+
+struct Damage(u64);
+
+impl Damage {
+    fn below(&mut self, count: usize) -> usize {
+        (split_mix_64(&mut self.0) % count.max(1) as u64) as usize
+    }
+
+    /// One to four changes anywhere.
+    fn of(&mut self, valid: &[u8]) -> Vec<u8> {
+        let mut text = valid.to_vec();
+        for _ in 0..1 + self.below(4) {
+            let at = self.below(text.len() + 1);
+            let end = (at + 1 + self.below(12)).min(text.len());
+            match self.below(6) {
+                0 if at < text.len() => text[at] = BYTES[self.below(BYTES.len())],
+                1 => text.insert(at, BYTES[self.below(BYTES.len())]),
+                2 if at < end => drop(text.drain(at..end)),
+                3 => {
+                    let word = WORDS[self.below(WORDS.len())];
+                    text.splice(at..end.max(at), word.iter().copied());
+                }
+                4 => {
+                    let mut lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+                    let (a, b) = (self.below(lines.len()), self.below(lines.len()));
+                    if a < lines.len() && b < lines.len() {
+                        lines.swap(a, b);
+                    }
+                    text = lines.concat();
+                }
+                _ => text.truncate(at),
+            }
+        }
+        text
+    }
+}
+
+type Reader = (&'static str, &'static [u8], fn(&[u8]) -> bool);
+
+/// Each reader with a valid file, and whether an answer is no error.
+const READERS: &[Reader] = &[
+    ("deck", include_bytes!("../../golden/nastran95/decks/box_case_1_gvt.inp"), |text| {
+        read_without("deck", text, &[]).is_ok()
+    }),
+    ("modes of a small deck", b"GRID,1,,0.,0.,0.,,123456\nGRID,2,,10.,0.,0.,,23456\nCROD,1,1,1,2\nPROD,1,1,.01\nMAT1,1,1.+6,,.3\nCMASS2,8,.4,2,1\nSPC1,1,123,1\n", |text| {
+        read_without("deck", text, &[]).ok().is_some_and(|deck| modes(&deck.model).is_ok())
+    }),
+    ("OUTPUT5", include_bytes!("../../golden/nastran95/output5_rod.txt"), |text| {
+        read_output5(&String::from_utf8_lossy(text), 10_000).is_ok()
+    }),
+    ("torque box", include_bytes!("../../paper/reconstruction.toml"), |text| {
+        Reconstruction::parse("box", &String::from_utf8_lossy(text)).is_ok()
+    }),
+    ("delta wing", include_bytes!("../../paper/delta_wing.toml"), |text| {
+        let wing = DeltaWing::parse("wing", &String::from_utf8_lossy(text));
+        wing.ok().is_some_and(|wing| wing.structure().is_ok())
+    }),
+    ("published table", include_bytes!("../../paper/tables/table_10.csv"), |text| {
+        PublishedTable::parse(10, "table", &String::from_utf8_lossy(text)).is_ok()
+    }),
+];
+
+#[test]
+fn no_reader_panics_on_a_damaged_file() {
+    let calls: u64 = std::env::var("CORFEM_CALLS").ok().and_then(|calls| calls.parse().ok()).unwrap_or(500);
+    let mut faults = Vec::new();
+    for (name, valid, read) in READERS {
+        assert!(read(valid), "{name}: the file without damage reads");
+        let mut refused = 0;
+        for seed in 0..calls {
+            let text = Damage(seed).of(valid);
+            match catch_unwind(AssertUnwindSafe(|| read(&text))) {
+                Ok(true) => {}
+                Ok(false) => refused += 1,
+                Err(_) => faults.push(format!("{name}, seed {seed}")),
+            }
+        }
+        assert!(refused > calls / 20, "{name}: {refused} of {calls} were refused");
+    }
+    assert!(faults.is_empty(), "{faults:?}");
+}
