@@ -3,6 +3,7 @@
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
+use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::method::verdict::Verdict;
 use serde::Serialize;
@@ -99,6 +100,7 @@ pub fn correlate<E: From<Error>>(
     positive_setting("shape_tolerance", settings.shape_tolerance)?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
+    check_length("parameter factors", total_ranges.len(), model.shares.len())?;
     let (first, initial) = (model.clone(), model.exact.clone());
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();

@@ -61,7 +61,7 @@ fn a_zero_shape_has_no_assurance() {
     {
         match modal_assurance(one, other) {
             Err(Error::NotPositive { what, owner, value }) => {
-                assert_eq!((what, owner.as_str(), value), ("squared length", expected, 0.0));
+                assert_eq!((what, owner.as_str(), value), ("largest component", expected, 0.0));
             }
             other => panic!("{other:?}"),
         }

@@ -3,7 +3,7 @@
 use super::checked_generalized_masses;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, reduced, solve_lower_transposed, symmetric_eigen,
+    check_finite, check_shape, check_symmetric, cholesky, finite, reduced, solve_lower_transposed, symmetric_eigen,
     symmetric_part,
 };
 use crate::method::modes::ModeSet;
@@ -71,7 +71,7 @@ pub fn balance(
         (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - suspension[k])
     });
     Ok(Balanced {
-        shapes: &raw.shapes + motions * &amplitudes,
+        shapes: finite("balanced test mode shapes", &raw.shapes + motions * &amplitudes)?,
         change: (0..raw.len()).map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt()).collect(),
         coefficients: from_suspension * amplitudes,
     })

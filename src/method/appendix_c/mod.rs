@@ -81,7 +81,7 @@ impl<T> Settled<T> {
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] for bad input; those of [`solve`];
-/// [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+/// [`Error::LostRoot`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
 pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     let (stiffness, mass) = change.pencil()?;
     let modes = solve(&stiffness, &mass, change.len())?;
@@ -95,7 +95,8 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
         }
         shape /= own;
     }
-    Ok(Perturbed { roots: continued.omega_squared.map(f64::recip), shapes: continued.shapes })
+    let found = Perturbed { roots: continued.omega_squared.map(f64::recip), shapes: continued.shapes };
+    found.check_roots().map(|()| found)
 }
 
 /// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.

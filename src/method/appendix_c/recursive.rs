@@ -120,7 +120,7 @@ fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now
             };
         }
     }
-    Ok(())
+    check_finite("perturbed shapes", &now.shapes)
 }
 
 /// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.

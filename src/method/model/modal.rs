@@ -6,7 +6,7 @@
 
 use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
-use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_part};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes};
 use crate::method::step::REFERENCE_GAGE;
@@ -137,6 +137,8 @@ impl ModalModel {
         let all_hz = modes.frequencies_hz();
         let frequencies_hz = pairing.analysis_mode.iter().map(|&mode| all_hz[mode]).collect();
         let errors = errors(&modes, &pairing, &test);
+        // Frequencies so far apart that the square of their ratio is no number.
+        check_finite("error sum", &DMatrix::from_element(1, 1, errors.sum()))?;
         let exact = Check { modes, pairing, frequencies_hz, errors };
         let sizes = vec![REFERENCE_GAGE; through_both.len()];
         Ok(Self { exact, test, cross, shares, test_shares, sizes })
