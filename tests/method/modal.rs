@@ -244,3 +244,27 @@ fn the_scale_of_the_test_shapes_does_not_matter() {
         assert!((a.diagonal() - b.diagonal()).amax() <= MATRIX_ROUND_OFF);
     }
 }
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn no_scale_or_sign_of_a_test_shape_changes_pairing_errors_or_shares(
+        (chain, truth) in chain_and_truth(),
+        scales in prop::collection::vec(prop_oneof![-1e6..-1e-6_f64, 1e-6..1e6_f64], 5),
+    ) {
+        let model = chain.model(&vec![1.0; truth.len()]);
+        let test = ModeSet::from(chain.modes(&truth));
+        let mut scaled = test.clone();
+        scaled.shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale);
+        let (one, other) = (model.analyze(&test, None).unwrap(), model.analyze(&scaled, None).unwrap());
+        prop_assert_eq!(&one.exact.pairing.analysis_mode, &other.exact.pairing.analysis_mode);
+        prop_assert!((one.exact.errors.sum() - other.exact.errors.sum()).abs() <= MATRIX_ROUND_OFF);
+        for ((a, b), scale) in one.exact.pairing.sign.iter().zip(&other.exact.pairing.sign).zip(&scales) {
+            prop_assert_eq!(a * scale.signum(), *b);
+        }
+        for (a, b) in one.test_shares.iter().zip(&other.test_shares) {
+            prop_assert!((a.norm() / b.norm() - 1.0).abs() <= MATRIX_ROUND_OFF);
+        }
+    }
+}
