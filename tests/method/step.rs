@@ -254,6 +254,8 @@ fn changes_add_on_the_shares_or_multiply_with_the_gages() {
     // Steps of 0.45 less would leave nothing after the third.
     let down = (0..3).fold(1.0, |share, _| Accumulation::Sum.next_share_factor(share, 1.0, 0.55));
     assert_eq!(down, LEAST_SHARE);
+    // What is left of a share may not be less than that, even where it is more than nothing.
+    assert_eq!(Accumulation::Sum.next_share_factor(0.4504, 1.0, 0.55), LEAST_SHARE);
     assert_eq!(Accumulation::default(), Accumulation::Sum);
 }
 

@@ -132,6 +132,15 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
 }
 
 #[test]
+fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
+    // A hundred-millionth of the other's stiffness, and still no zero.
+    let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-8, 1.0]));
+    let found = counted_modes(&stiffness, &DMatrix::identity(2, 2)).expect("modes");
+    assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
+    assert!((found.vibrations.omega_squared[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
+}
+
+#[test]
 fn what_cannot_be_counted_is_refused() {
     let two = DMatrix::identity(2, 2);
     assert!(matches!(counted_modes(&two, &DMatrix::zeros(2, 2)), Err(Error::Empty { .. })));
