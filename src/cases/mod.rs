@@ -105,6 +105,12 @@ impl Case {
         })
     }
 
+    /// The case's settings with another reading of the step.
+    pub fn settings_by(&self, step: StepRule) -> Settings {
+        let inner = InnerSettings { step, ..self.settings.inner.clone() };
+        Settings { inner, ..self.settings.clone() }
+    }
+
     /// The model of this case with other gages than its first, in inches, elements 1 to 15.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use crate::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
 use crate::cases::{Case, CaseResult, anomaly, published_passes, run_case};
-use crate::method::outer_loop::Settings;
+use crate::method::outer_loop::{Pass, Settings};
 use crate::method::step::StepRule;
 use crate::method::structure::ElementKind;
 use serde::Serialize;
@@ -92,8 +92,7 @@ impl ReadingColumn {
 /// Those of [`run_case`].
 pub fn run_by_reading(case: &Case, reading: StepRule) -> Result<CaseResult, CaseError> {
     let passes = published_passes(case.number);
-    let mut settings = Settings { least_passes: passes, most_passes: passes, ..case.settings.clone() };
-    settings.inner.step = reading;
+    let settings = Settings { least_passes: passes, most_passes: passes, ..case.settings_by(reading) };
     run_case(&Case { settings, ..case.clone() }, |_, _| {})
 }
 
@@ -108,7 +107,7 @@ pub fn columns_of(result: &CaseResult) -> Result<Vec<ReadingColumn>, CaseError> 
         _ => return Ok(Vec::new()),
     };
     let passes = result.correlation.passes.iter().zip(&result.pass_gages).take(published_passes(case.number));
-    let column = |(row, (pass, gages)): (usize, (&crate::method::outer_loop::Pass, &Vec<f64>))| {
+    let column = |(row, (pass, gages)): (usize, (&Pass, &Vec<f64>))| {
         let rms = [pass.check.errors.frequency_rms(), pass.check.errors.shape_rms()];
         ReadingColumn::new(case, (table, format!("pass_{}", row + 1)), gages, pass.inner.iterations.len(), rms)
     };
@@ -161,7 +160,7 @@ pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>
             columns.extend(columns_of(&result)?);
         }
         let mut case = Case::on(PUBLISHED_CASE, reconstruction.clone())?;
-        case.settings.inner.step = reading;
+        case.settings = case.settings_by(reading);
         for run in published_runs(&case)? {
             let table = (10..).zip([7, 5, 3]).find(|(_, test_modes)| *test_modes == run.test_modes);
             let table = table.map_or(0, |(table, _)| table);

@@ -68,6 +68,17 @@ pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usi
     Ok(stiffness)
 }
 
+/// The lumped mass of elements of the given sizes at every free DOF, lbf·s²/in.
+pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> DVector<f64> {
+    let mut lumped = DVector::zeros(dof_count);
+    for (element, size) in elements.iter().zip(sizes) {
+        for (&row, unit) in element.dof.iter().zip(&element.unit_mass) {
+            lumped[row] += size * unit;
+        }
+    }
+    lumped
+}
+
 /// Row, column and value of every entry of every $s_e K_e$.
 fn entries(elements: &[ElementMatrix], sizes: &[f64]) -> impl Iterator<Item = (usize, usize, f64)> {
     elements.iter().zip(sizes).flat_map(|(ElementMatrix { dof, unit, .. }, size)| {

@@ -1,7 +1,7 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 
 use crate::method::error::{Error, positive_setting};
-use crate::method::error_sum::Errors;
+use crate::method::error_sum::{Errors, mode_errors};
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
@@ -101,7 +101,8 @@ pub fn correlate<E: From<Error>>(
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
     check_length("parameter factors", total_ranges.len(), model.shares.len())?;
-    let (first, initial) = (model.clone(), model.exact.clone());
+    let (test, initial) = (model.test.clone(), model.exact.clone());
+    let seen: Vec<f64> = model.test_shares.iter().map(|share| share.diagonal().amax()).collect();
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&initial.errors, settings);
@@ -135,7 +136,8 @@ pub fn correlate<E: From<Error>>(
     let ones = vec![1.0; total_ranges.len()];
     let factors = if best == 0 { &ones } else { &passes[best - 1].factors };
     let converged = meets(&check.errors, settings);
-    let verdict = Verdict::new(&first, &passes, check, factors, total_ranges, converged);
+    let errors = mode_errors(&check.modes, &check.pairing, &test);
+    let verdict = Verdict::new(&passes, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
     let parameter_count = total_ranges.len();
     Ok(Correlation { parameter_count, initial, passes, best: best.checked_sub(1), converged, verdict })
 }

@@ -1,8 +1,8 @@
 //! What a correlation came to, as data and in words.
 
-use crate::method::error_sum::{Errors, ModeError, mode_errors};
+use crate::method::error_sum::ModeError;
 use crate::method::inner_loop::Stop;
-use crate::method::model::{Check, ModalModel, Range};
+use crate::method::model::Range;
 use crate::method::outer_loop::Pass;
 use serde::Serialize;
 use std::fmt;
@@ -47,12 +47,14 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The verdict on a correlation that began with `first`, made `passes`, and is best at `check` and `factors`.
+    /// The verdict on a correlation that made `passes` and is best at `factors`, where the test modes have the error sum and
+    /// `errors`; `seen` is
+    /// the largest part of a test mode that each parameter had at first.
     pub(crate) fn new(
-        first: &ModalModel,
         passes: &[Pass],
-        check: &Check,
+        (error_sum, errors): (f64, &[ModeError]),
         factors: &[f64],
+        seen: &[f64],
         ranges: &[Option<Range>],
         is_within: bool,
     ) -> Self {
@@ -63,18 +65,17 @@ impl Verdict {
             _ if is_within => Outcome::Tolerance,
             _ => Outcome::Cap,
         };
-        let errors = mode_errors(&check.modes, &check.pairing, &first.test);
         let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
         let worst_mode = (0..errors.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
         let at_end = |e: &usize| {
             let near = |end: f64| (factors[*e] / end - 1.0).abs() < AT_BOUND;
             ranges[*e].is_some_and(|range| near(range.lower) || near(range.upper))
         };
-        let is_unseen = |e: &usize| factors[*e] * first.test_shares[*e].diagonal().amax() < UNSEEN_SHARE;
+        let is_unseen = |e: &usize| factors[*e] * seen[*e] < UNSEEN_SHARE;
         Self {
             outcome,
             is_within,
-            error_sum: Errors::sum(&check.errors),
+            error_sum,
             worst_mode,
             worst: errors.get(worst_mode).copied().unwrap_or_default(),
             at_bound: (0..factors.len()).filter(at_end).collect(),

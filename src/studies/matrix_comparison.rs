@@ -104,8 +104,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let test = all.lowest(test_modes)?;
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
-    let mut settings = case.settings.clone();
-    settings.inner.step = StepRule::default();
+    let settings = case.settings_by(StepRule::default());
     let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &settings, |_, _| {})?;
     let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
 

@@ -136,8 +136,7 @@ pub fn noisy_modes(case: &Case, noise: Noise, seeds: RangeInclusive<u64>) -> Res
 
 fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &ModeSet) -> Result<Found, CaseError> {
     let ranges = model.factor_ranges()?;
-    let mut settings = case.settings.clone();
-    settings.inner.step = StepRule::default();
+    let settings = case.settings_by(StepRule::default());
     let correlation = correlate(|factors| model.analyze(factors, test, None), &ranges, &settings, |_, _| {})?;
     let factors = correlation.best_factors();
     let gages = model.sizes(&factors)?[..PANEL_COUNT].to_vec();

@@ -1,6 +1,6 @@
 //! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
 
-use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
+use crate::method::assembly::{ElementMatrix, FactorizedStiffness, lumped_mass};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -41,17 +41,6 @@ impl MassDof {
             mass: lumped.select_rows(&rows),
         })
     }
-}
-
-/// The lumped mass of elements of the given sizes at every free DOF, lbf·s²/in.
-pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> DVector<f64> {
-    let mut lumped = DVector::zeros(dof_count);
-    for (element, size) in elements.iter().zip(sizes) {
-        for (&row, unit) in element.dof.iter().zip(&element.unit_mass) {
-            lumped[row] += size * unit;
-        }
-    }
-    lumped
 }
 
 /// Modes at the DOF that have mass.

@@ -7,9 +7,11 @@ pub mod complex_pencils;
 pub mod counting_allocator;
 pub mod decks;
 pub mod drawings;
+pub mod draws;
 #[cfg(unix)]
 pub mod fake_solver;
 pub mod golden;
+pub mod hostile;
 pub mod loops;
 pub mod matrices;
 pub mod measured;

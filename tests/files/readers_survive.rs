@@ -3,27 +3,21 @@
 //! Valid files are damaged at random, one seed a call: characters changed, lost and doubled, lines cut and exchanged, numbers made
 //! extreme. `CORFEM_CALLS=100000 cargo test --release readers_survive` makes so many calls of every reader.
 
+use crate::common::draws::Draws;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::files::deck::{modes, read_without};
 use corfem::files::nastran95::read_output5;
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::noisy_modes::split_mix_64;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.
 const BYTES: &[u8] = b" ,.+-*=0123456789eEdD$#\"'\t\r\n[]\0\xff\xefAG";
 const WORDS: [&[u8]; 8] = [b"1.+308", b"-1", b"99999999999999999999", b"NaN", b"THRU", b"GRID,1", b"1e-320", b"\n*"];
 
-struct Damage(u64);
-
-impl Damage {
-    fn below(&mut self, count: usize) -> usize {
-        (split_mix_64(&mut self.0) % count.max(1) as u64) as usize
-    }
-
+impl Draws {
     /// One to four changes anywhere.
-    fn of(&mut self, valid: &[u8]) -> Vec<u8> {
+    fn damaged(&mut self, valid: &[u8]) -> Vec<u8> {
         let mut text = valid.to_vec();
         for _ in 0..1 + self.below(4) {
             let at = self.below(text.len() + 1);
@@ -84,7 +78,7 @@ fn no_reader_panics_on_a_damaged_file() {
         assert!(read(valid), "{name}: the file without damage reads");
         let mut refused = 0;
         for seed in 0..calls {
-            let text = Damage(seed).of(valid);
+            let text = Draws(seed).damaged(valid);
             match catch_unwind(AssertUnwindSafe(|| read(&text))) {
                 Ok(true) => {}
                 Ok(false) => refused += 1,

@@ -59,6 +59,7 @@ pub mod strategies_of_vibrations;
 pub mod appendix_c_inner_loop;
 
 pub mod derivatives;
+pub mod gradient;
 
 pub mod step;
 pub mod step_matrix;

@@ -1,28 +1,16 @@
 //! Free structures and massless degrees of freedom: every mode found once, and counted another way.
 
+use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use corfem::method::assembly::{dense_stiffness, element_matrices};
+use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::free_modes::{count_below, counted_modes};
-use corfem::studies::noisy_modes::split_mix_64;
-use corfem::studies::whole_modes::lumped_mass;
 use nalgebra::{DMatrix, DVector};
 
-/// Uniform draws between zero and one from a seed.
-struct Draws(u64);
-
 impl Draws {
-    fn unit(&mut self) -> f64 {
-        (split_mix_64(&mut self.0) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.unit() * count as f64) as usize
-    }
-
     /// A well-conditioned square matrix: a rotation times factors from a half to two.
     fn basis(&mut self, size: usize) -> DMatrix<f64> {
         let random = DMatrix::from_fn(size, size, |_, _| 2.0 * self.unit() - 1.0);

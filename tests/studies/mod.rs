@@ -13,4 +13,5 @@ pub mod free_modes;
 pub mod noisy_modes;
 
 pub mod preflight;
+pub mod preflight_modes;
 pub mod preflight_rates;

@@ -2,12 +2,12 @@
 
 use super::modes::check_memory;
 use crate::files::error::FileError;
-use crate::method::assembly::ElementMatrix;
+use crate::method::assembly::{ElementMatrix, lumped_mass};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
-use crate::studies::whole_modes::{MassDof, lumped_mass};
+use crate::studies::whole_modes::MassDof;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 

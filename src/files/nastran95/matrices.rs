@@ -3,11 +3,10 @@
 use super::Matrices;
 use crate::files::deck::BulkData;
 use crate::files::error::FileError;
-use crate::method::assembly::dense_stiffness;
+use crate::method::assembly::{dense_stiffness, lumped_mass};
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{Element, Grid, Structure};
-use crate::studies::whole_modes::lumped_mass;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 

@@ -1,13 +1,13 @@
 //! What condensation to the dynamic DOF costs: the condensed modes beside those of the whole structure.
 
 use super::{CondensedModel, FiniteElementModel};
-use crate::method::appendix_b::{MovementLimits, orthogonalize};
-use crate::method::assembly::FactorizedStiffness;
+use crate::method::appendix_b::{Movement, MovementLimits, orthogonalize};
+use crate::method::assembly::{FactorizedStiffness, lumped_mass};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::{ModeSet, check_count, solve};
-use crate::method::pairing::{modal_assurance, pair_modes, paired};
-use nalgebra::{DMatrix, DVector};
+use crate::method::pairing::{modal_assurance, pair_modes};
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 /// Largest part by which condensation may raise a frequency that is compared: twice the loop's own tolerance on frequencies.
@@ -42,10 +42,7 @@ impl FiniteElementModel {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let free = self.structure.free_dof();
         let stiffness = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
-        let mut lumped = DVector::<f64>::zeros(free.len());
-        for (element, size) in self.element_matrices.iter().zip(&mass_sizes) {
-            element.dof.iter().zip(&element.unit_mass).for_each(|(&row, unit)| lumped[row] += size * unit);
-        }
+        let lumped = lumped_mass(&self.element_matrices, &mass_sizes, free.len());
         let (values, vectors) = symmetric_eigen("point masses", &self.point_masses(factors)?)?;
         let root = vectors * DMatrix::from_diagonal(&values.map(|value| value.max(0.0).sqrt()));
         let heavy: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
@@ -79,16 +76,13 @@ impl FiniteElementModel {
         let condensed = solve(&stiffness, &mass, count)?;
         let whole = self.whole_modes(factors, count)?;
         let assurance = modal_assurance(&whole.shapes, &condensed.shapes)?;
-        let whole = paired(&whole, &pair_modes(&assurance)?);
-        let assurance = modal_assurance(&whole.shapes, &condensed.shapes)?;
-        let hz = condensed.frequencies_hz().into_iter().zip(whole.frequencies_hz()).enumerate();
-        Ok(hz
-            .map(|(mode, (condensed_hz, whole_hz))| CondensationError {
-                whole_hz,
-                frequency: condensed_hz / whole_hz - 1.0,
-                shape: 1.0 - assurance[(mode, mode)],
-            })
-            .collect())
+        let (whole_hz, partners) = (whole.frequencies_hz(), pair_modes(&assurance)?.analysis_mode);
+        let error = |(mode, condensed_hz): (usize, f64)| CondensationError {
+            whole_hz: whole_hz[partners[mode]],
+            frequency: condensed_hz / whole_hz[partners[mode]] - 1.0,
+            shape: 1.0 - assurance[(partners[mode], mode)],
+        };
+        Ok(condensed.frequencies_hz().into_iter().enumerate().map(error).collect())
     }
 
     /// Limits of [`crate::method::appendix_b::examine`] that do not blame the test for condensation: raised by what
@@ -103,7 +97,7 @@ impl FiniteElementModel {
         limits: &MovementLimits,
     ) -> Result<MovementLimits, Error> {
         let moved = orthogonalize(&self.whole_modes(factors, count)?, &self.condense(factors)?.mass)?.movement;
-        let most = |of: fn(&crate::method::appendix_b::Movement) -> f64| moved.iter().map(of).fold(0.0, f64::max);
+        let most = |of: fn(&Movement) -> f64| moved.iter().map(of).fold(0.0, f64::max);
         let (frequency, shape) = (most(|moved| moved.frequency.abs()), most(|moved| moved.shape));
         Ok(MovementLimits { frequency: limits.frequency + frequency, shape: limits.shape + shape, ..*limits })
     }
