@@ -3,6 +3,7 @@
 pub mod deck;
 pub mod error;
 pub mod nastran95;
+pub mod test_data;
 
 /// A text with control characters shown as Rust writes them, but for line ends and tabs: a terminal would obey them.
 pub fn escaped(text: &str) -> String {

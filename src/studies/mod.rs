@@ -7,3 +7,4 @@ pub mod matrix_correction;
 pub mod noisy_modes;
 pub mod preflight;
 pub mod whole_modes;
+pub mod whole_model;
