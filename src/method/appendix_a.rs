@@ -2,7 +2,7 @@
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{cholesky, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{check_shape, cholesky, solve_lower, symmetric_part};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -30,11 +30,18 @@ pub struct Condensed {
 ///
 /// Source: the paper's (1), (2), (A.5), (A.7), (A.8), of which the last two print $T^t$ for $T$ (`paper/errata.md`).
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
-    let t = load_distribution;
+    condense_deflections(load_distribution, structural.solve(load_distribution)?)
+}
+
+/// The same from the deflections $K_S^{-1} T$, whatever solved for them.
+///
+/// # Errors
+/// Those of [`condense`].
+pub fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
+    check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
     if t.ncols() == 0 {
         return Err(Error::Empty { what: "dynamic degrees of freedom" });
     }
-    let deflections = structural.solve(t)?;
     let flexibility = symmetric_part(&t.tr_mul(&deflections));
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;

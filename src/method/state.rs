@@ -7,7 +7,7 @@ use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
-use crate::method::pairing::{Pairing, pair_modes};
+use crate::method::pairing::Pairing;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -94,7 +94,7 @@ impl ModalState {
         perturbed.check_roots()?;
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
-        let pairing = pair_modes(&shapes.tr_mul(&model.cross))?;
+        let pairing = (model.pair)(&shapes.tr_mul(&model.cross))?;
         let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &exact.shapes * &shapes };
         let errors = errors(&modes, &pairing, &model.test);
         Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })

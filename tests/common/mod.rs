@@ -26,6 +26,7 @@ pub mod structures;
 pub mod tolerances;
 pub mod torque_boxes;
 pub mod vibrations;
+pub mod whole_models;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

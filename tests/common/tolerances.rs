@@ -200,3 +200,10 @@ pub const MOST_LOW_PAIRS: usize = 10;
 pub const DEPENDENT_SHAPES: f64 = 1e-5;
 /// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
 pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
+/// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
+pub const WHOLE_SHAPE: f64 = 1e-6;
+/// Stories of an exact building that five of ten floors recover without condensation, where the loop stops at an error sum of a
+/// tenth of a percent.
+pub const RECOVERED_STORY: f64 = 0.01;
+/// Two routes to one condensed analysis of the box, relative: its condition number times round-off.
+pub const SAME_ANALYSIS: f64 = 1e-8;

@@ -15,3 +15,5 @@ pub mod noisy_modes;
 pub mod preflight;
 pub mod preflight_modes;
 pub mod preflight_rates;
+
+pub mod whole_model;

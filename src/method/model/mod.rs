@@ -7,7 +7,7 @@ mod parameters;
 
 pub use analysis::CondensedModel;
 pub use condensation::{CondensationError, LARGEST_CONDENSATION_ERROR};
-pub use modal::{Check, DynamicModel, ModalModel, Share};
+pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
 pub use parameters::{Parameter, Range, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};

@@ -8,7 +8,7 @@ use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes};
+use crate::method::pairing::{Pairing, cosines, cross_orthogonality, pair_modes};
 use crate::method::step::REFERENCE_GAGE;
 use nalgebra::DMatrix;
 
@@ -80,6 +80,9 @@ pub struct Check {
     pub errors: Errors,
 }
 
+/// How test modes are paired with analysis modes by their closeness (n × g), such as [`pair_modes`].
+pub type Pair = fn(&DMatrix<f64>) -> Result<Pairing, Error>;
+
 /// A model seen through its exact modes, beside the test modes.
 #[derive(Debug, Clone)]
 pub struct ModalModel {
@@ -87,8 +90,10 @@ pub struct ModalModel {
     pub exact: Check,
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub test: ModeSet,
-    /// Cross-orthogonality of the exact modes with the test modes (4), n × g.
+    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
     pub cross: DMatrix<f64>,
+    /// The rule that pairs them.
+    pub pair: Pair,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
     pub shares: Vec<Share>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
@@ -117,30 +122,71 @@ impl ModalModel {
         let modes = solve(stiffness, mass, analysis_modes.unwrap_or(stiffness.nrows()))?;
         let test = test.scaled_with(mass)?;
         let cross = cross_orthogonality(&modes, &test, mass)?;
-        let pairing = pair_modes(&cross)?;
         // Both sets of shapes go through an element at once; the two diagonal blocks of the result are what is wanted.
         let (count, test_count) = (modes.len(), test.len());
         let mut both = modes.shapes.clone().resize_horizontally(count + test_count, 0.0);
         both.columns_mut(count, test_count).copy_from(&test.shapes);
         let through_both = shares(&both);
-        if through_both.is_empty() {
+        let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
+        let of_test = |share: &Share| share.map(|matrix| block(matrix, count, test_count));
+        let test_shares = through_both.iter().map(of_test).collect();
+        let shares = through_both.iter().map(|share| share.map(|matrix| block(matrix, 0, count))).collect();
+        Self::compared(modes, test, cross, pair_modes, |_| (shares, test_shares))
+    }
+
+    /// The same of exact modes that some sensors see (d × n), without a mass there.
+    ///
+    /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
+    /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
+    /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
+    ///
+    /// # Errors
+    /// Those of [`cosines`] and of `pair`; [`Error::Empty`] without parameters.
+    pub fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
+        let cross = cosines(&modes.shapes, &test.shapes)?;
+        let pairing = pair(&cross)?;
+        let mut scaled = test.clone();
+        for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
+            let partner = modes.shapes.column(pairing.analysis_mode[j]);
+            shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
+        }
+        Self::compared(modes, scaled, cross, pair, |Pairing { analysis_mode, sign }| {
+            let of_pairs = |matrix: &DMatrix<f64>| {
+                let entry = |j: usize, k: usize| sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
+                DMatrix::from_fn(sign.len(), sign.len(), entry)
+            };
+            let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
+            (shares, test_shares)
+        })
+    }
+
+    /// The modal model of compared modes: their pairs, their distance, and the shares, which `shares` gives in the exact modes and
+    /// on the test shapes for a pairing.
+    fn compared(
+        modes: Modes,
+        test: ModeSet,
+        cross: DMatrix<f64>,
+        pair: Pair,
+        shares: impl FnOnce(&Pairing) -> (Vec<Share>, Vec<Share>),
+    ) -> Result<Self, Error> {
+        let pairing = pair(&cross)?;
+        let (shares, on_test) = shares(&pairing);
+        if shares.is_empty() {
             return Err(Error::Empty { what: "parameters" });
         }
         let omega = test.omega_squared.map(f64::sqrt);
-        let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
-        let shares = through_both.iter().map(|share| share.map(|matrix| block(matrix, 0, count))).collect();
-        let on_test = |share: &Share| match share {
-            Share::Stiffness(matrix) => block(matrix, count, test_count).component_div(&(&omega * omega.transpose())),
-            Share::Mass(matrix) => block(matrix, count, test_count),
+        let relative = |share: Share| match share {
+            Share::Stiffness(matrix) => matrix.component_div(&(&omega * omega.transpose())),
+            Share::Mass(matrix) => matrix,
         };
-        let test_shares = through_both.iter().map(on_test).collect();
+        let test_shares = on_test.into_iter().map(relative).collect();
         let all_hz = modes.frequencies_hz();
         let frequencies_hz = pairing.analysis_mode.iter().map(|&mode| all_hz[mode]).collect();
         let errors = errors(&modes, &pairing, &test);
         // Frequencies so far apart that the square of their ratio is no number.
         check_finite("error sum", &DMatrix::from_element(1, 1, errors.sum()))?;
         let exact = Check { modes, pairing, frequencies_hz, errors };
-        let sizes = vec![REFERENCE_GAGE; through_both.len()];
-        Ok(Self { exact, test, cross, shares, test_shares, sizes })
+        let sizes = vec![REFERENCE_GAGE; shares.len()];
+        Ok(Self { exact, test, cross, pair, shares, test_shares, sizes })
     }
 }

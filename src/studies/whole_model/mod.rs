@@ -1,5 +1,11 @@
 //! A whole model without condensation: sparse matrices at every degree of freedom, and modes read at the sensors.
 
+mod analysis;
+mod factor;
+mod modes;
 mod sparse;
 
+pub use analysis::{WholeModel, WholeParameter, WholeShare};
+pub use factor::Factor;
+pub use modes::{MOST_DENSE_ROWS, lowest_modes};
 pub use sparse::SparseMatrix;

@@ -1,7 +1,12 @@
 //! A real matrix by its nonzero entries.
 
 use crate::method::error::Error;
-use nalgebra::DMatrix;
+use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
+use nalgebra::{DMatrix, DVector};
+
+/// Largest difference between two entries that should be equal, relative to the largest of the matrix: what a file's twelve
+/// digits leave.
+const SYMMETRY: f64 = 1e-11;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
@@ -71,7 +76,7 @@ impl SparseMatrix {
     /// # Errors
     /// [`Error::WrongShape`] when they do not fit.
     pub fn times(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        crate::method::linear_algebra::check_shape("right factor", right, self.columns, right.ncols())?;
+        check_shape("right factor", right, self.columns, right.ncols())?;
         let mut product = DMatrix::zeros(self.rows, right.ncols());
         for (mut product, right) in product.column_iter_mut().zip(right.column_iter()) {
             for &(row, column, value) in &self.entries {
@@ -79,5 +84,69 @@ impl SparseMatrix {
             }
         }
         Ok(product)
+    }
+
+    /// The sum of matrices of one size, each times its number.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without terms; [`Error::WrongShape`] for terms of other sizes; [`Error::NotFinite`].
+    pub fn sum(what: &'static str, terms: &[(f64, &Self)]) -> Result<Self, Error> {
+        let &[(_, first), ..] = terms else { return Err(Error::Empty { what }) };
+        let mut entries = Vec::new();
+        for (factor, term) in terms {
+            check_length(what, term.rows, first.rows)?;
+            check_length(what, term.columns, first.columns)?;
+            entries.extend(term.entries.iter().map(|&(row, column, value)| (row, column, factor * value)));
+        }
+        Self::new(what, first.rows, first.columns, entries)
+    }
+
+    /// $V^t A V$ of a symmetric matrix for the transposed shapes $V^t$ (m × rows), m × m: only the rows of $V$ where the matrix has
+    /// entries are looked at.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] when they do not fit.
+    pub fn through(&self, transposed_shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        let modes = transposed_shapes.nrows();
+        check_shape("transposed shapes", transposed_shapes, modes, self.rows)?;
+        check_shape("transposed shapes", transposed_shapes, modes, self.columns)?;
+        let (mut sum, mut forces) = (DMatrix::zeros(modes, modes), DVector::zeros(modes));
+        for column in self.entries.chunk_by(|a, b| a.1 == b.1) {
+            forces.fill(0.0);
+            column.iter().for_each(|&(row, _, value)| forces.axpy(value, &transposed_shapes.column(row), 1.0));
+            sum.ger(1.0, &forces, &transposed_shapes.column(column[0].1), 1.0);
+        }
+        Ok(symmetric_part(&sum))
+    }
+
+    /// Refuses a matrix that is not square and symmetric to within round-off of its largest entry.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
+    pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
+        check_length(what, self.columns, self.rows)?;
+        let mirrored = self.entries.iter().map(|&(row, column, value)| (column, row, -value));
+        let difference =
+            Self::new(what, self.rows, self.columns, self.entries.iter().copied().chain(mirrored).collect())?;
+        let largest = self.entries.iter().fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
+        let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > SYMMETRY * largest;
+        match difference.entries.iter().find(is_apart) {
+            Some(&(row, column, difference)) => {
+                Err(Error::NotSymmetric { what, row, column, difference: difference.abs() / largest })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The sum of the diagonal.
+    pub fn trace(&self) -> f64 {
+        self.entries.iter().filter(|entry| entry.0 == entry.1).map(|entry| entry.2).sum()
+    }
+
+    /// The same as a dense matrix.
+    pub fn dense(&self) -> DMatrix<f64> {
+        let mut dense = DMatrix::zeros(self.rows, self.columns);
+        self.entries.iter().for_each(|&(row, column, value)| dense[(row, column)] = value);
+        dense
     }
 }

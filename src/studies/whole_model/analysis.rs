@@ -1,0 +1,183 @@
+//! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
+
+use super::{Factor, SparseMatrix, lowest_modes};
+use crate::method::appendix_a::{Condensed, condense_deflections};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_length, symmetric_part};
+use crate::method::model::{ModalModel, Pair, Range, Share};
+use crate::method::modes::{ModeSet, Modes, apply_sign_rule};
+use crate::method::structure::positive;
+use crate::studies::free_modes::CountedModes;
+use nalgebra::DMatrix;
+
+/// What one parameter holds of the whole model's matrices.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WholeShare {
+    /// Of the stiffness, lbf/in.
+    Stiffness(SparseMatrix),
+    /// Of the mass, lbf·s²/in.
+    Mass(SparseMatrix),
+}
+
+/// What may change: a part of the stiffness or mass that is scaled by one factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeParameter {
+    /// What it is called in reports.
+    pub name: String,
+    /// Its part of the first matrices.
+    pub share: WholeShare,
+    /// Bounds on its factor, if any.
+    pub range: Option<Range>,
+}
+
+/// A structure at all its degrees of freedom.
+///
+/// $$ K = K_1 + \sum_e (c_e - 1) K_e, \qquad M = M_1 + \sum_e (c_e - 1) M_e $$
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeModel {
+    stiffness: SparseMatrix,
+    mass: SparseMatrix,
+    parameters: Vec<WholeParameter>,
+}
+
+impl WholeModel {
+    /// A model of symmetric matrices of one size: the first stiffness $K_1$ and mass $M_1$, which may be singular, and the
+    /// parameters' parts of them.
+    ///
+    /// # Errors
+    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::Empty`] without
+    /// parameters; [`Error::StartOutside`] for a range that excludes one.
+    pub fn new(stiffness: SparseMatrix, mass: SparseMatrix, parameters: Vec<WholeParameter>) -> Result<Self, Error> {
+        let count = stiffness.rows();
+        let check = |what, matrix: &SparseMatrix| {
+            check_length(what, matrix.rows(), count)?;
+            matrix.check_symmetric(what)
+        };
+        check("stiffness", &stiffness)?;
+        check("mass", &mass)?;
+        if parameters.is_empty() {
+            return Err(Error::Empty { what: "parameters" });
+        }
+        for WholeParameter { name, share, range } in &parameters {
+            match share {
+                WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
+                WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
+            }
+            if let Some(Range { lower, upper }) = *range {
+                let what = format!("factor of parameter {name}");
+                if !Range::positive(&what, lower, upper)?.contains(1.0) {
+                    return Err(Error::StartOutside { what, lower, upper });
+                }
+            }
+        }
+        Ok(Self { stiffness, mass, parameters })
+    }
+
+    /// Number of degrees of freedom.
+    pub fn dof_count(&self) -> usize {
+        self.stiffness.rows()
+    }
+
+    /// What may change.
+    pub fn parameters(&self) -> &[WholeParameter] {
+        &self.parameters
+    }
+
+    /// The bounds on every parameter's factor.
+    pub fn ranges(&self) -> Vec<Option<Range>> {
+        self.parameters.iter().map(|parameter| parameter.range).collect()
+    }
+
+    /// Stiffness and mass at the given parameter factors.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
+    pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
+        check_length("parameter factors", factors.len(), self.parameters.len())?;
+        let (mut stiffness, mut mass) = (vec![(1.0, &self.stiffness)], vec![(1.0, &self.mass)]);
+        for (parameter, &factor) in self.parameters.iter().zip(factors) {
+            positive("factor", || format!("parameter {}", parameter.name), factor)?;
+            match &parameter.share {
+                _ if factor == 1.0 => {}
+                WholeShare::Stiffness(matrix) => stiffness.push((factor - 1.0, matrix)),
+                WholeShare::Mass(matrix) => mass.push((factor - 1.0, matrix)),
+            }
+        }
+        Ok((SparseMatrix::sum("stiffness", &stiffness)?, SparseMatrix::sum("mass", &mass)?))
+    }
+
+    /// The `count` lowest vibrations at the given factors, and the rigid-body modes.
+    ///
+    /// # Errors
+    /// Those of [`Self::at`] and [`lowest_modes`].
+    pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
+        let (stiffness, mass) = self.at(factors)?;
+        lowest_modes(&stiffness, &mass, count)
+    }
+
+    /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
+    /// every parameter's share $V^t K_e V$ with the whole shapes. Rigid-body modes of a free structure stay out.
+    ///
+    /// `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
+    ///
+    /// # Errors
+    /// Those of [`Self::modes`] and [`ModalModel::at_sensors`].
+    pub fn analyze(
+        &self,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        (test, pair): (&ModeSet, Pair),
+        count: usize,
+    ) -> Result<ModalModel, Error> {
+        let ModeSet { omega_squared, mut shapes } = self.modes(factors, count)?.vibrations;
+        let seen = sensors.times(&shapes)?;
+        let mut signed = seen.clone();
+        apply_sign_rule(&mut signed);
+        for ((mut shape, seen), signed) in shapes.column_iter_mut().zip(seen.column_iter()).zip(signed.column_iter()) {
+            if seen != signed {
+                shape.neg_mut();
+            }
+        }
+        ModalModel::at_sensors(Modes::ascending(omega_squared, signed), test, pair, self.shares(factors, &shapes)?)
+    }
+
+    /// The paper's way to the same: stiffness and mass condensed to the sensors (Appendix A), with the same $B^t$ for both.
+    ///
+    /// # Errors
+    /// Those of [`Self::at`], [`condense_deflections`] and [`ModalModel::new`]; [`Error::NotPositiveDefinite`] for a structure that
+    /// is not held.
+    pub fn analyze_condensed(
+        &self,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        test: &ModeSet,
+        count: Option<usize>,
+    ) -> Result<ModalModel, Error> {
+        let (stiffness, mass) = self.at(factors)?;
+        let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;
+        let distribution = sensors.dense().transpose();
+        let Condensed { stiffness, transformation } =
+            condense_deflections(&distribution, factor.solve(&distribution)?)?;
+        let mass = symmetric_part(&mass.through(&transformation.transpose())?);
+        let mut failed = None;
+        let model = ModalModel::new(&stiffness, &mass, test, count, |shapes| {
+            self.shares(factors, &(&transformation * shapes)).unwrap_or_else(|error| {
+                failed = Some(error);
+                Vec::new()
+            })
+        });
+        failed.map_or(model, Err)
+    }
+
+    /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.
+    fn shares(&self, factors: &[f64], shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+        let transposed = shapes.transpose();
+        let share = |(parameter, &factor): (&WholeParameter, &f64)| {
+            Ok(match &parameter.share {
+                WholeShare::Stiffness(matrix) => Share::Stiffness(factor * matrix.through(&transposed)?),
+                WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&transposed)?),
+            })
+        };
+        self.parameters.iter().zip(factors).map(share).collect()
+    }
+}

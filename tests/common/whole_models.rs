@@ -1,0 +1,38 @@
+//! Whole models of springs and masses as sparse matrices.
+
+use corfem::method::model::Range;
+use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+
+/// The stiffness of springs between degrees of freedom (two, or one and the ground).
+pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseMatrix {
+    let entries = springs.iter().flat_map(|&(a, b, k)| match b {
+        Some(b) => vec![(a, a, k), (b, b, k), (a, b, -k), (b, a, -k)],
+        None => vec![(a, a, k)],
+    });
+    SparseMatrix::new("stiffness", count, count, entries.collect()).expect("springs")
+}
+
+/// A diagonal mass.
+pub fn masses(values: &[f64]) -> SparseMatrix {
+    let entries = values.iter().enumerate().map(|(row, &value)| (row, row, value));
+    SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).expect("masses")
+}
+
+/// A building of as many stories as stiffnesses, one mass a floor, each story a parameter.
+pub fn shear_building(stories: &[f64], mass: f64, range: Option<Range>) -> WholeModel {
+    let count = stories.len();
+    let story = |floor: usize| (floor, floor.checked_sub(1), stories[floor]);
+    let parameters = (0..count).map(|floor| WholeParameter {
+        name: format!("story {}", floor + 1),
+        share: WholeShare::Stiffness(springs(count, &[story(floor)])),
+        range,
+    });
+    let all: Vec<_> = (0..count).map(story).collect();
+    WholeModel::new(springs(count, &all), masses(&vec![mass; count]), parameters.collect()).expect("a building")
+}
+
+/// Sensors that read single degrees of freedom.
+pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
+    let entries = rows.iter().enumerate().map(|(sensor, &row)| (sensor, row, 1.0)).collect();
+    SparseMatrix::new("sensors", rows.len(), count, entries).expect("sensors")
+}

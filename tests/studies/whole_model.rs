@@ -1,0 +1,240 @@
+//! Models without condensation: their modes by a subspace that counts, and correlations at the sensors alone.
+
+use crate::common::draws::Draws;
+use crate::common::tolerances::{COUNTED_ROOT, RECOVERED_STORY, SAME_ANALYSIS, WHOLE_SHAPE};
+use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
+use corfem::cases::Case;
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
+use corfem::method::error::Error;
+use corfem::method::model::Share;
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::pairing::{modal_assurance, pair_modes};
+use corfem::studies::free_modes::counted_modes;
+use corfem::studies::whole_model::{
+    Factor, MOST_DENSE_ROWS, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
+};
+use nalgebra::DMatrix;
+
+fn chain(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
+    let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
+    match ends {
+        ChainEnds::FreeFree => {}
+        ChainEnds::FixedFree => all.push((0, None, spring)),
+        ChainEnds::FixedFixed => all.extend([(0, None, spring), (count - 1, None, spring)]),
+    }
+    springs(count, &all)
+}
+
+#[test]
+fn a_long_chain_has_the_closed_form_whatever_holds_it() {
+    for ends in [ChainEnds::FreeFree, ChainEnds::FixedFree, ChainEnds::FixedFixed] {
+        let (count, spring, mass) = (2000, 3.0e5, 0.02);
+        let expected = chain_eigenvalues(ends, count, spring, mass);
+        let found = lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20).expect("modes");
+        let rigid = usize::from(matches!(ends, ChainEnds::FreeFree));
+        assert_eq!(found.rigid_body.ncols(), rigid);
+        for (mode, omega_squared) in found.vibrations.omega_squared.iter().enumerate() {
+            let expected = expected[mode + rigid];
+            assert!(
+                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                "{ends:?} {mode}: {omega_squared} {expected}"
+            );
+        }
+    }
+}
+
+/// A square net of springs has sums of the chain's eigenvalues, most of them twice.
+#[test]
+fn repeated_roots_of_a_square_net_are_all_found() {
+    let side = 31;
+    let mut all = Vec::new();
+    for i in 0..side {
+        for j in 0..side {
+            let at = |i: usize, j: usize| i * side + j;
+            let right = if i + 1 < side { Some(at(i + 1, j)) } else { None };
+            let up = if j + 1 < side { Some(at(i, j + 1)) } else { None };
+            all.extend([(at(i, j), right, 1.0e4), (at(i, j), up, 1.0e4)]);
+            all.extend((i == 0).then_some((at(i, j), None, 1.0e4)));
+            all.extend((j == 0).then_some((at(i, j), None, 1.0e4)));
+        }
+    }
+    let one = chain_eigenvalues(ChainEnds::FixedFixed, side, 1.0e4, 0.5);
+    let mut expected: Vec<f64> = one.iter().flat_map(|a| one.iter().map(move |b| a + b)).collect();
+    expected.sort_by(f64::total_cmp);
+    for count in [1, 2, 7, 24] {
+        let found = lowest_modes(&springs(side * side, &all), &masses(&vec![0.5; side * side]), count).expect("modes");
+        for (found, expected) in found.vibrations.omega_squared.iter().zip(&expected) {
+            assert!((found / expected - 1.0).abs() < COUNTED_ROOT, "{found} {expected}");
+        }
+        let (m, shapes) = (masses(&vec![0.5; side * side]), &found.vibrations.shapes);
+        let unit = shapes.tr_mul(&m.times(shapes).expect("it fits"));
+        assert!((unit - DMatrix::identity(count, count)).amax() < WHOLE_SHAPE);
+    }
+}
+
+/// Random nets with massless points and loose parts: the subspace finds what dense matrices do.
+#[test]
+fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
+    let mut draws = Draws(7);
+    for number in 0..30 {
+        let count = MOST_DENSE_ROWS + 1 + draws.below(100);
+        let is_held = draws.below(2) == 0;
+        let mut all: Vec<_> =
+            (1..count).map(|row| (row, Some(draws.below(row)), 10.0_f64.powf(4.0 + draws.unit()))).collect();
+        all.extend((0..count).map(|row| (row, Some((row + 7) % count), 1.0e4 * (0.1 + draws.unit()))));
+        all.extend(is_held.then_some((0, None, 1.0e4)));
+        let massless = draws.below(3);
+        let values: Vec<f64> = (0..count)
+            .map(|row| if massless > 0 && row % (massless + 1) == 0 { 0.0 } else { 0.1 + draws.unit() })
+            .collect();
+        let (stiffness, mass) = (springs(count, &all), masses(&values));
+        let wanted = 1 + draws.below(12);
+        let found = lowest_modes(&stiffness, &mass, wanted).unwrap_or_else(|error| panic!("{number}: {error}"));
+        let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
+        assert_eq!(found.rigid_body.ncols(), usize::from(!is_held), "{number}");
+        for (mode, omega_squared) in found.vibrations.omega_squared.iter().enumerate() {
+            let expected = dense.vibrations.omega_squared[mode];
+            assert!(
+                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                "{number} {mode}: {omega_squared} {expected}"
+            );
+            let shape = found.vibrations.shapes.columns(mode, 1).into_owned();
+            let residual = stiffness.times(&shape).expect("fits") - *omega_squared * mass.times(&shape).expect("fits");
+            assert!(residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).expect("fits").norm(), "{number} {mode}");
+        }
+    }
+}
+
+#[test]
+fn a_factor_counts_negative_eigenvalues_and_solves() {
+    let mut draws = Draws(3);
+    for count in [1, 2, 5, 40, 300] {
+        let entries = (0..count).flat_map(|row| {
+            let other = draws.below(count);
+            let (own, off) = (4.0 * draws.unit() - 2.0, draws.unit() - 0.5);
+            let pair = if other == row { vec![] } else { vec![(row, other, off), (other, row, off)] };
+            [vec![(row, row, own)], pair].concat()
+        });
+        let matrix = SparseMatrix::new("random", count, count, entries.collect()).expect("a matrix");
+        let eigenvalues = matrix.dense().symmetric_eigenvalues();
+        let factor = Factor::new("random", &matrix).expect("a factor");
+        assert_eq!(factor.negative_count(), eigenvalues.iter().filter(|value| **value < 0.0).count());
+        let right = DMatrix::from_fn(count, 2, |_, _| draws.unit());
+        let solved = factor.solve(&right).expect("a solution");
+        let residual = matrix.times(&solved).expect("fits") - &right;
+        assert!(residual.amax() < COUNTED_ROOT * (1.0 + solved.amax()), "{count}: {}", residual.amax());
+    }
+}
+
+/// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
+#[test]
+fn five_of_ten_floors_recover_every_story_without_condensation() {
+    let truth = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
+    let range = None;
+    let real = shear_building(&truth.map(|factor| factor * 1.0e5), 1.0, range);
+    let model = shear_building(&[1.0e5; 10], 1.0, range);
+    let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
+    let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
+    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
+    let mut settings =
+        Settings { error_sum_tolerance: 1e-3, later_inner_tolerance: 5e-4, most_passes: 30, ..Settings::default() };
+    settings.inner.tolerance = 5e-4;
+    let found = correlate(analyze, &model.ranges(), &settings, |_, _| {}).expect("a correlation");
+    println!("{:?} {}", found.best_factors(), found.verdict);
+    for (story, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
+        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
+    }
+}
+
+/// The torque box of Case 2 as whole matrices: its condensed analysis is the finite element model's own.
+#[test]
+fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
+    let case = Case::new(2).expect("Case 2");
+    let model = case.model().expect("a model");
+    let test = case.test_modes().expect("test modes");
+    let (whole, sensors) = whole_box(&case);
+    let factors: Vec<f64> = (0..model.parameters().len()).map(|e| 0.8 + 0.03 * e as f64).collect();
+    let expected = model.analyze(&factors, &test, None).expect("an analysis");
+    let found = whole.analyze_condensed(&factors, &sensors, &test, None).expect("an analysis");
+    for (a, b) in found.exact.frequencies_hz.iter().zip(&expected.exact.frequencies_hz) {
+        assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
+    }
+    for (a, b) in found.shares.iter().zip(&expected.shares) {
+        assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
+    }
+    // Its mass is at the sensors alone, so that nothing is condensed and the whole model has the same modes.
+    let at_sensors = whole.analyze(&factors, &sensors, (&test, pair_modes), 9).expect("an analysis");
+    let assurance = modal_assurance(&at_sensors.exact.modes.shapes, &expected.exact.modes.shapes).expect("shapes");
+    for (mode, hz) in expected.exact.frequencies_hz.iter().enumerate() {
+        assert!((at_sensors.exact.frequencies_hz[mode] / hz - 1.0).abs() < SAME_ANALYSIS);
+        assert!(assurance[(mode, mode)] > 1.0 - SAME_ANALYSIS);
+    }
+    assert!((at_sensors.exact.errors.sum() / expected.exact.errors.sum() - 1.0).abs() < SAME_ANALYSIS);
+    for (a, b) in at_sensors.shares.iter().zip(&expected.shares) {
+        let magnitude = |share: &Share| share.matrix().abs();
+        assert!((magnitude(a) - magnitude(b)).amax() < SAME_ANALYSIS * b.matrix().amax());
+    }
+}
+
+/// The box's matrices at its structural degrees of freedom, and its dynamic points as sensors.
+fn whole_box(case: &Case) -> (WholeModel, SparseMatrix) {
+    let model = case.model().expect("a model");
+    let count = model.structure().free_dof().len();
+    let matrix_of = |factors: &[f64]| {
+        let sizes = model.sizes(factors).expect("sizes");
+        let elements = corfem::method::assembly::element_matrices(model.structure()).expect("elements");
+        corfem::method::assembly::dense_stiffness(&elements, &sizes, count).expect("a stiffness")
+    };
+    let sparse = |dense: &DMatrix<f64>| {
+        let entries = (0..dense.ncols()).flat_map(|j| (0..dense.nrows()).map(move |i| (i, j)));
+        let entries = entries.map(|(i, j)| (i, j, dense[(i, j)])).collect();
+        SparseMatrix::new("matrix", dense.nrows(), dense.ncols(), entries).expect("a matrix")
+    };
+    let ones = vec![1.0; model.parameters().len()];
+    let first = matrix_of(&ones);
+    let parameters = (0..ones.len()).map(|e| {
+        let mut twice = ones.clone();
+        twice[e] = 2.0;
+        WholeParameter {
+            name: model.parameters()[e].name.clone(),
+            share: WholeShare::Stiffness(sparse(&(matrix_of(&twice) - &first))),
+            range: None,
+        }
+    });
+    let t = model.load_distribution();
+    let mass = t * model.point_masses(&ones).expect("masses") * t.transpose();
+    let whole = WholeModel::new(sparse(&first), sparse(&mass), parameters.collect()).expect("a model");
+    (whole, sparse(&t.transpose()))
+}
+
+#[test]
+fn what_is_wrong_with_a_whole_model_is_named() {
+    let held = springs(3, &[(0, None, 1.0), (1, Some(0), 1.0), (2, Some(1), 1.0)]);
+    let parameter = |matrix: SparseMatrix| {
+        vec![WholeParameter { name: "all".to_owned(), share: WholeShare::Stiffness(matrix), range: None }]
+    };
+    let mass = masses(&[1.0; 3]);
+    let new = |stiffness: &SparseMatrix, mass: &SparseMatrix, parameters| {
+        WholeModel::new(stiffness.clone(), mass.clone(), parameters)
+    };
+    assert!(matches!(
+        new(&held, &masses(&[1.0; 2]), parameter(held.clone())),
+        Err(Error::WrongShape { what: "mass", .. })
+    ));
+    assert!(matches!(new(&held, &mass, Vec::new()), Err(Error::Empty { what: "parameters" })));
+    let lopsided = SparseMatrix::new("stiffness", 3, 3, vec![(0, 1, 1.0)]).expect("a matrix");
+    assert!(matches!(new(&held, &mass, parameter(lopsided)), Err(Error::NotSymmetric { row: 1, column: 0, .. })));
+    let model = new(&held, &mass, parameter(held.clone())).expect("a model");
+    assert!(matches!(model.modes(&[0.0], 1), Err(Error::NotPositive { .. })));
+    assert!(matches!(model.modes(&[1.0, 1.0], 1), Err(Error::WrongShape { .. })));
+    assert!(matches!(model.modes(&[1.0], 4), Err(Error::TooMany { available: 3, requested: 4, .. })));
+    assert!(matches!(SparseMatrix::new("m", 2, 2, vec![(2, 0, 1.0)]), Err(Error::TooMany { requested: 3, .. })));
+    assert!(matches!(SparseMatrix::new("m", 2, 2, vec![(0, 0, f64::NAN)]), Err(Error::NotFinite { .. })));
+    let floating = springs(200, &(1..199).map(|row| (row, Some(row - 1), 1.0)).collect::<Vec<_>>());
+    let mut values = vec![1.0; 200];
+    values[199] = 0.0;
+    let refused = lowest_modes(&floating, &masses(&values), 1);
+    assert!(matches!(refused, Err(Error::NotPositiveDefinite { dof: 199, .. })), "{refused:?}");
+}
