@@ -113,6 +113,16 @@ pub enum FileError {
         /// The dependent direction: `x`, `y` or `z`.
         direction: char,
     },
+    /// A job, or what it names, that is not what it must be.
+    #[error("{file}: expected {expected}, found {found}")]
+    Job {
+        /// The file.
+        file: String,
+        /// What it must say.
+        expected: String,
+        /// What it says.
+        found: String,
+    },
     /// NASTRAN-95 is not in the given folder.
     #[error(
         "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; \
@@ -172,6 +182,10 @@ impl FileError {
 
     pub(crate) fn answer(expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self::SolverAnswer { expected: expected.into(), found: found.into() }
+    }
+
+    pub(crate) fn job(file: &Path, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Job { file: file.display().to_string(), expected: expected.into(), found: found.into() }
     }
 
     /// Turns the operating system's error about a file into this one, for `map_err`.

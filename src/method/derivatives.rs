@@ -13,7 +13,7 @@ use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::state::ModalState;
 use nalgebra::{DMatrix, DVector, DVectorView};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;
@@ -25,7 +25,7 @@ pub const DERIVATIVE_STEP: f64 = 0.001;
 pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
 
 /// Which derivatives the inner loop steps by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DerivativeRule {
     /// The paper's difference, [`by_definition`].

@@ -7,10 +7,11 @@ use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the inner loop steps and when it stops.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct InnerSettings {
     /// Relaxation $R$ of the first iteration of a pass.
     pub first_relaxation: f64,

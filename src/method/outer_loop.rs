@@ -6,10 +6,11 @@ use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::method::verdict::Verdict;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// When analysis and test count as correlated, and how long to try.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Settings {
     /// The inner loop; its tolerance is that of the first pass.
     pub inner: InnerSettings,

@@ -9,7 +9,7 @@ use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use nalgebra::DMatrix;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Relative change of a root at which Recursive 1 counts as converged: round-off.
 pub const ROOT_TOLERANCE: f64 = 1e-13;
@@ -17,7 +17,7 @@ pub const ROOT_TOLERANCE: f64 = 1e-13;
 pub const MOST_ORDERS: usize = 60;
 
 /// How modes are brought up to date after a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UpdateRule {
     /// Recursive 1 (C.22) until the roots change by less than [`ROOT_TOLERANCE`], at most to order [`MOST_ORDERS`]: the

@@ -106,7 +106,6 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
     let lumped = lumped_mass(&elements, &sizes, count);
     let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).expect("modes");
     let heavy = lumped.iter().filter(|mass| **mass > 0.0).count();
-    println!("{count} {heavy} rigid {} vib {}", found.rigid_body.ncols(), found.vibrations.len());
     assert_eq!(found.rigid_body.ncols() + found.vibrations.len(), heavy);
     // Every motion of a rigid body is among the modes without strain.
     for axis in 0..3 {

@@ -6,11 +6,15 @@ use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
 use corfem::cases::Case;
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
-use corfem::method::model::Share;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::model::{FiniteElementModel, Parameter, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{modal_assurance, pair_modes};
-use corfem::studies::free_modes::counted_modes;
+use corfem::method::structure::{Element, Grid, Material, Structure};
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::GROUPS;
+use corfem::studies::free_modes::{CountedModes, counted_modes};
 use corfem::studies::whole_model::{
     Factor, MOST_DENSE_ROWS, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
 };
@@ -138,11 +142,7 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
     let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
-    let mut settings =
-        Settings { error_sum_tolerance: 1e-3, later_inner_tolerance: 5e-4, most_passes: 30, ..Settings::default() };
-    settings.inner.tolerance = 5e-4;
-    let found = correlate(analyze, &model.ranges(), &settings, |_, _| {}).expect("a correlation");
-    println!("{:?} {}", found.best_factors(), found.verdict);
+    let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
     for (story, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
         assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
     }
@@ -154,7 +154,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let case = Case::new(2).expect("Case 2");
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
-    let (whole, sensors) = whole_box(&case);
+    let (whole, sensors) = WholeModel::of(&model).expect("a whole model");
     let factors: Vec<f64> = (0..model.parameters().len()).map(|e| 0.8 + 0.03 * e as f64).collect();
     let expected = model.analyze(&factors, &test, None).expect("an analysis");
     let found = whole.analyze_condensed(&factors, &sensors, &test, None).expect("an analysis");
@@ -178,35 +178,79 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     }
 }
 
-/// The box's matrices at its structural degrees of freedom, and its dynamic points as sensors.
-fn whole_box(case: &Case) -> (WholeModel, SparseMatrix) {
-    let model = case.model().expect("a model");
-    let count = model.structure().free_dof().len();
-    let matrix_of = |factors: &[f64]| {
-        let sizes = model.sizes(factors).expect("sizes");
-        let elements = corfem::method::assembly::element_matrices(model.structure()).expect("elements");
-        corfem::method::assembly::dense_stiffness(&elements, &sizes, count).expect("a stiffness")
+/// A free chain, as hung in soft cords: its rigid-body mode is found, counted, and kept out of the correlation.
+#[test]
+fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
+    let count = 12;
+    let springs_of = |factors: &[f64]| {
+        let spring = |e: usize| (e + 1, Some(e), 1.0e5 * factors[e]);
+        springs(count, &(0..count - 1).map(spring).collect::<Vec<_>>())
     };
-    let sparse = |dense: &DMatrix<f64>| {
-        let entries = (0..dense.ncols()).flat_map(|j| (0..dense.nrows()).map(move |i| (i, j)));
-        let entries = entries.map(|(i, j)| (i, j, dense[(i, j)])).collect();
-        SparseMatrix::new("matrix", dense.nrows(), dense.ncols(), entries).expect("a matrix")
+    let truth: Vec<f64> = (0..count - 1).map(|e| [1.0, 0.8, 1.15, 1.0, 0.9][e % 5]).collect();
+    let model_of = |first: &[f64]| {
+        let parameters = (0..count - 1).map(|e| {
+            let mut alone = vec![0.0; count - 1];
+            alone[e] = first[e];
+            WholeParameter { name: format!("{e}"), share: WholeShare::Stiffness(springs_of(&alone)), range: None }
+        });
+        let mass: Vec<f64> = (0..count).map(|row| 1.0 + 0.1 * (row % 3) as f64).collect();
+        WholeModel::new(springs_of(first), masses(&mass), parameters.collect()).expect("a chain")
     };
-    let ones = vec![1.0; model.parameters().len()];
-    let first = matrix_of(&ones);
-    let parameters = (0..ones.len()).map(|e| {
-        let mut twice = ones.clone();
-        twice[e] = 2.0;
-        WholeParameter {
-            name: model.parameters()[e].name.clone(),
-            share: WholeShare::Stiffness(sparse(&(matrix_of(&twice) - &first))),
-            range: None,
-        }
-    });
-    let t = model.load_distribution();
-    let mass = t * model.point_masses(&ones).expect("masses") * t.transpose();
-    let whole = WholeModel::new(sparse(&first), sparse(&mass), parameters.collect()).expect("a model");
-    (whole, sparse(&t.transpose()))
+    let sensors = sensors_at(&(0..count).collect::<Vec<_>>(), count);
+    let (real, model) = (model_of(&truth), model_of(&vec![1.0; count - 1]));
+    let modes = real.modes(&vec![1.0; count - 1], 8).expect("modes");
+    assert_eq!(modes.rigid_body.ncols(), 1);
+    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&modes.vibrations, pair_modes), count - 1);
+    let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
+    for (e, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
+        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "spring {e}: {found} for {truth}");
+    }
+}
+
+/// The delta wing without its supports: its motions without strain are kept out, and the wrong covers found from the others.
+#[test]
+fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
+    let wing = DeltaWing::embedded().expect("a wing").structure().expect("a structure");
+    let grids = wing.grids().iter().map(|grid| Grid { constrained: [false; 3], ..grid.clone() });
+    let free = Structure::new(grids.collect(), wing.elements().to_vec()).expect("a free wing");
+    let groups: Vec<&[usize]> = [1, 13, 15].map(|group: usize| GROUPS[group].elements).to_vec();
+    let truth = [1.2, 0.85, 1.1];
+    let dof = free.free_dof();
+    let seen: Vec<usize> = (0..dof.len()).filter(|&row| dof[row].direction == 2).collect();
+    let t = DMatrix::identity(dof.len(), dof.len()).select_columns(&seen);
+    let model_of = |factors: [f64; 3]| {
+        let elements = free.elements().iter().map(|element| {
+            let group = groups.iter().position(|group| group.contains(&element.label));
+            let factor = group.map_or(1.0, |group| factors[group]);
+            let material = Material { density: element.material.density / factor, ..element.material };
+            Element { size: factor * element.size, material, ..element.clone() }
+        });
+        let structure = Structure::new(free.grids().to_vec(), elements.collect()).expect("a wing");
+        let parameters = groups.iter().map(|group| Parameter::group("group", group)).collect();
+        let none = DMatrix::zeros(seen.len(), seen.len());
+        let model = FiniteElementModel::new(structure, t.clone(), none, parameters).expect("a model");
+        WholeModel::of(&model).expect("a whole model")
+    };
+    let (real, sensors) = model_of(truth);
+    let (model, _) = model_of([1.0; 3]);
+    let CountedModes { rigid_body, vibrations } = real.modes(&[1.0; 3], 6).expect("modes");
+    // Beside the six, grids that only supports had held move freely: as many motions without strain as dense matrices find.
+    let (stiffness, mass) = real.at(&[1.0; 3]).expect("matrices");
+    let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
+    assert!(rigid_body.ncols() >= 6);
+    assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
+    let test = ModeSet { shapes: sensors.times(&vibrations.shapes).expect("fits"), ..vibrations };
+    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 20);
+    let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
+    for (found, truth) in found.best_factors().iter().zip(&truth) {
+        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "{found} for {truth}");
+    }
+}
+
+/// Tolerances of a test without noise.
+fn fine_settings() -> Settings {
+    let inner = InnerSettings { tolerance: 5e-4, ..InnerSettings::default() };
+    Settings { inner, later_inner_tolerance: 5e-4, error_sum_tolerance: 1e-3, most_passes: 30, ..Settings::default() }
 }
 
 #[test]

@@ -26,6 +26,15 @@ pub(super) struct ElementCards {
     materials: Numbered<Material>,
 }
 
+/// The cards that an element refers to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Membership {
+    /// Its property's number; none for a CONROD.
+    pub property: Option<usize>,
+    /// Its material's number.
+    pub material: usize,
+}
+
 /// Where an element's size and material are found.
 #[derive(Debug)]
 enum Size {
@@ -67,6 +76,26 @@ impl ElementCards {
             _ => {}
         }
         Ok(())
+    }
+
+    /// The property, if it has one, and the material of every element, by their numbers.
+    ///
+    /// # Errors
+    /// Those of a number that is none.
+    pub fn members(&self) -> Result<BTreeMap<usize, Membership>, FileError> {
+        let of = |(&label, kept): (&usize, &Kept<(ElementKind, Size)>)| {
+            let Kept { card, start, value: (_, size) } = kept;
+            let membership = match size {
+                Size::Own(_) => Membership { property: None, material: card.label(5)? },
+                Size::Property(row) => {
+                    let property = card.referred(start + 1, &self.properties[*row], ELEMENT_CARDS[*row].1)?;
+                    let number = if card.text(start + 1).is_empty() { label } else { card.label(start + 1)? };
+                    Membership { property: Some(number), material: property.card.label(property.start + 1)? }
+                }
+            };
+            Ok((label, membership))
+        };
+        self.connections.iter().map(of).collect()
     }
 
     /// The elements by number; property, material and grids must exist.

@@ -29,6 +29,7 @@ pub mod number;
 mod read;
 mod write;
 
+pub use elements::Membership;
 pub use known::{Reason, Unread};
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;

@@ -40,6 +40,17 @@ pub struct PointMass {
     pub mass: f64,
 }
 
+/// A mass and the free DOF that it moves with.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MovingMass {
+    /// Where it is.
+    pub dof: StructuralDof,
+    /// The mass, lbf·s²/in.
+    pub mass: f64,
+    /// Its column of $T$ by rows and coefficients.
+    pub motion: Vec<(usize, f64)>,
+}
+
 /// The model that a deck describes.
 ///
 /// Decks that say the same in another order, in other formats and with other numbers of properties and materials give
@@ -149,6 +160,26 @@ impl BulkData {
     /// [`Error::Empty`] when no mass can move; [`FileError::TooManyMasses`] for more than memory has room for.
     pub fn mass_dof(&self, structure: &Structure, elements: &[ElementMatrix]) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
+        let moving = self.moving_masses(structure, elements)?;
+        check_memory(moving.len(), free.len())?;
+        let mut t = DMatrix::zeros(free.len(), moving.len());
+        for (column, point) in moving.iter().enumerate() {
+            point.motion.iter().for_each(|&(row, coefficient)| t[(row, column)] += coefficient);
+        }
+        let mass = DVector::from_iterator(moving.len(), moving.iter().map(|point| point.mass));
+        Ok(MassDof { dof: moving.iter().map(|point| point.dof).collect(), load_distribution: t, mass })
+    }
+
+    /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] when no mass can move.
+    pub(crate) fn moving_masses(
+        &self,
+        structure: &Structure,
+        elements: &[ElementMatrix],
+    ) -> Result<Vec<MovingMass>, FileError> {
+        let free = structure.free_dof();
         let lumped = lumped_mass(elements, &self.sizes(), free.len());
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
         let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
@@ -157,35 +188,33 @@ impl BulkData {
                 *mass.entry((point.grid, direction)).or_default() += point.mass;
             }
         }
-        let tie_of = self.tie_of();
-        mass.retain(|at, mass| {
-            *mass > 0.0 && (structure.free_dof_index(at.0, at.1).is_some() || tie_of.contains_key(at))
+        mass.retain(|_, mass| *mass > 0.0);
+        let motion_of = self.motions(structure);
+        let moving = mass.into_iter().map(|((grid, direction), mass)| {
+            let dof = StructuralDof { grid, direction };
+            MovingMass { dof, mass, motion: motion_of(dof) }
         });
-        check_memory(mass.len(), free.len())?;
-        let (mut dof, mut columns, mut masses) = (Vec::new(), Vec::new(), Vec::new());
-        for ((grid, direction), mass) in mass {
-            let mut column = DVector::zeros(free.len());
-            let own = StructuralDof { grid, direction };
-            let terms = match tie_of.get(&(grid, direction)) {
+        let moving: Vec<MovingMass> = moving.filter(|point| !point.motion.is_empty()).collect();
+        if moving.is_empty() { Err(Error::Empty { what: "degrees of freedom with mass" }.into()) } else { Ok(moving) }
+    }
+
+    /// How a DOF moves: the free DOF that it is or follows, by row and coefficient; none for a constrained one.
+    pub(crate) fn motions<'a>(&'a self, structure: &'a Structure) -> impl Fn(StructuralDof) -> Vec<(usize, f64)> + 'a {
+        let tie_of = self.tie_of();
+        move |own| {
+            let terms = match tie_of.get(&(own.grid, own.direction)) {
                 Some(tie) => tie.terms.iter().map(|(dof, a)| (*dof, -a / tie.coefficient)).collect(),
                 None => vec![(own, 1.0)],
             };
+            // A constrained DOF does not move and adds nothing; one that stands in the equation twice counts twice.
+            let mut motion: BTreeMap<usize, f64> = BTreeMap::new();
             for (term, coefficient) in terms {
-                // A constrained DOF does not move and adds nothing.
                 if let Some(row) = structure.free_dof_index(term.grid, term.direction) {
-                    column[row] += coefficient;
+                    *motion.entry(row).or_default() += coefficient;
                 }
             }
-            if column.amax() > 0.0 {
-                dof.push(own);
-                columns.push(column);
-                masses.push(mass);
-            }
+            motion.into_iter().filter(|(_, coefficient)| *coefficient != 0.0).collect()
         }
-        if columns.is_empty() {
-            return Err(Error::Empty { what: "degrees of freedom with mass" }.into());
-        }
-        Ok(MassDof { dof, load_distribution: DMatrix::from_columns(&columns), mass: DVector::from_vec(masses) })
     }
 
     pub(super) fn sizes(&self) -> Vec<f64> {

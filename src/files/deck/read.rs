@@ -3,7 +3,7 @@
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
 use super::continuation::join;
-use super::elements::{ElementCards, point_mass};
+use super::elements::{ElementCards, Membership, point_mass};
 use super::known::{Reason, Unread, counted, is_read, name, reason};
 use super::lines::{decoded, sections};
 use super::model::{BulkData, PointMass};
@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 pub struct Deck {
     /// The model.
     pub model: BulkData,
+    /// The property and the material of every element, by its number.
+    pub members: BTreeMap<usize, Membership>,
     /// Cards that are not part of it, by name in the order of the file.
     pub unread: Vec<Unread>,
 }
@@ -88,13 +90,14 @@ pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck,
         Ok(kept.value)
     });
     let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
+    let members = elements.members()?;
     let (mut elements, ties) = (elements.elements(&grids)?, constraints.ties(&grids)?);
     if let Some(card) = weight {
         let densities = elements.iter_mut().map(|element| &mut element.material.density);
         scale(&card, densities.chain(masses.iter_mut().map(|point| &mut point.mass)))?;
     }
     let model = BulkData { grids: grids.into_values().collect(), elements, ties, masses };
-    Ok(Deck { model, unread: counted(unread) })
+    Ok(Deck { model, members, unread: counted(unread) })
 }
 
 /// Multiplies masses by `PARAM,WTMASS`, and rounds them to what a deck can hold, so that writing them loses nothing.

@@ -113,6 +113,11 @@ impl FiniteElementModel {
         &self.parameters
     }
 
+    /// Rows of every parameter's members among the elements or the dynamic DOF.
+    pub fn rows(&self) -> &[Vec<usize>] {
+        &self.rows
+    }
+
     /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
     ///
     /// # Errors

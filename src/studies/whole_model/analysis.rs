@@ -3,7 +3,7 @@
 use super::{Factor, SparseMatrix, lowest_modes};
 use crate::method::appendix_a::{Condensed, condense_deflections};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, symmetric_part};
+use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Pair, Range, Share};
 use crate::method::modes::{ModeSet, Modes, apply_sign_rule};
 use crate::method::structure::positive;
@@ -141,11 +141,24 @@ impl WholeModel {
         ModalModel::at_sensors(Modes::ascending(omega_squared, signed), test, pair, self.shares(factors, &shapes)?)
     }
 
-    /// The paper's way to the same: stiffness and mass condensed to the sensors (Appendix A), with the same $B^t$ for both.
+    /// Stiffness and mass condensed to the sensors with one $B^t$ (Appendix A): $K_D$ (lbf/in), $M_D = B M B^t$ (lbf·s²/in), and
+    /// $B^t$ (DOF × sensors).
     ///
     /// # Errors
-    /// Those of [`Self::at`], [`condense_deflections`] and [`ModalModel::new`]; [`Error::NotPositiveDefinite`] for a structure that
-    /// is not held.
+    /// Those of [`Self::at`] and [`condense_deflections`]; [`Error::NotPositiveDefinite`] for a structure that is not held.
+    pub fn condensed(&self, factors: &[f64], sensors: &SparseMatrix) -> Result<(Condensed, DMatrix<f64>), Error> {
+        let (stiffness, mass) = self.at(factors)?;
+        let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;
+        let distribution = sensors.dense().transpose();
+        let condensed = condense_deflections(&distribution, factor.solve(&distribution)?)?;
+        let mass = mass.through(&condensed.transformation.transpose())?;
+        Ok((condensed, mass))
+    }
+
+    /// The paper's way to the same as [`Self::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.
+    ///
+    /// # Errors
+    /// Those of [`Self::condensed`] and [`ModalModel::new`].
     pub fn analyze_condensed(
         &self,
         factors: &[f64],
@@ -153,12 +166,7 @@ impl WholeModel {
         test: &ModeSet,
         count: Option<usize>,
     ) -> Result<ModalModel, Error> {
-        let (stiffness, mass) = self.at(factors)?;
-        let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;
-        let distribution = sensors.dense().transpose();
-        let Condensed { stiffness, transformation } =
-            condense_deflections(&distribution, factor.solve(&distribution)?)?;
-        let mass = symmetric_part(&mass.through(&transformation.transpose())?);
+        let (Condensed { stiffness, transformation }, mass) = self.condensed(factors, sensors)?;
         let mut failed = None;
         let model = ModalModel::new(&stiffness, &mass, test, count, |shapes| {
             self.shares(factors, &(&transformation * shapes)).unwrap_or_else(|error| {

@@ -1,6 +1,7 @@
 //! A whole model without condensation: sparse matrices at every degree of freedom, and modes read at the sensors.
 
 mod analysis;
+pub(crate) mod elements;
 mod factor;
 mod modes;
 mod sparse;
