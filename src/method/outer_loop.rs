@@ -75,7 +75,8 @@ impl Correlation {
     /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
     /// improved on the start.
     pub fn best_factors(&self) -> Vec<f64> {
-        self.best.map_or_else(|| vec![1.0; self.parameter_count], |pass| self.passes[pass].factors.clone())
+        let best = self.best.and_then(|pass| self.passes.get(pass));
+        best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
     }
 }
 
@@ -101,6 +102,7 @@ pub fn correlate<E: From<Error>>(
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
     check_length("parameter factors", total_ranges.len(), model.shares.len())?;
+    model.check()?;
     let (test, initial) = (model.test.clone(), model.exact.clone());
     let seen: Vec<f64> = model.test_shares.iter().map(|share| share.diagonal().amax()).collect();
     let mut passes: Vec<Pass> = Vec::new();
@@ -128,18 +130,17 @@ pub fn correlate<E: From<Error>>(
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
     // The start stands before the passes. Whether it is within tolerance comes before how large its error sum is.
-    let checks = std::iter::once(&initial).chain(passes.iter().map(|pass| &pass.check));
-    let place = |(_, check): &(usize, &Check)| (!meets(&check.errors, settings), check.errors.sum());
-    let better = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
-    let best = checks.enumerate().min_by(|a, b| better(&place(a), &place(b))).map_or(0, |(row, _)| row);
-    let check = if best == 0 { &initial } else { &passes[best - 1].check };
     let ones = vec![1.0; total_ranges.len()];
-    let factors = if best == 0 { &ones } else { &passes[best - 1].factors };
+    let checks = passes.iter().enumerate().map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
+    let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
+    let better = |a: (bool, f64), b: (bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_lt();
+    let (best, check, factors) = checks
+        .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
     let converged = meets(&check.errors, settings);
-    let errors = mode_errors(&check.modes, &check.pairing, &test);
+    let errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let verdict = Verdict::new(&passes, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
     let parameter_count = total_ranges.len();
-    Ok(Correlation { parameter_count, initial, passes, best: best.checked_sub(1), converged, verdict })
+    Ok(Correlation { parameter_count, initial, passes, best, converged, verdict })
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.

@@ -149,7 +149,7 @@ impl BulkData {
     /// [`Error::Empty`] when no mass can move; [`FileError::TooManyMasses`] for more than memory has room for.
     pub fn mass_dof(&self, structure: &Structure, elements: &[ElementMatrix]) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
-        let lumped = lumped_mass(elements, &self.sizes(), free.len());
+        let lumped = lumped_mass(elements, &self.sizes(), free.len())?;
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
         let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {
