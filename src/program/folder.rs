@@ -9,7 +9,7 @@
 //!
 //! Where there are no symbolic links, files are replaced one by one.
 
-use super::place::{as_old, old_file, probe, sync_folder};
+use super::place::{as_old, old_file, probe, sync, sync_folder};
 use super::signals;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
@@ -75,7 +75,7 @@ fn stage(folder: &Path, files: &[(String, String)], mut says: impl FnMut(&Path))
         file.write_all(text.as_bytes())?;
         // Another's file becomes one's own where it cannot stay the other's.
         let _ = old.map(|old| as_old(&file, &old));
-        file.sync_all()?;
+        sync(&file)?;
     }
     Ok(())
 }

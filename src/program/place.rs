@@ -136,7 +136,7 @@ fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
     if old.is_some_and(|old| as_old(staged.as_file(), old).is_err()) {
         return write_over(path, text);
     }
-    staged.as_file().sync_all()?;
+    sync(staged.as_file())?;
     match staged.persist(path) {
         Err(_) if old.is_some() => write_over(path, text),
         done => done.map(drop).map_err(io::Error::from).map(|()| sync_folder(path.parent().unwrap_or(path))),
@@ -145,7 +145,12 @@ fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
 
 fn write_over(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::create(path)?;
-    file.write_all(text.as_bytes()).and_then(|()| file.sync_all())
+    file.write_all(text.as_bytes()).and_then(|()| sync(&file))
+}
+
+/// Waits until a file is on the disk, where there is one: files of the system itself have none.
+pub fn sync(file: &File) -> io::Result<()> {
+    file.sync_all().or_else(|error| if error.kind() == ErrorKind::InvalidInput { Ok(()) } else { Err(error) })
 }
 
 /// Waits until the names in a folder are on the disk, where the platform can say so.

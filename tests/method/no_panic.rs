@@ -28,7 +28,7 @@ type Entry = (&'static str, fn(&mut Draws) -> Answer);
 const LISTS: [&[Entry]; 4] = [matrices::MATRICES, perturbation::PERTURBATION, structures::STRUCTURES, loops::LOOPS];
 
 /// Public functions that no entry calls by itself: they hand out a part, a length or a name, or put parts together unseen.
-const NOT_CALLED: [&str; 19] = [
+const NOT_CALLED: [&str; 20] = [
     "ElementKind::corner_count",
     "ElementKind::size_name",
     "FiniteElementModel::element_matrices",
@@ -48,6 +48,7 @@ const NOT_CALLED: [&str; 19] = [
     "StepRule::name",
     "Structure::elements",
     "Structure::free_dof",
+    "Structure::grids",
 ];
 
 fn entries(matrix: &DMatrix<f64>) -> Vec<f64> {
@@ -62,8 +63,10 @@ fn modes(found: &ModeSet) -> Vec<f64> {
 fn public_functions(module: &str, source: &str) -> Vec<String> {
     let (mut owner, mut found) = (module.to_owned(), Vec::new());
     for line in source.lines() {
-        if let Some(of) = line.strip_prefix("impl") {
-            let of = of.rsplit(" for ").next().unwrap_or(of).trim_start_matches(|c| c != ' ').trim();
+        if let Some(of) = line.strip_prefix("impl").filter(|of| !of.ends_with("{}")) {
+            // Without the parameters of the block itself.
+            let of = of.split_once("> ").filter(|_| of.starts_with('<')).map_or(of, |(_, of)| of);
+            let of = of.rsplit(" for ").next().unwrap_or(of).trim();
             owner = of.split(['<', ' ']).next().unwrap_or(of).to_owned();
         } else if line == "}" {
             owner = module.to_owned();
@@ -80,7 +83,6 @@ fn uncalled<'a>(functions: &'a [String], entries: &str, excused: &[&str]) -> Vec
     let is_called = |function: &str| {
         let name = function.rsplit("::").next().unwrap_or(function);
         let entry = entries.split("\n    (\"").find(|entry| entry.starts_with(&format!("{function}\"")));
-        // As the name itself or, where names meet, as its module's.
         entry.is_some_and(|entry| entry.contains(&format!("{name}(")))
     };
     let is_missing = |function: &&str| !excused.contains(function) && !is_called(function);
