@@ -3,9 +3,8 @@
 //! New files are written in a hidden folder inside the folder itself. Each place of the set then becomes a symbolic
 //! link through one link to the old files, that one link is turned to the new ones, and each file takes its link's
 //! place: only the middle step, a single rename, changes what is read. What a stopped run leaves, in the hidden folder
-//! alone, the next run settles first. Other files, folders and the folder itself are not touched.
-//!
-//! What a step needs is on the disk before it, so that the same holds for a crash of the machine.
+//! alone, the next run settles first. Other files, folders and the folder itself are not touched. What a step needs is
+//! on the disk before it, so that the same holds when the machine stops.
 //!
 //! Where there are no symbolic links, files are replaced one by one.
 
@@ -51,8 +50,6 @@ pub fn put_all(folder: &Path, files: &[(String, String)]) -> std::result::Result
     if done.is_err() {
         let _ = settle(folder);
         let _ = made.then(|| fs::remove_dir(folder));
-    } else if made {
-        sync_folder(folder.parent().unwrap_or(folder));
     }
     Ok(done.map_err(failed(&at))?)
 }

@@ -124,9 +124,8 @@ fn to(mut out: impl Write, text: &str) -> io::Result<()> {
     }
 }
 
-/// Puts a new file in the place of the old one, with its owner and mode, and waits until both file and name are on the disk:
-/// a crash of the machine leaves the old file or the new one. One that cannot be replaced, because its folder takes no files or
-/// it is mounted or another's, is written over where it stands.
+/// Puts a new file that is on the disk in the place of the old one, with its owner and mode. One that cannot be replaced,
+/// because its folder takes no files or it is mounted or another's, is written over where it stands.
 fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
     let mut staged = match new_file_beside(path) {
         Err(_) if old.is_some() => return write_over(path, text),
@@ -155,8 +154,7 @@ pub fn sync(file: &File) -> io::Result<()> {
 
 /// Waits until the names in a folder are on the disk, where the platform can say so.
 pub fn sync_folder(folder: &Path) {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    let _ = File::open(folder.join(".")).and_then(|folder| folder.sync_all());
 }
 
 /// A file with a name of its own, with the rights that any new file has.
