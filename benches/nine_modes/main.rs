@@ -36,7 +36,7 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::DERIVATIVES);
     let (problem, state) = (&setting.problem, &setting.state);
     group.bench_function(summary::GRADIENT, |bencher| {
-        bencher.iter(|| gradient(black_box(problem), black_box(state)));
+        bencher.iter(|| gradient(black_box(problem), black_box(state)).expect("a state of the model"));
     });
     group.bench_function(summary::DEFINITION, |bencher| {
         bencher.iter(|| by_definition(black_box(problem), black_box(state)).expect("separate"));

@@ -37,7 +37,7 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
 ///
 /// # Errors
 /// Those of [`condense`].
-pub fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
+pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
     check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
     if t.ncols() == 0 {
         return Err(Error::Empty { what: "dynamic degrees of freedom" });
@@ -56,13 +56,13 @@ pub fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Resu
 ///
 /// For `shapes` $= B^t$ it is the element's share of $K_D$, $B K_e B^t$ (A.9); the shares, times the sizes, sum to
 /// $K_D$ exactly. For $V_S = B^t V$ it is that share seen through dynamic shapes $V$.
-pub fn generalized_stiffness(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+pub(crate) fn generalized_stiffness(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
     let rows = shapes.select_rows(&element.dof);
     symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
 }
 
 /// Generalized mass of an element for unit size in the same way, $V_e^t M_e V_e$ with the lumped $M_e$ (m × m).
-pub fn generalized_mass(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
+pub(crate) fn generalized_mass(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
     let rows = shapes.select_rows(&element.dof);
     let mut weighted = rows.clone();
     weighted.column_iter_mut().for_each(|mut column| column.component_mul_assign(&element.unit_mass));

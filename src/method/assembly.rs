@@ -4,8 +4,9 @@ use crate::method::elements::mass::corner_volumes;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_solution, cholesky, from_faer, to_faer,
+    check_finite, check_length, check_shape, check_solution, cholesky, finite, finite_list, from_faer, to_faer,
 };
+use crate::method::modes::check_count;
 use crate::method::structure::{DIRECTIONS, Element, StructuralDof, Structure, positive};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -33,6 +34,16 @@ pub struct ElementMatrix {
     pub unit_mass: DVector<f64>,
 }
 
+/// Refuses elements that do not fit their sizes or the DOF that there are.
+fn check_elements(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<(), Error> {
+    check_length("element sizes", sizes.len(), elements.len())?;
+    elements.iter().try_for_each(|ElementMatrix { dof, unit, unit_mass, .. }| {
+        check_shape("element stiffness", unit, dof.len(), dof.len())?;
+        check_length("element mass", unit_mass.len(), dof.len())?;
+        dof.iter().try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
+    })
+}
+
 /// Unit stiffness and mass of every element, restricted to the free DOF, in the structure's order.
 ///
 /// # Errors
@@ -58,25 +69,29 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 /// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
 ///
 /// # Errors
-/// [`Error::WrongShape`] unless there is one size per element.
+/// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF; [`Error::NotFinite`].
 pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
-    check_length("element sizes", sizes.len(), elements.len())?;
+    check_elements(elements, sizes, dof_count)?;
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
     for (row, column, value) in entries(elements, sizes) {
         stiffness[(row, column)] += value;
     }
-    Ok(stiffness)
+    finite("structural stiffness", stiffness)
 }
 
 /// The lumped mass of elements of the given sizes at every free DOF, lbf·s²/in.
-pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> DVector<f64> {
+///
+/// # Errors
+/// Those of [`dense_stiffness`].
+pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DVector<f64>, Error> {
+    check_elements(elements, sizes, dof_count)?;
     let mut lumped = DVector::zeros(dof_count);
     for (element, size) in elements.iter().zip(sizes) {
         for (&row, unit) in element.dof.iter().zip(&element.unit_mass) {
             lumped[row] += size * unit;
         }
     }
-    lumped
+    finite_list("lumped mass", lumped.data.into()).map(DVector::from_vec)
 }
 
 /// Row, column and value of every entry of every $s_e K_e$.
@@ -157,14 +172,14 @@ impl FactorizedStiffness {
         if count == 0 {
             return Err(Error::Empty { what: "free degrees of freedom" });
         }
-        check_length("element sizes", sizes.len(), elements.len())?;
+        check_elements(elements, sizes, count)?;
         let mut diagonal = DVector::<f64>::zeros(count);
         for (row, _, value) in entries(elements, sizes).filter(|(row, column, _)| row == column) {
             diagonal[row] += value;
         }
         let singular = |dof: usize, ratio| {
             let StructuralDof { grid, direction } = free[dof];
-            Err(Error::SingularStiffness { grid, direction: DIRECTIONS[direction], ratio })
+            Err(Error::SingularStiffness { grid, direction: *DIRECTIONS.get(direction).unwrap_or(&'?'), ratio })
         };
         if let Some(dof) = diagonal.iter().position(|&entry| entry <= 0.0) {
             return singular(dof, 0.0);

@@ -9,6 +9,7 @@ use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
 use crate::method::error::Error;
 use crate::method::error_sum::{errors, unit_shape_difference};
+use crate::method::linear_algebra::finite_list;
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::state::ModalState;
@@ -40,12 +41,10 @@ pub enum DerivativeRule {
 /// # Errors
 /// Those of [`by_definition`].
 pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRule) -> Result<Vec<f64>, Error> {
-    match rule {
-        DerivativeRule::Definition => by_definition(model, state),
-        DerivativeRule::Gradient => {
-            Ok(gradient(model, state).into_iter().map(|slope| DERIVATIVE_STEP * slope).collect())
-        }
+    if rule == DerivativeRule::Definition {
+        return by_definition(model, state);
     }
+    Ok(gradient(model, state)?.into_iter().map(|slope| DERIVATIVE_STEP * slope).collect())
 }
 
 /// $\Delta e_e = e_f + e_v - e_S$ of every parameter, for $\Delta K = 0.001 c_e K_e$ or $\Delta M = 0.001 c_e M_e$ at the
@@ -56,25 +55,24 @@ pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRul
 /// [`HELD_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
-/// [`Error::LostRoot`] when a change takes a root's sign.
+/// [`Error::LostRoot`] when a change takes a root's sign; those of [`gradient`].
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
+    state.check(model)?;
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
     let of_parameter = |(share, factor): (&Share, &f64)| {
         let mut change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
         hold_close_modes(k, &mut change);
         let perturbed = match share {
             Share::Stiffness(_) => first_order(k, &change)?,
-            Share::Mass(_) => {
-                let beta = DMatrix::zeros(k.len(), k.len());
-                general::first_order(&ModalChange::of_vibrations(k, beta, change))?
-            }
+            Share::Mass(_) => general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?,
         };
         perturbed.check_roots()?;
         let shapes = &state.modes.shapes * perturbed.shapes;
         let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes };
-        Ok(errors(&modes, &state.pairing, &model.test).sum() - state.errors.sum())
+        Ok(errors(&modes, &state.pairing, &model.test)?.sum() - state.errors.sum())
     };
-    model.shares.iter().zip(&state.factors).map(of_parameter).collect()
+    let changes = model.shares.iter().zip(&state.factors).map(of_parameter).collect::<Result<_, _>>()?;
+    finite_list("changes of the error sum", changes)
 }
 
 /// Takes the coupling of close modes out of a generalized change.
@@ -100,19 +98,21 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 ///
 /// A change of mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. Where an error is zero its root has a kink and no derivative;
 /// that error then counts as constant. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
-pub fn gradient(model: &ModalModel, state: &ModalState) -> Vec<f64> {
+///
+/// # Errors
+/// [`Error::WrongShape`] for a state of another model; [`Error::NotFinite`].
+pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
+    state.check(model)?;
     let pull = shape_pull(model, state);
     let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
-    let of_mass = has_mass.then(|| {
-        let sensitivity = sensitivity(model, state, pull.clone(), |omega_squared| -omega_squared);
-        in_exact_modes(sensitivity, state)
-    });
+    let of_mass = has_mass.then(|| in_exact_modes(sensitivity(model, state, pull.clone(), |k| -k), state));
     let of_stiffness = in_exact_modes(sensitivity(model, state, pull, |_| 1.0), state);
     let slope = |share: &Share| match (share, &of_mass) {
         (Share::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
         (share, _) => entries(&of_stiffness).dot(&entries(share.matrix())),
     };
-    model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect()
+    let slopes = model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect();
+    finite_list("gradient", slopes)
 }
 
 /// $v_r^t \partial e_v/\partial v_i$ (n × n), what mode $r$ added to mode $i$ does to the shape error: one sweep over the test

@@ -1,5 +1,7 @@
 //! The error sum (5, 6): how far the analysis modes are from the test modes.
 
+use crate::method::error::Error;
+use crate::method::linear_algebra::check_shape;
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use nalgebra::{DVector, DVectorView};
@@ -24,12 +26,12 @@ impl Errors {
 
     /// Root mean square frequency error, $e_f/\sqrt n$.
     pub fn frequency_rms(&self) -> f64 {
-        self.frequency / (self.mode_count as f64).sqrt()
+        self.frequency / (self.mode_count.max(1) as f64).sqrt()
     }
 
     /// Root mean square shape error, $e_v/\sqrt n$.
     pub fn shape_rms(&self) -> f64 {
-        self.shape / (self.mode_count as f64).sqrt()
+        self.shape / (self.mode_count.max(1) as f64).sqrt()
     }
 }
 
@@ -50,7 +52,7 @@ impl ErrorMeasure {
     pub fn scale(self, modes: usize) -> f64 {
         match self {
             Self::Sum => 1.0,
-            Self::NineModes => 3.0 / (modes as f64).sqrt(),
+            Self::NineModes => 3.0 / (modes.max(1) as f64).sqrt(),
         }
     }
 }
@@ -65,24 +67,24 @@ pub struct ModeError {
 }
 
 /// The errors of every test mode, whose squares (5) and (6) add up.
-pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Vec<ModeError> {
+///
+/// # Errors
+/// [`Error::WrongShape`], [`Error::TooMany`] for modes other than those paired; [`Error::NotFinite`] for frequencies so far
+/// apart, or shapes so small, that their squares are no number.
+pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Vec<ModeError>, Error> {
+    check_shape("test mode shapes", &test.shapes, analysis.shapes.nrows(), test.len())?;
+    pairing.check(analysis, test.len())?;
     let mut difference = DVector::zeros(test.shapes.nrows());
-    (0..test.len()).map(|j| mode_error(analysis, pairing, test, j, &mut difference)).collect()
-}
-
-fn mode_error(
-    analysis: &ModeSet,
-    pairing: &Pairing,
-    test: &ModeSet,
-    j: usize,
-    difference: &mut DVector<f64>,
-) -> ModeError {
-    let i = pairing.analysis_mode[j];
-    let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
-    let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
-    unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
-    let mean_square = difference.norm_squared() / difference.len() as f64;
-    ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
+    let of_mode = |(j, &i): (usize, &usize)| {
+        let ratio = (analysis.omega_squared[i] / test.omega_squared[j]).sqrt();
+        let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
+        unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
+        let mean_square = difference.norm_squared() / difference.len() as f64;
+        ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
+    };
+    let errors: Vec<ModeError> = pairing.analysis_mode.iter().enumerate().map(of_mode).collect();
+    let value: f64 = errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum();
+    if value.is_finite() { Ok(errors) } else { Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value }) }
 }
 
 /// SRSS errors of the paired analysis modes against the test modes.
@@ -93,15 +95,13 @@ fn mode_error(
 /// with every shape scaled to unit largest component and the analysis shape signed like its test mode. The
 /// frequency error is relative: the paper prints a difference but its tables hold the relative one
 /// (`paper/errata.md`).
-pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Errors {
-    let (mut frequency, mut shape) = (0.0, 0.0);
-    let mut difference = DVector::zeros(test.shapes.nrows());
-    for j in 0..test.len() {
-        let error = mode_error(analysis, pairing, test, j, &mut difference);
-        frequency += error.frequency.powi(2);
-        shape += error.shape.powi(2);
-    }
-    Errors { frequency: frequency.sqrt(), shape: shape.sqrt(), mode_count: test.len() }
+///
+/// # Errors
+/// Those of [`mode_errors`].
+pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Errors, Error> {
+    let each = mode_errors(analysis, pairing, test)?;
+    let srss = |of: fn(&ModeError) -> f64| each.iter().map(|error| of(error).powi(2)).sum::<f64>().sqrt();
+    Ok(Errors { frequency: srss(|error| error.frequency), shape: srss(|error| error.shape), mode_count: each.len() })
 }
 
 /// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.

@@ -115,7 +115,7 @@ pub struct InnerRun {
 ///
 /// # Errors
 /// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
-/// do not match the parameters; those of [`error_changes`]. A trial step too far for the perturbation (modes that
+/// do not match the parameters; those of [`error_changes`] and [`stiffness_changes`]. A trial step too far for the perturbation (modes that
 /// coalesce, a lost root, roots that do not settle) is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
 /// [`Error::UnsettledRoots`] is returned when that is so of the first step and of every one of its halvings.
 pub fn run(
@@ -130,9 +130,8 @@ pub fn run(
     Range::positive("factor limits", settings.factor_range.lower, settings.factor_range.upper)?;
     check_length("parameter factors", base.len(), model.shares.len())?;
     check_length("parameter limits", total_ranges.len(), model.shares.len())?;
-    for range in total_ranges.iter().flatten() {
-        Range::positive("parameter limits", range.lower, range.upper)?;
-    }
+    let is_range = |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
+    total_ranges.iter().flatten().try_for_each(is_range)?;
     let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
     let start = state.errors;
     let scale = settings.measure.scale(model.test.len());
@@ -143,7 +142,7 @@ pub fn run(
             break Stop::Iterations;
         }
         let changes = error_changes(model, &state, settings.derivatives)?;
-        let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step);
+        let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step)?;
         let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
         let unlimited = unlimited_factors(&changes, &stiffnesses, scale * state.errors.sum(), relaxation);
         if iterations.is_empty() {

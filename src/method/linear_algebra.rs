@@ -63,11 +63,13 @@ pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), 
 }
 
 /// Hands on a matrix whose entries are all finite.
-///
-/// # Errors
-/// [`Error::NotFinite`].
 pub(crate) fn finite(what: &'static str, matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_finite(what, &matrix).map(|()| matrix)
+}
+
+/// The same of a list.
+pub(crate) fn finite_list(what: &'static str, list: Vec<f64>) -> Result<Vec<f64>, Error> {
+    finite(what, DMatrix::from_vec(list.len(), 1, list)).map(|list| list.data.into())
 }
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
@@ -104,7 +106,7 @@ pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) 
 /// entries in a row. `product` is $A x$ and `solve` $A^{-1} b$.
 ///
 /// # Errors
-/// [`Error::WrongSolution`].
+/// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
 pub fn check_solution(
     what: &'static str,
     product: impl Fn(&DVector<f64>) -> DVector<f64>,
@@ -113,6 +115,7 @@ pub fn check_solution(
 ) -> Result<(), Error> {
     let loads = product(probe);
     let found = solve(&loads);
+    check_length(what, found.len(), probe.len())?;
     let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
     let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
     let (residual, allowed) = (residual / size, allowed / size);

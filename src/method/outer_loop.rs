@@ -76,7 +76,8 @@ impl Correlation {
     /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
     /// improved on the start.
     pub fn best_factors(&self) -> Vec<f64> {
-        self.best.map_or_else(|| vec![1.0; self.parameter_count], |pass| self.passes[pass].factors.clone())
+        let best = self.best.and_then(|pass| self.passes.get(pass));
+        best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
     }
 }
 
@@ -90,10 +91,26 @@ impl Correlation {
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
 pub fn correlate<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
+) -> Result<Correlation, E> {
+    correlate_while(analyze, total_ranges, settings, |number, pass| {
+        progress(number, pass);
+        true
+    })
+}
+
+/// The same, ended after a pass for which `progress` returns false: what was found until then is kept.
+///
+/// # Errors
+/// Those of [`correlate`].
+pub(crate) fn correlate_while<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    total_ranges: &[Option<Range>],
+    settings: &Settings,
+    mut progress: impl FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
     positive_setting("later_inner_tolerance", settings.later_inner_tolerance)?;
     positive_setting("error_sum_tolerance", settings.error_sum_tolerance)?;
@@ -102,6 +119,7 @@ pub fn correlate<E: From<Error>>(
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
     check_length("parameter factors", total_ranges.len(), model.shares.len())?;
+    model.check()?;
     let (test, initial) = (model.test.clone(), model.exact.clone());
     let seen: Vec<f64> = model.test_shares.iter().map(|share| share.diagonal().amax()).collect();
     let mut passes: Vec<Pass> = Vec::new();
@@ -120,27 +138,25 @@ pub fn correlate<E: From<Error>>(
         model = analyze(&factors)?;
         let pass = Pass { check: model.exact.clone(), factors: factors.clone(), inner };
         converged = meets(&pass.check.errors, settings);
-        progress(passes.len() + 1, &pass);
-        let stuck = pass.inner.iterations.is_empty();
+        let goes_on = progress(passes.len() + 1, &pass) && !pass.inner.iterations.is_empty();
         passes.push(pass);
-        if stuck {
+        if !goes_on {
             break;
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
     // The start stands before the passes. Whether it is within tolerance comes before how large its error sum is.
-    let checks = std::iter::once(&initial).chain(passes.iter().map(|pass| &pass.check));
-    let place = |(_, check): &(usize, &Check)| (!meets(&check.errors, settings), check.errors.sum());
-    let better = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
-    let best = checks.enumerate().min_by(|a, b| better(&place(a), &place(b))).map_or(0, |(row, _)| row);
-    let check = if best == 0 { &initial } else { &passes[best - 1].check };
     let ones = vec![1.0; total_ranges.len()];
-    let factors = if best == 0 { &ones } else { &passes[best - 1].factors };
+    let checks = passes.iter().enumerate().map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
+    let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
+    let better = |a: (bool, f64), b: (bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_lt();
+    let (best, check, factors) = checks
+        .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
     let converged = meets(&check.errors, settings);
-    let errors = mode_errors(&check.modes, &check.pairing, &test);
+    let errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let verdict = Verdict::new(&passes, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
     let parameter_count = total_ranges.len();
-    Ok(Correlation { parameter_count, initial, passes, best: best.checked_sub(1), converged, verdict })
+    Ok(Correlation { parameter_count, initial, passes, best, converged, verdict })
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.

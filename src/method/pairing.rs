@@ -1,7 +1,7 @@
 //! Pairing (4), which the paper calls mode sorting: which analysis mode answers which test mode.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};
 use crate::method::modes::{ModeSet, check_count};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
@@ -13,6 +13,17 @@ pub struct Pairing {
     pub analysis_mode: Vec<usize>,
     /// For each test mode, +1 or −1: the sign that turns the analysis shape its way.
     pub sign: Vec<f64>,
+}
+
+impl Pairing {
+    /// Refuses analysis modes other than those paired, and another number of test modes.
+    pub(crate) fn check(&self, analysis: &ModeSet, test_count: usize) -> Result<(), Error> {
+        check_shape("analysis mode shapes", &analysis.shapes, analysis.shapes.nrows(), analysis.len())?;
+        check_length("paired modes", self.analysis_mode.len(), test_count)?;
+        check_length("signs of paired modes", self.sign.len(), test_count)?;
+        let place = |&mode: &usize| check_count("paired analysis modes", mode.saturating_add(1), analysis.len());
+        self.analysis_mode.iter().try_for_each(place)
+    }
 }
 
 /// Cross-orthogonality $m = V_F^t M V_G$ (4), analysis modes by test modes (n × g).
@@ -33,7 +44,7 @@ pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f6
 ///
 /// # Errors
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotFinite`].
-pub fn cosines(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub(crate) fn cosines(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     let unit = |shapes: &DMatrix<f64>| {
         let mut unit = shapes.clone();
@@ -99,10 +110,14 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
 }
 
 /// The paired analysis modes, in the order and with the signs of the test modes.
-pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> ModeSet {
+///
+/// # Errors
+/// [`Error::WrongShape`], [`Error::TooMany`] for a pairing of other modes; [`Error::NotFinite`].
+pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> Result<ModeSet, Error> {
+    pairing.check(analysis, pairing.sign.len())?;
     let mut paired = analysis.select(&pairing.analysis_mode);
     for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&pairing.sign) {
         shape *= sign;
     }
-    paired
+    Ok(ModeSet { shapes: finite("paired mode shapes", paired.shapes)?, ..paired })
 }

@@ -4,7 +4,7 @@ use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{eigensolution, normalize_with_mass, recursive_1_converged};
 use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
-use crate::method::linear_algebra::check_length;
+use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
@@ -57,6 +57,16 @@ impl ModalState {
         }
     }
 
+    /// Refuses a state of another model, or whose parts do not fit together.
+    pub(crate) fn check(&self, model: &ModalModel) -> Result<(), Error> {
+        model.check()?;
+        let count = model.exact.modes.len();
+        check_length("parameter factors", self.factors.len(), model.shares.len())?;
+        check_shape("shapes of the state", &self.modes.shapes, model.test.shapes.nrows(), count)?;
+        check_shape("generalized shapes", &self.generalized_shapes, count, count)?;
+        self.pairing.check(&self.modes, model.test.len())
+    }
+
     /// Whether these are the exact modes themselves, before any change.
     pub fn is_exact(&self) -> bool {
         self.factors.iter().all(|&factor| factor == 1.0)
@@ -67,10 +77,11 @@ impl ModalState {
     /// $$ \beta = \sum_{stiffness} (c_e - 1) V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1) V^t M_e V $$
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is one factor per parameter; those of the rule's own function:
+    /// [`Error::WrongShape`] unless there is one factor per parameter and the model is whole; those of the rule's own function:
     /// [`recursive_1_converged`], [`general::recursive_1_converged`] with changes of mass, [`eigensolution`]; those of
     /// [`normalize_with_mass`].
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
+        model.check()?;
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let exact = &model.exact.modes;
         let count = exact.len();
@@ -96,7 +107,7 @@ impl ModalState {
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = (model.pair)(&shapes.tr_mul(&model.cross))?;
         let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &exact.shapes * &shapes };
-        let errors = errors(&modes, &pairing, &model.test);
+        let errors = errors(&modes, &pairing, &model.test)?;
         Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })
     }
 }

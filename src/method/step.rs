@@ -1,6 +1,8 @@
 //! The step (13): from derivatives to stiffness change factors, and the bounds that limit them.
 
 use crate::method::derivatives::DERIVATIVE_STEP;
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_length, finite_list};
 use crate::method::model::{ModalModel, Range};
 use serde::{Deserialize, Serialize};
 
@@ -38,15 +40,20 @@ pub enum StepRule {
 /// $\Delta k_e$ of every parameter for a change of 0.1 % (12), dimensionless.
 ///
 /// The parameters stand at `share_factors` on the model's shares and at `size_factors` on its gages.
+///
+/// # Errors
+/// [`Error::WrongShape`] when the lists do not match the parameters, or the model's parts each other; [`Error::NotFinite`].
 pub fn stiffness_changes(
     model: &ModalModel,
     share_factors: &[f64],
     size_factors: &[f64],
     error_changes: &[f64],
     rule: StepRule,
-) -> Vec<f64> {
-    let slopes = error_changes.iter().map(|change| change / DERIVATIVE_STEP);
-    let squared_slopes: f64 = slopes.map(|slope| slope * slope).sum();
+) -> Result<Vec<f64>, Error> {
+    model.check()?;
+    let is_whole = |list: &&[f64]| check_length("parameter factors or changes", list.len(), model.shares.len());
+    [share_factors, size_factors, error_changes].iter().try_for_each(is_whole)?;
+    let squared_slopes: f64 = error_changes.iter().map(|change| (change / DERIVATIVE_STEP).powi(2)).sum();
     let of_parameter = |e: usize| match rule {
         StepRule::Matrix => share_factors[e] * model.test_shares[e].norm(),
         StepRule::Own => share_factors[e] * model.test_shares[e].diagonal().norm(),
@@ -55,7 +62,8 @@ pub fn stiffness_changes(
         StepRule::Sum => share_factors[e] * model.test_shares[e].trace(),
         StepRule::SteepestDescent => squared_slopes,
     };
-    (0..model.shares.len()).map(|e| DERIVATIVE_STEP * of_parameter(e)).collect()
+    let changes = (0..model.shares.len()).map(|e| DERIVATIVE_STEP * of_parameter(e)).collect();
+    finite_list("changes of stiffness", changes)
 }
 
 /// Unlimited stiffness change factors by (13).

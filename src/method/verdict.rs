@@ -48,8 +48,7 @@ pub struct Verdict {
 
 impl Verdict {
     /// The verdict on a correlation that made `passes` and is best at `factors`, where the test modes have the error sum and
-    /// `errors`; `seen` is
-    /// the largest part of a test mode that each parameter had at first.
+    /// `errors`; `seen` is the largest part of a test mode that each parameter had at first.
     pub(crate) fn new(
         passes: &[Pass],
         (error_sum, errors): (f64, &[ModeError]),
@@ -94,11 +93,9 @@ impl Verdict {
             Outcome::Tolerance => "Within tolerance".to_owned(),
             Outcome::LocalMinimum => format!("Stopped at a local minimum, {within}"),
             Outcome::Cap => "Stopped by the number of iterations or passes allowed, outside tolerance".to_owned(),
-            Outcome::Nothing => {
-                "Nothing could be done, outside tolerance: no step from the first model lowers the error \
-                                 sum, or none was allowed"
-                    .to_owned()
-            }
+            Outcome::Nothing => "Nothing could be done, outside tolerance: no step from the first model lowers the \
+                                 error sum, or none was allowed"
+                .to_owned(),
         };
         words += &format!(
             ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",

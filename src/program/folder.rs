@@ -3,16 +3,17 @@
 //! New files are written in a hidden folder inside the folder itself. Each place of the set then becomes a symbolic
 //! link through one link to the old files, that one link is turned to the new ones, and each file takes its link's
 //! place: only the middle step, a single rename, changes what is read. What a stopped run leaves, in the hidden folder
-//! alone, the next run settles first. Other files, folders and the folder itself are not touched.
+//! alone, the next run settles first. Other files, folders and the folder itself are not touched. What a step needs is
+//! on the disk before it, so that the same holds when the machine stops.
 //!
 //! Where there are no symbolic links, files are replaced one by one.
 
-use super::place::{as_old, old_file, probe};
+use super::place::{as_old, old_file, probe, sync, sync_folder};
 use super::signals;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use std::fs::{self, File};
-use std::io::{Error, ErrorKind, Result};
+use std::io::{Error, ErrorKind, Result, Write};
 use std::path::Path;
 
 /// The hidden folder, and in it the link that is turned and the folders it leads to.
@@ -67,9 +68,11 @@ fn stage(folder: &Path, files: &[(String, String)], mut says: impl FnMut(&Path))
         }
         let old = old_file(&path)?;
         let new = stage.join(NEW).join(name);
-        fs::write(&new, text)?;
+        let mut file = File::create(&new)?;
+        file.write_all(text.as_bytes())?;
         // Another's file becomes one's own where it cannot stay the other's.
-        let _ = old.map(|old| as_old(&File::open(new)?, &old));
+        let _ = old.map(|old| as_old(&file, &old));
+        sync(&file)?;
     }
     Ok(())
 }
@@ -87,13 +90,18 @@ fn switch(folder: &Path, files: &[(String, String)]) -> Result<()> {
     for (name, _) in files {
         let (path, old) = (folder.join(name), stage.join(OLD).join(name));
         if path.exists() && fs::hard_link(&path, &old).is_err() {
-            fs::copy(&path, &old)?;
+            fs::copy(&path, &old).and_then(|_| File::open(&old)?.sync_all())?;
         }
-        link(&format!("{STAGE}/{CURRENT}/{name}"), &next)?;
-        fs::rename(&next, path)?;
     }
+    [&stage.join(OLD), &stage.join(NEW), &stage, folder].into_iter().for_each(|folder| sync_folder(folder));
+    for (name, _) in files {
+        link(&format!("{STAGE}/{CURRENT}/{name}"), &next)?;
+        fs::rename(&next, folder.join(name))?;
+    }
+    sync_folder(folder);
     link(NEW, &next)?;
     fs::rename(next, current)?;
+    sync_folder(&stage);
     settle(folder)
 }
 
@@ -115,6 +123,7 @@ fn settle(folder: &Path) -> Result<()> {
             }
         }
     }
+    sync_folder(folder);
     fs::remove_dir_all(stage)
 }
 

@@ -124,21 +124,37 @@ fn to(mut out: impl Write, text: &str) -> io::Result<()> {
     }
 }
 
-/// Puts a new file in the place of the old one, with its owner and mode. One that cannot be replaced, because its
-/// folder takes no files or it is mounted or another's, is written over where it stands.
+/// Puts a new file that is on the disk in the place of the old one, with its owner and mode. One that cannot be replaced,
+/// because its folder takes no files or it is mounted or another's, is written over where it stands.
 fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
     let mut staged = match new_file_beside(path) {
-        Err(_) if old.is_some() => return to(File::create(path)?, text),
+        Err(_) if old.is_some() => return write_over(path, text),
         staged => staged?,
     };
     staged.write_all(text.as_bytes())?;
     if old.is_some_and(|old| as_old(staged.as_file(), old).is_err()) {
-        return to(File::create(path)?, text);
+        return write_over(path, text);
     }
+    sync(staged.as_file())?;
     match staged.persist(path) {
-        Err(_) if old.is_some() => to(File::create(path)?, text),
-        done => Ok(done.map(drop)?),
+        Err(_) if old.is_some() => write_over(path, text),
+        done => done.map(drop).map_err(io::Error::from).map(|()| sync_folder(path.parent().unwrap_or(path))),
     }
+}
+
+fn write_over(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(text.as_bytes()).and_then(|()| sync(&file))
+}
+
+/// Waits until a file is on the disk, where there is one: files of the system itself have none.
+pub fn sync(file: &File) -> io::Result<()> {
+    file.sync_all().or_else(|error| if error.kind() == ErrorKind::InvalidInput { Ok(()) } else { Err(error) })
+}
+
+/// Waits until the names in a folder are on the disk, where the platform can say so.
+pub fn sync_folder(folder: &Path) {
+    let _ = File::open(folder.join(".")).and_then(|folder| folder.sync_all());
 }
 
 /// A file with a name of its own, with the rights that any new file has.

@@ -185,7 +185,7 @@ fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
 fn frequency_errors(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, truth: &Modes) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
-    let pairs = paired(&modes, &pairing).frequencies_hz();
+    let pairs = paired(&modes, &pairing)?.frequencies_hz();
     let errors = pairs.iter().zip(truth.frequencies_hz());
     Ok(errors.map(|(found, truth)| found / truth - 1.0).collect())
 }

@@ -30,7 +30,7 @@ impl MassDof {
     /// [`Error::Empty`] when no element has a density.
     pub fn of_elements(structure: &Structure, elements: &[ElementMatrix], sizes: &[f64]) -> Result<Self, Error> {
         let free = structure.free_dof();
-        let lumped = lumped_mass(elements, sizes, free.len());
+        let lumped = lumped_mass(elements, sizes, free.len())?;
         let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
         if rows.is_empty() {
             return Err(Error::Empty { what: "degrees of freedom with mass" });

@@ -3,9 +3,14 @@
 use super::draws::Draws;
 use corfem::closed_forms::spring_chain::spring_stiffness;
 use corfem::method::appendix_c::general::ModalChange;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::assembly::{ElementMatrix, element_matrices};
+use corfem::method::error::Error;
+use corfem::method::error_sum::Errors;
+use corfem::method::model::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Range, Scaled, Share};
 use corfem::method::modes::{ModeSet, solve};
-use corfem::method::structure::Material;
+use corfem::method::pairing::Pairing;
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Numbers that break things: zeros, ends of the range, and what is no number.
@@ -125,5 +130,145 @@ impl Draws {
         let size = self.size();
         let (alpha, beta, length) = (self.symmetric(size), self.symmetric(size), self.about(size));
         ModalChange::of_vibrations(&self.vector(length), beta, alpha)
+    }
+
+    /// A pairing of so many test modes with analysis modes, or of others.
+    pub fn pairing(&mut self, test: usize, analysis: usize) -> Pairing {
+        let (modes, signs) = (self.about(test), self.about(test));
+        let outside = self.below(8) / 7;
+        let analysis_mode = (0..modes).map(|_| self.below(analysis + outside)).collect();
+        Pairing {
+            analysis_mode,
+            sign: (0..signs).map(|_| if self.below(9) == 0 { self.number() } else { 1.0 }).collect(),
+        }
+    }
+
+    /// Analysis modes, test modes and what pairs them.
+    pub fn compared(&mut self) -> (ModeSet, Pairing, ModeSet) {
+        let size = self.size();
+        let (analysis, test) = (self.modes(size), self.modes(size));
+        let pairing = self.pairing(test.len(), analysis.len());
+        (analysis, pairing, test)
+    }
+
+    /// Errors of any number of modes, none included.
+    pub fn errors(&mut self) -> Errors {
+        Errors { frequency: self.unit(), shape: self.unit(), mode_count: self.size() }
+    }
+
+    /// A chain's modal model of which a part may have been changed to what does not fit the others.
+    pub fn bent_chain(&mut self) -> Result<ModalModel, Error> {
+        let mut model = self.chain().ok_or(Error::Empty { what: "chains" })?;
+        let (count, size) = (self.size(), self.size());
+        match self.below(16) {
+            0 => model.test = self.modes(size),
+            1 => model.cross = self.matrix(count, size),
+            2 => model.exact.pairing = self.pairing(count, size),
+            3 => model.shares = self.shares(size),
+            4 => model.test_shares = (0..count).map(|_| self.symmetric(size)).collect(),
+            5 => model.sizes = self.list(count),
+            6 => (model.exact.errors.frequency, model.exact.errors.shape) = (self.number(), self.number()),
+            7 => model.exact.modes = self.chain().ok_or(Error::Empty { what: "chains" })?.exact.modes,
+            8 => model.test.omega_squared = self.vector(model.test.len()),
+            _ => {}
+        }
+        Ok(model)
+    }
+
+    /// A state of a model, or one that is none of it.
+    pub fn state(&mut self, model: &ModalModel) -> ModalState {
+        let factors = if self.below(2) == 0 { vec![1.0; model.shares.len()] } else { vec![1.1; model.shares.len()] };
+        let start = ModalState::start(model);
+        let mut state = ModalState::at(model, factors, UpdateRule::Eigensolution).unwrap_or(start);
+        let (count, size) = (self.size(), self.size());
+        match self.below(12) {
+            0 => state.factors = self.list(count),
+            1 => state.modes = self.modes(size),
+            2 => state.generalized_shapes = self.symmetric(size),
+            3 => state.pairing = self.pairing(count, size),
+            4 => (state.errors.frequency, state.errors.shape) = (self.number(), self.number()),
+            5 => state.modes.shapes *= self.number(),
+            6 => state.modes.omega_squared *= self.number(),
+            _ => {}
+        }
+        state
+    }
+
+    /// Four grids, two of them held, and rods and panels between them.
+    pub fn structure(&mut self) -> Result<Structure, Error> {
+        let held = [[true; 3], [true; 3], [false, false, true], [false, false, true]];
+        let place = |(row, position)| Grid { label: row + 1, position, constrained: held[row] };
+        let mut grids: Vec<Grid> = self.corners().into_iter().enumerate().map(place).collect();
+        if self.below(8) == 0 {
+            grids[self.size() % 4].constrained = [self.below(2) == 0; 3];
+        }
+        let rods = [[1, 3], [2, 3], [2, 4], [1, 4], [3, 4]];
+        let mut elements: Vec<Element> = Vec::new();
+        for (row, ends) in rods.iter().enumerate() {
+            let material = if self.below(8) == 0 { self.material() } else { Material::isotropic(1e7, 0.3)? };
+            let size = if self.below(16) == 0 { self.number() } else { 0.5 };
+            elements.push(Element { label: row + 1, kind: ElementKind::Rod, grids: ends.to_vec(), size, material });
+        }
+        if self.below(2) == 0 {
+            let panel = [ElementKind::Membrane, ElementKind::ShearPanel][self.below(2)];
+            let material = Material::isotropic(1e7, 0.3)?.with_density(3e-4)?;
+            elements.push(Element { label: 6, kind: panel, grids: vec![1, 2, 3, 4], size: 0.1, material });
+        }
+        if self.below(16) == 0 {
+            elements[self.size()].grids = vec![self.size(); self.size()];
+        }
+        Structure::new(grids, elements)
+    }
+
+    /// Element matrices, their sizes and the DOF they belong to, of which a part may not fit the others.
+    pub fn elements(&mut self) -> Result<(Vec<ElementMatrix>, Vec<f64>, Vec<StructuralDof>), Error> {
+        let structure = self.structure()?;
+        let mut elements = element_matrices(&structure)?;
+        let mut free = structure.free_dof().to_vec();
+        let count = self.about(elements.len());
+        let sizes = (0..count).map(|_| if self.below(16) == 0 { self.number() } else { 0.5 }).collect();
+        let (row, size) = (self.below(elements.len()), self.size());
+        match self.below(12) {
+            0 => elements[row].dof = vec![self.size(); size],
+            1 => elements[row].unit = self.symmetric(size),
+            2 => elements[row].unit_mass = self.vector(size),
+            3 => elements[row].unit *= self.number(),
+            4 => free.truncate(size),
+            5 => free.iter_mut().for_each(|dof| dof.direction += size),
+            6 => elements.truncate(size),
+            7 => elements[row].dof.iter_mut().for_each(|dof| *dof = usize::MAX - *dof),
+            _ => {}
+        }
+        Ok((elements, sizes, free))
+    }
+
+    /// A selection of DOF, or any matrix.
+    pub fn load_distribution(&mut self, free: usize) -> DMatrix<f64> {
+        let (rows, columns) = (self.about(free), self.size());
+        if self.below(4) == 0 { self.matrix(rows, columns) } else { DMatrix::identity(rows, columns.max(1)) }
+    }
+
+    /// Parameters of every sort, with members and bounds that may not be.
+    pub fn parameters(&mut self) -> Vec<Parameter> {
+        let parameter = |draws: &mut Self, place: usize| {
+            let scaled = [Scaled::Stiffness, Scaled::Stiffness, Scaled::ElementMass, Scaled::PointMass][draws.below(4)];
+            let member = if draws.below(6) == 0 { draws.below(8) } else { place + usize::from(place == 0) };
+            let mut range = || (draws.below(3) == 0).then(|| Range { lower: draws.number(), upper: draws.number() });
+            let (size_range, factor_range) = (range(), range());
+            Parameter { size_range, factor_range, ..Parameter::of("drawn", scaled, &[member]) }
+        };
+        (0..1 + self.below(2)).map(|place| parameter(self, 2 * place)).collect()
+    }
+
+    /// A finite element model, and factors for its parameters or for others.
+    pub fn finite_element(&mut self) -> Result<(FiniteElementModel, Vec<f64>), Error> {
+        let structure = self.structure()?;
+        let load_distribution = self.load_distribution(structure.free_dof().len());
+        let points = load_distribution.ncols();
+        let mass = if self.below(4) == 0 { self.symmetric(points) } else { 0.01 * DMatrix::identity(points, points) };
+        let parameters = self.parameters();
+        let count = self.about(parameters.len());
+        let factors = if self.below(2) == 0 { vec![1.1; count] } else { self.list(count) };
+        Ok((FiniteElementModel::new(structure, load_distribution, mass, parameters)?, factors))
     }
 }

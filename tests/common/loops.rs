@@ -158,7 +158,7 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
     };
     let asks = |(totals, state): &Place, relaxation: f64| {
         let errors = error_changes(problem, state, settings.derivatives).expect("separate modes");
-        let stiffnesses = stiffness_changes(problem, &state.factors, totals, &errors, settings.step);
+        let stiffnesses = stiffness_changes(problem, &state.factors, totals, &errors, settings.step).unwrap();
         let sum = scale * state.errors.sum();
         let unlimited = unlimited_factors(&errors, &stiffnesses, sum, relaxation);
         ((errors, stiffnesses), unlimited)

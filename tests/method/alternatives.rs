@@ -93,7 +93,7 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
             normalize_with_mass(&mut shapes, &DMatrix::zeros(k.len(), k.len())).unwrap();
             let pairing = pair_modes(&shapes.tr_mul(&problem.cross)).unwrap();
             let modes = ModeSet { omega_squared: roots.map(f64::recip), shapes: &problem.exact.modes.shapes * shapes };
-            let sum = errors(&modes, &pairing, &problem.test).sum();
+            let sum = errors(&modes, &pairing, &problem.test).unwrap().sum();
             (sum - run.last.errors.sum()).abs()
         };
         let first = distance(first_order(k, &beta));

@@ -70,7 +70,7 @@ fn roots_of_b_7_are_squared_circular_frequencies() {
     let raw = ModeSet { omega_squared: dvector![100.0, 400.0], shapes: dmatrix![2.0, 0.3; 0.0, 1.0] };
     let mass = DMatrix::from_diagonal(&dvector![1.0, 3.0]);
     let modes = orthogonalize(&raw, &mass).expect("independent shapes").modes;
-    let m = generalized_mass(&raw.shapes, &mass);
+    let m = generalized_mass(&raw.shapes, &mass).unwrap();
     let q = raw.shapes.clone().try_inverse().expect("independent shapes") * &modes.shapes;
     let right_side = |lambda: &DVector<f64>| {
         let inverse = lambda.component_mul(&m.diagonal()).map(f64::recip);
@@ -107,7 +107,7 @@ fn printed_step_is_the_change_of_the_factor_not_the_factor() {
     let problem = first_problem(2);
     let state = ModalState::start(&problem);
     let errors = by_definition(&problem, &state).expect("separate modes");
-    let stiffness = stiffness_changes(&problem, &[1.0; 15], &[1.0; 15], &errors, StepRule::Own);
+    let stiffness = stiffness_changes(&problem, &[1.0; 15], &[1.0; 15], &errors, StepRule::Own).unwrap();
     let error_sum = state.errors.sum();
     let factors = unlimited_factors(&errors, &stiffness, error_sum, 0.8);
     let e_s_after = |factors: Vec<f64>| {

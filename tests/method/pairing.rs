@@ -89,7 +89,7 @@ proptest! {
         let analysis = chain.modes(&factors);
         let paired = |analysis: &ModeSet, test: &ModeSet| {
             let cross = cross_orthogonality(analysis, test, &chain.mass()).unwrap();
-            paired(analysis, &pair_modes(&cross).unwrap())
+            paired(analysis, &pair_modes(&cross).unwrap()).unwrap()
         };
         let expected = paired(&analysis, &test);
         prop_assert_eq!(expected.shapes.shape(), (5, 5));
@@ -189,7 +189,7 @@ fn cross_orthogonality_by_hand() {
 fn paired_by_hand() {
     let analysis = ModeSet { omega_squared: dvector![1.0, 4.0, 9.0], shapes: dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0] };
     let pairing = Pairing { analysis_mode: vec![2, 0], sign: vec![-1.0, 1.0] };
-    let paired = paired(&analysis, &pairing);
+    let paired = paired(&analysis, &pairing).unwrap();
     assert_eq!(paired.omega_squared, dvector![9.0, 1.0]);
     assert_eq!(paired.shapes, dmatrix![-3.0, 1.0; -6.0, 4.0]);
 }

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 fn changes(model: &ModalModel, rule: StepRule) -> Vec<f64> {
     let ones = vec![1.0; model.shares.len()];
-    stiffness_changes(model, &ones, &ones, &vec![0.0; ones.len()], rule)
+    stiffness_changes(model, &ones, &ones, &vec![0.0; ones.len()], rule).unwrap()
 }
 
 /// A structure of one mass a DOF, elements k aaᵗ with a vector each, and factors on them that the test has.

@@ -54,8 +54,8 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
     let found = chain_with(|settings| settings.inner.iterations = 2);
     let best = found.best.map_or(&found.initial, |pass| &found.passes[pass].check);
     let test = Chain::uniform(3).modes(&TRUTH);
-    let each = mode_errors(&best.modes, &best.pairing, &test);
-    let whole = errors(&best.modes, &best.pairing, &test);
+    let each = mode_errors(&best.modes, &best.pairing, &test).unwrap();
+    let whole = errors(&best.modes, &best.pairing, &test).unwrap();
     let sum =
         |of: fn(&corfem::method::error_sum::ModeError) -> f64| each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt();
     assert!((sum(|e| e.frequency) - whole.frequency).abs() <= ROUND_OFF);

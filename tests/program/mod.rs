@@ -5,6 +5,7 @@ pub mod cli_check;
 pub mod cli_comparisons;
 pub mod cli_settings;
 pub mod cli_pictures;
+pub mod cli_places;
 pub mod cli_streams;
 pub mod cli_tables;
 pub mod deck_cli;

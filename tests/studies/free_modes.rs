@@ -103,7 +103,7 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
     let (elements, count) = (element_matrices(&free).expect("matrices"), free.free_dof().len());
     let sizes: Vec<f64> = free.elements().iter().map(|element| element.size).collect();
     let stiffness = dense_stiffness(&elements, &sizes, count).expect("a stiffness");
-    let lumped = lumped_mass(&elements, &sizes, count);
+    let lumped = lumped_mass(&elements, &sizes, count).expect("masses");
     let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).expect("modes");
     let heavy = lumped.iter().filter(|mass| **mass > 0.0).count();
     assert_eq!(found.rigid_body.ncols() + found.vibrations.len(), heavy);

@@ -180,7 +180,7 @@ impl BulkData {
         elements: &[ElementMatrix],
     ) -> Result<Vec<MovingMass>, FileError> {
         let free = structure.free_dof();
-        let lumped = lumped_mass(elements, &self.sizes(), free.len());
+        let lumped = lumped_mass(elements, &self.sizes(), free.len())?;
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
         let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {

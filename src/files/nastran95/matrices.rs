@@ -79,7 +79,7 @@ pub(super) fn check_assembled(model: &FiniteElementModel, factors: &[f64], answe
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
     let t = model.load_distribution();
-    let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len());
+    let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len())?;
     let mass = t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();

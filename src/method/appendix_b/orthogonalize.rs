@@ -2,7 +2,7 @@
 
 use super::checked_generalized_masses;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{cholesky, symmetric_part};
+use crate::method::linear_algebra::{check_shape, cholesky, finite, symmetric_part};
 use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{pair_modes, paired};
 use nalgebra::DMatrix;
@@ -37,8 +37,12 @@ pub struct Orthogonalized {
 
 /// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
 /// are the integrals of (B.5), which vanish for orthogonal modes.
-pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
-    shapes.tr_mul(&(mass * shapes))
+///
+/// # Errors
+/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotFinite`].
+pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
+    finite("generalized mass", shapes.tr_mul(&(mass * shapes)))
 }
 
 /// The combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
@@ -61,12 +65,12 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
     for (mut shape, generalized_mass) in unit.column_iter_mut().zip(generalized_masses.iter()) {
         shape /= generalized_mass.sqrt();
     }
-    let mut overlap = symmetric_part(&generalized_mass(&unit, mass));
+    let mut overlap = symmetric_part(&generalized_mass(&unit, mass)?);
     overlap.iter_mut().filter(|entry| entry.abs() < OVERLAP_ROUND_OFF).for_each(|entry| *entry = 0.0);
     cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART)
         .map_err(|error| error.or_dependent("test mode"))?;
     let combined = solve(&DMatrix::from_diagonal(&raw.omega_squared), &overlap, raw.len())?;
-    let combined = paired(&combined, &pair_modes(&combined.shapes.tr_mul(&overlap))?);
+    let combined = paired(&combined, &pair_modes(&combined.shapes.tr_mul(&overlap))?)?;
     let modes = ModeSet { shapes: &unit * combined.shapes, omega_squared: combined.omega_squared };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;

@@ -56,11 +56,8 @@ impl FiniteElementModel {
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
     fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Vec<Share> {
         let structural = &condensed.transformation * shapes;
-        let sum = |rows: &[usize], share_of: &dyn Fn(usize) -> DMatrix<f64>| {
-            let mut sum = DMatrix::zeros(shapes.ncols(), shapes.ncols());
-            rows.iter().for_each(|&row| sum += share_of(row));
-            sum
-        };
+        // A parameter has at least one member.
+        let sum = |rows: &[usize], of: &dyn Fn(usize) -> DMatrix<f64>| rows.iter().map(|&row| of(row)).sum();
         let stiffness = |row| condensed.sizes[row] * generalized_stiffness(&structural, &self.element_matrices[row]);
         let mass = |row| condensed.mass_sizes[row] * generalized_mass(&structural, &self.element_matrices[row]);
         let point_mass = |row| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
@@ -77,7 +74,7 @@ impl FiniteElementModel {
     /// It takes the lowest `analysis_modes` modes, or as many as there are dynamic DOF.
     ///
     /// # Errors
-    /// Those of [`Self::condense`] and [`ModalModel::new`].
+    /// Those of [`Self::condense`] and [`DynamicModel::analyze`].
     pub fn analyze(&self, factors: &[f64], test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);

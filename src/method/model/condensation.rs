@@ -42,7 +42,7 @@ impl FiniteElementModel {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let free = self.structure.free_dof();
         let stiffness = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
-        let lumped = lumped_mass(&self.element_matrices, &mass_sizes, free.len());
+        let lumped = lumped_mass(&self.element_matrices, &mass_sizes, free.len())?;
         let (values, vectors) = symmetric_eigen("point masses", &self.point_masses(factors)?)?;
         let root = vectors * DMatrix::from_diagonal(&values.map(|value| value.max(0.0).sqrt()));
         let heavy: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();

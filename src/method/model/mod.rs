@@ -114,7 +114,7 @@ impl FiniteElementModel {
     }
 
     /// Rows of every parameter's members among the elements or the dynamic DOF.
-    pub fn rows(&self) -> &[Vec<usize>] {
+    pub(crate) fn rows(&self) -> &[Vec<usize>] {
         &self.rows
     }
 
@@ -124,12 +124,14 @@ impl FiniteElementModel {
     /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
         let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
-            if parameter.size_range.is_none() && parameter.factor_range.is_none() {
+            // A mass has no size: its rows may be those of points.
+            let sizes = parameter.size_range.filter(|_| parameter.scaled == Scaled::Stiffness);
+            let own = parameter.factor_range;
+            if sizes.is_none() && own.is_none() {
                 return Ok(None);
             }
-            let own = parameter.factor_range;
             let (mut lower, mut upper) = own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
-            if let Some(range) = parameter.size_range {
+            if let Some(range) = sizes {
                 for &row in rows {
                     let size = self.structure.elements()[row].size;
                     lower = lower.max(range.lower / size);

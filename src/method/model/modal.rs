@@ -6,9 +6,9 @@
 
 use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, symmetric_part};
+use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::pairing::{Pairing, cosines, cross_orthogonality, pair_modes};
+use crate::method::pairing::{Pairing, cosines, cross_orthogonality, pair_modes, paired};
 use crate::method::step::REFERENCE_GAGE;
 use nalgebra::DMatrix;
 
@@ -53,7 +53,8 @@ impl DynamicModel {
     /// The modal model of the lowest `analysis_modes` modes, of all when none are named.
     ///
     /// # Errors
-    /// Those of [`ModalModel::new`]; [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
+    /// Those of [`solve`], [`ModeSet::scaled_with`], [`pair_modes`] and [`errors`]; [`Error::Empty`] without parameters;
+    /// [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
     pub fn analyze(&self, test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
@@ -109,10 +110,7 @@ impl ModalModel {
     ///
     /// `stiffness` (lbf/in) and `mass` (lbf·s²/in) are those of the compared DOF (d × d). The test modes may have any scale.
     /// `shares` returns $V^t K_e V$ or $V^t M_e V$ of every parameter for given shapes (d × m).
-    ///
-    /// # Errors
-    /// Those of [`solve`], [`ModeSet::scaled_with`] and [`pair_modes`]; [`Error::Empty`] without parameters.
-    pub fn new(
+    pub(crate) fn new(
         stiffness: &DMatrix<f64>,
         mass: &DMatrix<f64>,
         test: &ModeSet,
@@ -142,7 +140,7 @@ impl ModalModel {
     ///
     /// # Errors
     /// Those of [`cosines`] and of `pair`; [`Error::Empty`] without parameters.
-    pub fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
+    pub(crate) fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
         let pairing = pair(&cross)?;
         let mut scaled = test.clone();
@@ -180,13 +178,23 @@ impl ModalModel {
             Share::Mass(matrix) => matrix,
         };
         let test_shares = on_test.into_iter().map(relative).collect();
-        let all_hz = modes.frequencies_hz();
-        let frequencies_hz = pairing.analysis_mode.iter().map(|&mode| all_hz[mode]).collect();
-        let errors = errors(&modes, &pairing, &test);
-        // Frequencies so far apart that the square of their ratio is no number.
-        check_finite("error sum", &DMatrix::from_element(1, 1, errors.sum()))?;
+        let frequencies_hz = paired(&modes, &pairing)?.frequencies_hz();
+        let errors = errors(&modes, &pairing, &test)?;
         let exact = Check { modes, pairing, frequencies_hz, errors };
         let sizes = vec![REFERENCE_GAGE; shares.len()];
         Ok(Self { exact, test, cross, pair, shares, test_shares, sizes })
+    }
+
+    /// Refuses a model whose parts do not fit together.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let (count, test_count) = (self.exact.modes.len(), self.test.len());
+        self.exact.pairing.check(&self.exact.modes, test_count)?;
+        check_shape("test mode shapes", &self.test.shapes, self.exact.modes.shapes.nrows(), test_count)?;
+        check_shape("cross-orthogonality", &self.cross, count, test_count)?;
+        check_length("shares on the test shapes", self.test_shares.len(), self.shares.len())?;
+        check_length("parameter sizes", self.sizes.len(), self.shares.len())?;
+        let of = |matrix, size| check_shape("parameter share", matrix, size, size);
+        self.shares.iter().try_for_each(|share| of(share.matrix(), count))?;
+        self.test_shares.iter().try_for_each(|share| of(share, test_count))
     }
 }

@@ -40,7 +40,7 @@ pub struct NodeLines {
 /// [`WrongShape`](crate::method::error::Error::WrongShape) unless the modes have nine DOF.
 pub fn node_lines(planform: Planform, test: &ModeSet, correlation: &Correlation) -> Result<NodeLines, PresentError> {
     let paired = |check: &Check| pairing::paired(&check.modes, &check.pairing);
-    let states = [test.clone(), paired(&correlation.initial), paired(last_check(correlation))];
+    let states = [test.clone(), paired(&correlation.initial)?, paired(last_check(correlation))?];
     check_shape("mode shapes", &test.shapes, 9, test.len())?;
     let state = |modes: &ModeSet, mode: usize| {
         let column = modes.shapes.column(mode);

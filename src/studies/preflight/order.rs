@@ -52,8 +52,8 @@ pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
     };
     for _ in 0..ROUNDS {
         let pairing = look.cross(&test.shapes.select_rows(&order)).and_then(|cross| pair_modes(&cross).ok());
-        let Some(pairing) = pairing else { break };
-        match matched(&unit(paired(&look.analysis, &pairing).shapes), &shapes) {
+        let Some(analysis) = pairing.and_then(|pairing| paired(&look.analysis, &pairing).ok()) else { break };
+        match matched(&unit(analysis.shapes), &shapes) {
             Some(next) if next != order => order = next,
             _ => break,
         }

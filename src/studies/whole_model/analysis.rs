@@ -145,7 +145,7 @@ impl WholeModel {
     /// $B^t$ (DOF × sensors).
     ///
     /// # Errors
-    /// Those of [`Self::at`] and [`condense_deflections`]; [`Error::NotPositiveDefinite`] for a structure that is not held.
+    /// Those of [`Self::at`] and `condense_deflections`; [`Error::NotPositiveDefinite`] for a structure that is not held.
     pub fn condensed(&self, factors: &[f64], sensors: &SparseMatrix) -> Result<(Condensed, DMatrix<f64>), Error> {
         let (stiffness, mass) = self.at(factors)?;
         let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;

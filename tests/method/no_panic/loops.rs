@@ -1,0 +1,132 @@
+//! Errors, states, steps and the loops.
+
+use super::Entry;
+use crate::common::draws::Draws;
+use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, gradient};
+use corfem::method::error::Error;
+use corfem::method::error_sum::{ErrorMeasure, ModeError, errors, mode_errors};
+use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::model::Range;
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::{Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use corfem::method::verdict::{Outcome, Verdict};
+
+pub const LOOPS: &[Entry] = &[
+    ("ModalState::at", |d| {
+        let model = d.bent_chain()?;
+        let count = d.about(model.shares.len());
+        let rule = if d.below(2) == 0 { UpdateRule::Recursive1 } else { UpdateRule::Eigensolution };
+        ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors.sum()])
+    }),
+    ("inner_loop::run", |d| {
+        let model = d.bent_chain()?;
+        let count = d.about(model.shares.len());
+        let base = if d.below(2) == 0 { vec![1.0; count] } else { d.list(count) };
+        let range = |d: &mut Draws| (d.below(2) == 0).then(|| Range { lower: d.number(), upper: d.number() });
+        let ranges: Vec<Option<Range>> = (0..count).map(|_| range(d)).collect();
+        let mut settings = InnerSettings { iterations: d.below(4), halvings: d.below(4), ..InnerSettings::default() };
+        if d.below(2) == 0 {
+            settings = InnerSettings { first_relaxation: d.number(), tolerance: d.number(), ..settings };
+            settings.factor_range = Range { lower: d.number(), upper: d.number() };
+        }
+        run(&model, &base, &ranges, &settings).map(|run| [vec![run.last.errors.sum()], run.factors].concat())
+    }),
+    ("outer_loop::correlate", |d| {
+        let settings = Settings { most_passes: d.below(3), ..Settings::default() };
+        // Half of the models are right ones, so that calls come past the analysis.
+        let found = if d.below(2) == 0 {
+            let model = d.bent_chain()?;
+            let ranges = vec![None; d.about(model.shares.len())];
+            correlate(|_: &[f64]| Ok::<_, Error>(model.clone()), &ranges, &settings, |_, _| {})?
+        } else {
+            let model = d.dynamic();
+            let (test, ranges) = (d.modes(model.mass.nrows()), vec![None; d.about(model.shares.len())]);
+            correlate(|_: &[f64]| model.analyze(&test, None), &ranges, &settings, |_, _| {})?
+        };
+        Ok([found.best_factors(), vec![found.verdict.error_sum]].concat())
+    }),
+    ("step::unlimited_factors", |d| {
+        let count = d.size();
+        let other = d.about(count);
+        unlimited_factors(&d.list(count), &d.list(other), d.number(), d.number());
+        Ok(Vec::new())
+    }),
+    ("step::limited_factor", |d| {
+        let range = Range { lower: d.number(), upper: d.number() };
+        limited_factor(d.number(), d.number(), d.number(), d.number(), range, Some(range));
+        Ok(Vec::new())
+    }),
+    ("Errors::sum", |d| Ok(vec![d.errors().sum()])),
+    ("Errors::frequency_rms", |d| Ok(vec![d.errors().frequency_rms()])),
+    ("Errors::shape_rms", |d| Ok(vec![d.errors().shape_rms()])),
+    ("ErrorMeasure::scale", |d| Ok(vec![ErrorMeasure::NineModes.scale(d.size()), ErrorMeasure::Sum.scale(d.size())])),
+    ("error_sum::mode_errors", |d| {
+        let (analysis, pairing, test) = d.compared();
+        let found = mode_errors(&analysis, &pairing, &test)?;
+        Ok(found.iter().flat_map(|error| [error.frequency, error.shape]).collect())
+    }),
+    ("error_sum::errors", |d| {
+        let (analysis, pairing, test) = d.compared();
+        errors(&analysis, &pairing, &test).map(|found| vec![found.frequency, found.shape])
+    }),
+    ("ModalState::start", |d| {
+        // It copies the model; what is done with it refuses one that is not whole.
+        let model = d.bent_chain()?;
+        ModalState::start(&model);
+        Ok(Vec::new())
+    }),
+    ("ModalState::is_exact", |d| {
+        let model = d.bent_chain()?;
+        d.state(&model).is_exact();
+        Ok(Vec::new())
+    }),
+    ("derivatives::by_definition", |d| {
+        let model = d.bent_chain()?;
+        by_definition(&model, &d.state(&model))
+    }),
+    ("derivatives::gradient", |d| {
+        let model = d.bent_chain()?;
+        gradient(&model, &d.state(&model))
+    }),
+    ("derivatives::error_changes", |d| {
+        let model = d.bent_chain()?;
+        let rule = if d.below(2) == 0 { DerivativeRule::Definition } else { DerivativeRule::Gradient };
+        error_changes(&model, &d.state(&model), rule)
+    }),
+    ("step::stiffness_changes", |d| {
+        let model = d.bent_chain()?;
+        let counts = [(); 3].map(|()| d.about(model.shares.len()));
+        let [shares, sizes, changes] = counts.map(|count| d.list(count));
+        let rules = [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage, StepRule::Sum];
+        let rule = rules.get(d.below(6)).copied().unwrap_or(StepRule::SteepestDescent);
+        stiffness_changes(&model, &shares, &sizes, &changes, rule)
+    }),
+    ("Accumulation::next_share_factor", |d| {
+        for accumulation in [Accumulation::Sum, Accumulation::Product] {
+            accumulation.next_share_factor(d.number(), d.number(), d.number());
+        }
+        Ok(Vec::new())
+    }),
+    ("Correlation::best_factors", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let (settings, ranges) = (Settings { most_passes: 1, ..Settings::default() }, vec![None; model.shares.len()]);
+        let mut found = correlate(|_: &[f64]| Ok::<_, Error>(model.clone()), &ranges, &settings, |_, _| {})?;
+        found.best = Some(d.size());
+        Ok(found.best_factors())
+    }),
+    ("Verdict::in_words", |d| {
+        let outcomes = [Outcome::Tolerance, Outcome::LocalMinimum, Outcome::Cap, Outcome::Nothing];
+        let verdict = Verdict {
+            outcome: outcomes[d.below(4)],
+            is_within: d.below(2) == 0,
+            error_sum: d.number(),
+            worst_mode: d.size(),
+            worst: ModeError { frequency: d.number(), shape: d.number() },
+            at_bound: vec![d.size(); d.size()],
+            unseen: vec![d.size(); d.size()],
+        };
+        assert!(!verdict.in_words(&vec!["one".to_owned(); d.size()]).is_empty());
+        Ok(Vec::new())
+    }),
+];

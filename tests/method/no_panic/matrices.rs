@@ -1,0 +1,141 @@
+//! Matrices, modes and measured modes.
+
+use super::{Entry, entries, modes};
+use corfem::method::appendix_b::{
+    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass, orthogonalize,
+    rigid_body_vectors,
+};
+use corfem::method::error::Error;
+use corfem::method::linear_algebra::{
+    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky, solve_lower,
+    solve_lower_transposed, symmetric_eigen, symmetric_part,
+};
+use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
+use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes, paired};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+pub const MATRICES: &[Entry] = &[
+    ("linear_algebra::check_finite", |d| {
+        let matrix = d.symmetric(3);
+        check_finite("matrix", &matrix).map(|()| entries(&matrix))
+    }),
+    ("linear_algebra::check_symmetric", |d| check_symmetric("matrix", &d.symmetric(3)).map(|()| Vec::new())),
+    ("linear_algebra::cholesky", |d| {
+        let size = d.size();
+        cholesky("matrix", &d.symmetric(size), 0.0).map(|found| entries(&found))
+    }),
+    ("linear_algebra::symmetric_eigen", |d| {
+        let size = d.size();
+        symmetric_eigen("matrix", &d.symmetric(size))
+            .map(|(values, vectors)| values.iter().chain(vectors.iter()).copied().collect())
+    }),
+    ("linear_algebra::solve_lower", |d| {
+        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
+        solve_lower(&lower, &mut right).map(|()| Vec::new())
+    }),
+    ("linear_algebra::solve_lower_transposed", |d| {
+        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
+        solve_lower_transposed(&lower, &mut right).map(|()| Vec::new())
+    }),
+    ("linear_algebra::symmetric_part", |d| {
+        symmetric_part(&d.symmetric(3));
+        Ok(Vec::new())
+    }),
+    ("modes::solve", |d| {
+        let (size, count) = (d.size(), d.size());
+        solve(&d.symmetric(size), &d.symmetric(size), count).map(|found| modes(&found))
+    }),
+    ("ModeSet::from_measured", |d| {
+        let (count, dof) = (d.size(), d.size());
+        let (frequencies, columns) = (d.list(count), d.about(count));
+        ModeSet::from_measured(&frequencies, &d.matrix(dof, columns)).map(|found| modes(&found))
+    }),
+    ("ModeSet::scaled_with", |d| {
+        let size = d.size();
+        d.modes(size).scaled_with(&d.symmetric(size)).map(|found| entries(&found.shapes))
+    }),
+    ("modes::apply_sign_rule", |d| {
+        apply_sign_rule(&mut d.symmetric(3));
+        Ok(Vec::new())
+    }),
+    ("pairing::cross_orthogonality", |d| {
+        let size = d.size();
+        let (one, other, mass) = (d.modes(size), d.modes(size), d.symmetric(size));
+        cross_orthogonality(&one, &other, &mass).map(|_| Vec::new())
+    }),
+    ("pairing::modal_assurance", |d| {
+        let (rows, one, other) = (d.size(), d.size(), d.size());
+        let others = d.about(rows);
+        modal_assurance(&d.matrix(rows, one), &d.matrix(others, other)).map(|found| entries(&found))
+    }),
+    ("pairing::pair_modes", |d| {
+        let (rows, columns) = (d.size(), d.size());
+        pair_modes(&d.matrix(rows, columns)).map(|found| found.sign)
+    }),
+    ("orthogonalize::generalized_mass", |d| {
+        let size = d.size();
+        generalized_mass(&d.modes(size).shapes, &d.symmetric(size)).map(|found| entries(&found))
+    }),
+    ("orthogonalize::orthogonalize", |d| {
+        let size = d.size();
+        orthogonalize(&d.modes(size), &d.symmetric(size)).map(|found| modes(&found.modes))
+    }),
+    ("balance::balance", |d| {
+        let (size, rigid) = (d.size(), d.size());
+        let (set, mut stiffness, mass) = (d.modes(size), d.symmetric(size), d.symmetric(size));
+        let mut motions = d.matrix(size, rigid);
+        if d.below(2) == 0 {
+            // A free structure and its motion, so that some calls are answered.
+            (stiffness, motions) = (DMatrix::zeros(size, size), DMatrix::from_element(size, 1, 1.0));
+        }
+        balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
+    }),
+    ("examine::examine", |d| {
+        let size = d.size();
+        let limits = MovementLimits { balance: d.number(), frequency: d.number(), shape: d.number() };
+        let limits = if d.below(2) == 0 { MovementLimits::default() } else { limits };
+        examine(&d.modes(size), &d.symmetric(size), Supports::Held, &limits).map(|found| modes(&found.modes))
+    }),
+    ("rigid_body::rigid_body_vectors", |d| {
+        let corners = d.corners();
+        let points = corners.map(|position| MeasuringPoint { position, direction: Vector3::z_axis() });
+        rigid_body_vectors(&[Motion::Plunge, Motion::Roll, Motion::Pitch], &points).map(|found| entries(&found))
+    }),
+    ("linear_algebra::check_shape", |d| {
+        let (rows, columns) = (d.size(), d.size());
+        check_shape("matrix", &d.symmetric(3), rows, columns).map(|()| Vec::new())
+    }),
+    ("linear_algebra::check_length", |d| check_length("list", d.size(), d.size()).map(|()| Vec::new())),
+    ("linear_algebra::check_solution", |d| {
+        let size = d.size();
+        let (matrix, inverse, probe) = (d.matrix(size, size), d.matrix(size, size), d.vector(size));
+        let other = d.vector(d.0 as usize % 3);
+        let solve = |right: &DVector<f64>| if other.is_empty() { &inverse * right } else { other.clone() };
+        let solve = |right: &DVector<f64>| if matrix == inverse || size == 0 { right.clone() } else { solve(right) };
+        check_solution("matrix", |x| &matrix * x, solve, &probe).map(|()| Vec::new())
+    }),
+    ("ModeSet::frequencies_hz", |d| {
+        let (size, count) = (d.size(), d.size());
+        let frequencies = d.list(count);
+        // Modes that were measured have frequencies; of others the square roots are what they are.
+        d.modes(size).frequencies_hz();
+        ModeSet::from_measured(&frequencies, &d.matrix(size, count)).map(|found| found.frequencies_hz())
+    }),
+    ("Modes::lowest", |d| {
+        let count = d.size();
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        model.exact.modes.lowest(count).map(|found| modes(&found))
+    }),
+    ("pairing::paired", |d| {
+        let (size, count) = (d.size(), d.size());
+        let analysis = d.modes(size);
+        let pairing = d.pairing(count, analysis.len());
+        paired(&analysis, &pairing).map(|found| entries(&found.shapes))
+    }),
+    ("Motion::displacement", |d| {
+        let motions = [Motion::ForeAft, Motion::Side, Motion::Plunge, Motion::Roll, Motion::Pitch, Motion::Yaw];
+        let [position, ..] = d.corners();
+        let moved = motions[d.below(6)].displacement(position);
+        Ok(if position.iter().all(|part| part.is_finite()) { moved.iter().copied().collect() } else { Vec::new() })
+    }),
+];

@@ -1,0 +1,194 @@
+//! Elements, structures and models.
+
+use super::{Entry, entries, modes};
+use corfem::method::appendix_a;
+use corfem::method::appendix_b::MovementLimits;
+use corfem::method::assembly::{FactorizedStiffness, dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::elements::panel::mean_plane;
+use corfem::method::elements::quadrature::gauss_legendre;
+use corfem::method::elements::shear::{corner_forces, energy_coefficient};
+use corfem::method::elements::{mass, membrane, rod, shear, triangle, unit_stiffness};
+use corfem::method::model::{FiniteElementModel, Range};
+use corfem::method::structure::{ElementKind, Material, Structure};
+
+pub const STRUCTURES: &[Entry] = &[
+    ("rod::rod", |d| {
+        let [a, b, ..] = d.corners();
+        let modulus = d.number();
+        rod::rod([a, b], modulus).map(|found| entries(&found))
+    }),
+    ("triangle::triangle", |d| {
+        let ([a, b, c, _], material) = (d.corners(), d.material());
+        triangle::triangle([a, b, c], &material).map(|found| entries(&found))
+    }),
+    ("membrane::membrane", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        membrane::membrane(&corners, &material).map(|found| entries(&found))
+    }),
+    ("shear::shear_panel", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        shear::shear_panel(&corners, &material).map(|found| entries(&found))
+    }),
+    ("elements::unit_stiffness", |d| {
+        let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
+        let (kind, corners, material) = (kinds[d.below(4)], d.corners(), d.material());
+        unit_stiffness(kind, &corners[..d.below(5)], &material).map(|found| entries(&found))
+    }),
+    ("mass::corner_volumes", |d| {
+        let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
+        let (kind, corners) = (kinds[d.below(4)], d.corners());
+        mass::corner_volumes(kind, &corners[..d.below(5)])
+    }),
+    ("Material::isotropic", |d| {
+        let (modulus, ratio) = (d.number(), d.number());
+        Material::isotropic(modulus, ratio).map(|found| vec![found.shear_modulus])
+    }),
+    ("Range::positive", |d| {
+        let (lower, upper) = (d.number(), d.number());
+        Range::positive("range", lower, upper).map(|found| vec![found.lower, found.upper])
+    }),
+    ("DynamicModel::analyze", |d| {
+        let (model, count) = (d.dynamic(), d.size());
+        let test = d.modes(model.mass.nrows());
+        let count = Some(count).filter(|count| *count > 0);
+        model.analyze(&test, count).map(|found| vec![found.exact.errors.sum()])
+    }),
+    ("Range::contains", |d| {
+        Range { lower: d.number(), upper: d.number() }.contains(d.number());
+        Ok(Vec::new())
+    }),
+    ("panel::mean_plane", |d| {
+        let plane = mean_plane(&d.corners())?;
+        Ok(plane
+            .corners
+            .iter()
+            .flatten()
+            .chain(plane.diagonals.iter().flatten())
+            .copied()
+            .chain([plane.area])
+            .collect())
+    }),
+    ("shear::corner_forces", |d| {
+        // Its product with the energy is what must be finite: see the panel itself.
+        mean_plane(&d.corners()).map(|plane| corner_forces(&plane)).map(|_| Vec::new())
+    }),
+    ("shear::energy_coefficient", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        mean_plane(&corners).map(|plane| energy_coefficient(&plane, &material)).map(|_| Vec::new())
+    }),
+    ("quadrature::gauss_legendre", |d| {
+        Ok(gauss_legendre(d.below(40)).into_iter().flat_map(|(point, weight)| [point, weight]).collect())
+    }),
+    ("Material::with_density", |d| {
+        let material = d.material();
+        material.with_density(d.number()).map(|found| vec![found.density])
+    }),
+    ("Structure::new", |d| {
+        let structure = d.structure()?;
+        let grids = structure.grids().to_vec();
+        Structure::new(grids, structure.elements().to_vec()).map(|_| Vec::new())
+    }),
+    ("Structure::free_dof_index", |d| {
+        let (structure, grid, direction) = (d.structure()?, d.size(), d.size());
+        structure.free_dof_index(grid, direction);
+        Ok(Vec::new())
+    }),
+    ("Structure::corners", |d| {
+        let (structure, other) = (d.structure()?, d.structure()?);
+        let found = other.elements().iter().flat_map(|element| structure.corners(element));
+        Ok(found.flat_map(|corner| [corner.x, corner.y, corner.z]).collect())
+    }),
+    ("assembly::element_matrices", |d| {
+        let found = element_matrices(&d.structure()?)?;
+        Ok(found.iter().flat_map(|element| element.unit.iter().chain(&element.unit_mass).copied()).collect())
+    }),
+    ("assembly::dense_stiffness", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        dense_stiffness(&elements, &sizes, free.len()).map(|found| entries(&found))
+    }),
+    ("assembly::lumped_mass", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        lumped_mass(&elements, &sizes, free.len()).map(|found| found.as_slice().to_vec())
+    }),
+    ("FactorizedStiffness::new", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        FactorizedStiffness::new(&elements, &sizes, &free).map(|_| Vec::new())
+    }),
+    ("FactorizedStiffness::solve", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let (rows, columns) = (d.about(free.len()), d.size());
+        FactorizedStiffness::new(&elements, &sizes, &free)?.solve(&d.matrix(rows, columns)).map(|found| entries(&found))
+    }),
+    ("appendix_a::condense", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let structural = FactorizedStiffness::new(&elements, &sizes, &free)?;
+        let load_distribution = d.load_distribution(free.len());
+        let found = appendix_a::condense(&structural, &load_distribution)?;
+        Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
+    }),
+    ("FiniteElementModel::new", |d| {
+        let structure = d.structure()?;
+        let load_distribution = d.load_distribution(structure.free_dof().len());
+        let mass = d.symmetric(load_distribution.ncols());
+        FiniteElementModel::new(structure, load_distribution, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("FiniteElementModel::with_unit_stiffness", |d| {
+        let (model, factors) = d.finite_element()?;
+        let count = d.about(model.element_matrices().len());
+        let size = |row: usize| model.element_matrices().get(row).map_or(2, |element| element.dof.len());
+        let units = (0..count).map(|row| d.symmetric(size(row))).collect();
+        model.with_unit_stiffness(units)?.condense(&factors).map(|found| entries(&found.stiffness))
+    }),
+    ("FiniteElementModel::factor_ranges", |d| {
+        let (model, factors) = d.finite_element()?;
+        let ranges = model.factor_ranges().map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
+        Ok(ranges.iter().flat_map(|range| [range.lower, range.upper]).chain(factors).take(2 * ranges.len()).collect())
+    }),
+    ("FiniteElementModel::sizes", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.sizes(&factors)
+    }),
+    ("FiniteElementModel::mass_sizes", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.mass_sizes(&factors)
+    }),
+    ("FiniteElementModel::point_masses", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.point_masses(&factors).map(|found| entries(&found))
+    }),
+    ("FiniteElementModel::condense", |d| {
+        let (model, factors) = d.finite_element()?;
+        let found = model.condense(&factors)?;
+        Ok([entries(&found.stiffness), entries(&found.mass), entries(&found.transformation)].concat())
+    }),
+    ("FiniteElementModel::analyze", |d| {
+        let (model, factors) = d.finite_element()?;
+        let test = d.modes(model.mass().nrows());
+        let test = model.modes(&factors).map_or(test, |found| found.into());
+        model.analyze(&factors, &test, None).map(|found| vec![found.exact.errors.sum()])
+    }),
+    ("FiniteElementModel::matrices", |d| {
+        let (model, factors) = d.finite_element()?;
+        let found = model.matrices(&factors)?;
+        Ok(found.shares.iter().flat_map(|share| entries(share.matrix())).chain(entries(&found.mass)).collect())
+    }),
+    ("FiniteElementModel::modes", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.modes(&factors).map(|found| modes(&found))
+    }),
+    ("FiniteElementModel::whole_modes", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.whole_modes(&factors, d.size()).map(|found| modes(&found))
+    }),
+    ("FiniteElementModel::condensation_errors", |d| {
+        let (model, factors) = d.finite_element()?;
+        let found = model.condensation_errors(&factors, d.size())?;
+        Ok(found.iter().flat_map(|error| [error.whole_hz, error.frequency, error.shape]).collect())
+    }),
+    ("FiniteElementModel::limits_allowing_for_condensation", |d| {
+        let (model, factors) = d.finite_element()?;
+        let limits = MovementLimits::default();
+        let found = model.limits_allowing_for_condensation(&factors, d.size(), &limits)?;
+        Ok(vec![found.balance, found.frequency, found.shape])
+    }),
+];
