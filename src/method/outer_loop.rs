@@ -5,7 +5,7 @@ use crate::method::error_sum::{Errors, mode_errors};
 use crate::method::inner_loop::{InnerRun, InnerSettings, run};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
-use crate::method::verdict::Verdict;
+use crate::method::verdict::{Outcome, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// When analysis and test count as correlated, and how long to try.
@@ -154,13 +154,14 @@ pub(crate) fn correlate_while<E: From<Error>>(
         .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
     let converged = meets(&check.errors, settings);
     let errors = mode_errors(&check.modes, &check.pairing, &test)?;
-    let verdict = Verdict::new(&passes, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
+    let outcome = Outcome::of(&passes, converged);
+    let verdict = Verdict::new(outcome, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
     let parameter_count = total_ranges.len();
     Ok(Correlation { parameter_count, initial, passes, best, converged, verdict })
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.
-fn meets(errors: &Errors, settings: &Settings) -> bool {
+pub(crate) fn meets(errors: &Errors, settings: &Settings) -> bool {
     let scale = settings.inner.measure.scale(errors.mode_count);
     scale * errors.sum() <= settings.error_sum_tolerance
         && scale * errors.frequency <= settings.frequency_tolerance

@@ -63,12 +63,13 @@ pub(crate) fn cosines(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DM
     check_finite("cosines of mode shapes", &cosines).map(|()| cosines)
 }
 
-/// Modal assurance criterion between two sets of shapes (columns), n × g, the squares of their [`cosines`]:
+/// Modal assurance criterion between two sets of shapes (columns), n × g, the squares of their cosines:
 ///
 /// $$ \mathrm{MAC}_{ij} = \frac{(v_i^t w_j)^2}{(v_i^t v_i)(w_j^t w_j)} $$
 ///
 /// # Errors
-/// Those of [`cosines`]; [`Error::NotPositive`] naming a shape that is zero.
+/// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero;
+/// [`Error::NotFinite`].
 ///
 /// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
 pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {

@@ -27,6 +27,19 @@ pub enum Outcome {
     Nothing,
 }
 
+impl Outcome {
+    /// Why a correlation that made `passes` ended.
+    pub(crate) fn of(passes: &[Pass], is_within: bool) -> Self {
+        let steps: usize = passes.iter().map(|pass| pass.inner.iterations.len()).sum();
+        match passes.last() {
+            _ if steps == 0 && !is_within => Self::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Self::LocalMinimum,
+            _ if is_within => Self::Tolerance,
+            _ => Self::Cap,
+        }
+    }
+}
+
 /// What a correlation came to. It judges the best factors, [`super::outer_loop::Correlation::best_factors`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
@@ -47,23 +60,16 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The verdict on a correlation that made `passes` and is best at `factors`, where the test modes have the error sum and
-    /// `errors`; `seen` is the largest part of a test mode that each parameter had at first.
+    /// The verdict on a correlation that is best at `factors`, where the test modes have the error sum and `errors`; `seen` is the
+    /// largest part of a test mode that each parameter had at first.
     pub(crate) fn new(
-        passes: &[Pass],
+        outcome: Outcome,
         (error_sum, errors): (f64, &[ModeError]),
         factors: &[f64],
         seen: &[f64],
         ranges: &[Option<Range>],
         is_within: bool,
     ) -> Self {
-        let steps: usize = passes.iter().map(|pass| pass.inner.iterations.len()).sum();
-        let outcome = match passes.last() {
-            _ if steps == 0 && !is_within => Outcome::Nothing,
-            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
-            _ if is_within => Outcome::Tolerance,
-            _ => Outcome::Cap,
-        };
         let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
         let worst_mode = (0..errors.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
         let at_end = |e: &usize| {

@@ -121,7 +121,7 @@ impl WholeModel {
     /// `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
     /// # Errors
-    /// Those of [`Self::modes`] and [`ModalModel::at_sensors`].
+    /// Those of [`Self::modes`] and of the pairing.
     pub fn analyze(
         &self,
         factors: &[f64],
@@ -158,7 +158,7 @@ impl WholeModel {
     /// The paper's way to the same as [`Self::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.
     ///
     /// # Errors
-    /// Those of [`Self::condensed`] and [`ModalModel::new`].
+    /// Those of [`Self::condensed`] and [`crate::method::modes::solve`].
     pub fn analyze_condensed(
         &self,
         factors: &[f64],
