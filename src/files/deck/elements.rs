@@ -21,14 +21,14 @@ const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 /// What the cards say of elements before they are put together.
 #[derive(Debug, Default)]
 pub(super) struct ElementCards {
-    connections: Numbered<(ElementKind, Size)>,
-    properties: [Numbered<f64>; 4],
-    materials: Numbered<Material>,
+    pub connections: Numbered<(ElementKind, Size)>,
+    pub properties: [Numbered<f64>; 4],
+    pub materials: Numbered<Material>,
 }
 
 /// Where an element's size and material are found.
 #[derive(Debug)]
-enum Size {
+pub(super) enum Size {
     /// On a property card of the kind with this place in [`ELEMENT_CARDS`].
     Property(usize),
     /// On the element's own card (CONROD).
