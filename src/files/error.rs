@@ -58,16 +58,6 @@ pub enum FileError {
         /// Its name.
         card: String,
     },
-    /// A file of several matrices of which none was named, or that has none of the name.
-    #[error("{file}: expected {}, found {}", .wanted.as_ref().map_or("the name of one of its matrices".to_owned(), |name| format!("a matrix {name}")), if .names.is_empty() { "none".to_owned() } else { .names.join(", ") })]
-    MatrixName {
-        /// The file.
-        file: String,
-        /// The name asked for.
-        wanted: Option<String>,
-        /// Names of all matrices in it.
-        names: Vec<String>,
-    },
     /// More masses than memory has room for.
     #[error(
         "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \

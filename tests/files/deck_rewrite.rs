@@ -25,8 +25,8 @@ fn with(deck: &str, changes: &[(usize, f64, f64)]) -> Vec<Element> {
     let mut elements = elements(deck.as_bytes());
     for &(label, size, density) in changes {
         let element = elements.iter_mut().find(|element| element.label == label).expect("an element");
-        element.size *= size;
-        element.material.density *= density;
+        element.size = nearest_in_field(element.size * size);
+        element.material.density = nearest_in_field(element.material.density * density);
     }
     elements
 }
@@ -47,7 +47,7 @@ fn a_size_is_rewritten_in_its_field_and_nowhere_else() {
     let text = rewritten(ORIGINAL, &[(11, 1.5, 1.0), (12, 1.5, 1.0), (13, 1.5, 1.0), (14, 1.5, 1.0), (21, 2.0, 1.0)]);
     let caps = "PROD    7       1         .25                           $ area, in2";
     let expected = ORIGINAL
-        .replace(caps, "PROD    7       1        .375                           $ area, in2")
+        .replace(caps, "PROD    7       1           .375                        $ area, in2")
         .replace("               2            .032", "               2            .064");
     assert_eq!(text, expected);
     let text = rewritten(ORIGINAL, &[(22, 0.5, 1.0), (31, 3.0, 1.0), (32, 1.25, 1.0)]);
@@ -55,7 +55,7 @@ fn a_size_is_rewritten_in_its_field_and_nowhere_else() {
         .replace("PSHEAR,9,2,.04  $", "PSHEAR,9,2,.02  $")
         .replace("       5       1       .1", "       5       1       .3")
         .replace("*       .1\n", "*       .125\n");
-    assert_eq!(text, expected.replace(".3\n", &format!("{}\n", ".3")));
+    assert_eq!(text, expected);
 }
 
 #[test]
@@ -87,8 +87,8 @@ fn a_number_too_long_for_its_field_takes_a_card_of_the_large_format() {
     let factor = 1.234_567_891;
     let changes = [11, 12, 13, 14, 22].map(|label| (label, factor, 1.0));
     let text = rewritten(ORIGINAL, &changes);
-    let caps = "PROD*   7               1               .30864197275                    *ZZ1    $ area, in2\n*ZZ1\n";
-    assert!(text.contains(&caps.replace("ZZ", "Z")), "{text}");
+    let caps = "PROD*   7               1               .30864197275                    *Z1     $ area, in2\n*Z1\n";
+    assert!(text.contains(caps), "{text}");
     assert!(
         text.contains(
             "PSHEAR* 9               2               .04938271564                    *Z2     $ a doubler\n*Z2\n"
@@ -106,7 +106,7 @@ fn a_new_density_takes_a_new_material() {
     assert_eq!(
         new,
         [
-            "PROD    7       3          .5                           $ area, in2",
+            "PROD    7       3             .5                        $ area, in2",
             "MAT1    3       1.05+7          .33     1.3-4"
         ]
     );
@@ -150,20 +150,14 @@ fn line_ends_encoding_and_trailing_text_stay() {
 fn two_on_a_card_are_rewritten_one_by_one() {
     let deck = "GRID,1\nGRID,2\nGRID,3\nCTRMEM,1,30,1,2,3\nCTRMEM,2,31,1,2,3\nCROD    3       10      1       2       4       10      2       3\n\
         PTRMEM  30      1       .1      0.      31      1       .2\nPROD,10,1,.5\nMAT1,1,1.,,.3\n";
-    let text = rewritten(deck, &[(2, 3.0, 1.0), (4, 2.0, 1.0)]);
-    let new = only_in(&text, deck);
-    assert_eq!(
-        new,
-        [
-            "CROD    3       10      1       2       4       32      2       3",
-            "PTRMEM  30      1       .1      0.      31      1       .6",
-            "PROD    32      1       1."
-        ]
-        .map(|l| if l.ends_with(".6") { new[1] } else { l })
-    );
-    assert_eq!(elements(text.as_bytes())[1].size, 0.2 * 3.0);
+    let text = rewritten(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]);
+    let connection = "CROD    3       10      1       2       4       32      2       3";
+    let new = [connection, "PTRMEM  30      1       .1      0.      31      1       .4", "PROD    32      1       1."];
+    assert_eq!(only_in(&text, deck), new);
+    assert_eq!(elements(text.as_bytes()), with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]));
     let long = rewritten(deck, &[(1, 1.0 + 1e-9, 1.0)]);
-    assert_eq!(elements(long.as_bytes())[..2], with(deck, &[(1, 1.0 + 1e-9, 1.0)])[..2]);
+    let sizes: Vec<f64> = elements(long.as_bytes()).iter().map(|element| element.size).collect();
+    assert_eq!(sizes, [0.100_000_000_1, 0.2, 0.5, 0.5]);
     assert_eq!(only_in(&long, deck).len(), 2);
 }
 
@@ -174,9 +168,13 @@ fn what_no_deck_can_say_is_refused() {
     let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no element 99");
     assert!(matches!(error, FileError::Method(Error::Unknown { what: "element", label: 99, .. })), "{error}");
     wanted[0].label = 11;
-    wanted[0].size = f64::NAN;
+    wanted[0].size = f64::INFINITY;
     let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
     assert!(matches!(error, FileError::Method(Error::NotFinite { .. })), "{error}");
+    wanted = elements(ORIGINAL.as_bytes());
+    wanted[7].size = f64::NAN;
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
+    assert!(matches!(&error, FileError::DeckField { card, field: 6, .. } if card == "CONROD"), "{error}");
     let full = ORIGINAL.replace("PROD    7 ", "PROD,99999999,1,.25\nPROD    7 ");
     let error = rewrite("deck", full.as_bytes(), &with(&full, &[(11, 2.0, 1.0)])).expect_err("no number is free");
     assert!(matches!(error, FileError::Method(Error::TooMany { .. })), "{error}");
@@ -336,9 +334,9 @@ proptest! {
         let wanted = BulkData::of(&model, &factors, &places).expect("bulk data").elements;
         let text = rewrite("box", first.as_bytes(), &wanted).expect("it rewrites");
         let read = deck::read_without("box", &text, &[]).expect("it reads").model;
-        let found = deck::modes(&read).expect("modes").modes.omega_squared;
+        let found = deck::modes(&read).expect("modes").modes.omega_squared.clone();
         let dynamic = model.matrices(&factors).expect("an analysis");
-        let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes").omega_squared;
+        let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes").omega_squared.clone();
         prop_assert_eq!(found.len(), own.len());
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * own[DOF - 1] / own[0];
         prop_assert!(tolerance < 1e-4);

@@ -14,7 +14,6 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Column of the continuation's tag.
 const TAG: usize = 72;
-const LINE_WIDTH: usize = 80;
 
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
 type Target = (u64, u64);
@@ -23,7 +22,6 @@ type Target = (u64, u64);
 struct Changes<'a> {
     fields: BTreeMap<usize, BTreeMap<usize, String>>,
     added: BTreeMap<usize, String>,
-    /// Writes cards with names of continuations that the deck has not.
     writer: Cards,
     /// New materials by number and density of those they replace.
     materials: HashMap<(usize, u64), usize>,
@@ -33,18 +31,16 @@ struct Changes<'a> {
     next_material: usize,
 }
 
-/// The deck `bytes`, `name` in messages, with the sizes and densities of these elements, found by their numbers; what else
-/// they say does not count, and other elements stay as they are. What
-/// [`BulkData::of`](super::BulkData::of) says of a model's elements makes the deck's modes those of the model.
+/// The deck `bytes`, `name` in messages, with the sizes and densities of these elements, found by their numbers; nothing else
+/// of them counts. What [`BulkData::of`](super::BulkData::of) says of a model's elements gives the deck the model's modes.
 ///
-/// Only fields that change are written anew. Where elements of one property need different sizes, those without a change
-/// keep it, or else the most; the others refer to new cards behind it. A new density takes a new MAT1 card behind the
-/// first. A number that does not fit in its field turns its line into two of the large format. Nothing to change gives
-/// back the same bytes.
+/// Where elements of one property need different sizes, those without a change keep it, or else the most; the others refer
+/// to new cards behind it, and a new density to a new MAT1 card. A number that does not fit in its field turns its line into
+/// two of the large format. All else stays, byte by byte.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read, [`Error::Unknown`] for an element that
-/// it does not have, [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
+/// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read or would not hold a number,
+/// [`Error::Unknown`] for an element that it does not have, [`Error::TooMany`] without a free number.
 pub fn rewrite(name: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>, FileError> {
     let text = decoded(bytes);
     let cards = cards(name, &text)?;
@@ -58,7 +54,6 @@ pub fn rewrite(name: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
     // No name of a continuation, and no remark in field 10, begins with letters that the deck has nowhere.
     let capitals = text.to_ascii_uppercase();
     let prefix = (1..).map(|count| "Z".repeat(count)).find(|prefix| !capitals.contains(prefix)).unwrap_or_default();
-    let is_property = |card: &&Card| card.name.starts_with('P') && card.name != "PARAM";
     let mut changes = Changes {
         fields: BTreeMap::new(),
         added: BTreeMap::new(),
@@ -66,8 +61,8 @@ pub fn rewrite(name: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
         materials: HashMap::new(),
         known: &known,
         weight,
-        next_property: next_number(cards.iter().filter(is_property)),
-        next_material: next_number(cards.iter().filter(|card| card.name.starts_with("MAT"))),
+        next_property: next_number(&cards, "P"),
+        next_material: next_number(&cards, "MAT"),
     };
     changes.find(name, elements)?;
     if changes.fields.is_empty() {
@@ -81,22 +76,21 @@ pub fn rewrite(name: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
             None => written.push_str(line),
         }
         if let Some(cards) = changes.added.get(&number) {
-            if !line.ends_with('\n') {
-                written.push('\n');
-            }
+            written.push_str(if line.ends_with('\n') { "" } else { end });
             written.push_str(&cards.replace('\n', end));
         }
     }
-    let mark: &[u8] = if bytes.starts_with("\u{feff}".as_bytes()) { "\u{feff}".as_bytes() } else { b"" };
-    let is_utf_8 = std::str::from_utf8(bytes).is_ok();
     // Text that is not in UTF-8 was read as Latin-1, which has no character above 255.
-    let latin_1 = || written.chars().map(|c| u32::from(c) as u8).collect();
-    Ok([mark, &if is_utf_8 { written.as_bytes().to_vec() } else { latin_1() }].concat())
+    let is_utf_8 = std::str::from_utf8(bytes).is_ok();
+    let written = if is_utf_8 { written.into_bytes() } else { written.chars().map(|c| u32::from(c) as u8).collect() };
+    let mark = bytes.len() - bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes).len();
+    Ok([&bytes[..mark], &written].concat())
 }
 
-/// The number after the largest of these cards.
-fn next_number<'a>(cards: impl Iterator<Item = &'a Card>) -> usize {
-    cards.flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0))).max().unwrap_or(0) + 1
+/// The number after the largest of the cards whose names begin alike; parameters have none.
+fn next_number(cards: &[Card], start: &str) -> usize {
+    let alike = cards.iter().filter(|card| card.name.starts_with(start));
+    alike.flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0))).max().unwrap_or(0) + 1
 }
 
 impl Changes<'_> {
@@ -137,9 +131,8 @@ impl Changes<'_> {
                 let material = self.material(card, start + 1, own.1, target.1)?;
                 let last = if card.name == "PROD" { 5 } else { 3 };
                 let rest = (3..=last).map(|field| Entry::Word(card.text(start + field).to_owned()));
-                let mut entries = vec![self.next_property.into(), material, f64::from_bits(target.0).into()];
-                entries.extend(rest);
-                self.add(card, entries)?;
+                let own = [self.next_property.into(), material, f64::from_bits(target.0).into()];
+                self.add(card, own.into_iter().chain(rest).collect())?;
                 for member in members {
                     self.set(&member.card, member.start + 1, self.next_property.to_string())?;
                 }
@@ -165,9 +158,8 @@ impl Changes<'_> {
         target: Target,
     ) -> Result<(), FileError> {
         if own.0 != target.0 {
-            let value = f64::from_bits(target.0);
-            let none = || Error::NotFinite { what: "number on a bulk data card", row: 0, column: size, value };
-            self.set(card, size, large_real(value).ok_or_else(none)?)?;
+            let text = large_real(f64::from_bits(target.0)).ok_or_else(|| card.error(size, "a finite new number"))?;
+            self.set(card, size, text)?;
         }
         if let Entry::Label(label) = self.material(card, material, own.1, target.1)? {
             self.set(card, material, label.to_string())?;
@@ -185,8 +177,7 @@ impl Changes<'_> {
             return Ok(Entry::Label(*label));
         }
         let card = &card.referred(field, &self.known.materials, "MAT1")?.card;
-        let texts = card.fields.iter().map(|field| Entry::Word(field.text.clone()));
-        let mut entries: Vec<Entry> = texts.collect();
+        let mut entries: Vec<Entry> = card.fields.iter().map(|field| Entry::Word(field.text.clone())).collect();
         let label = self.next_material;
         entries[0] = label.into();
         entries[4] = (f64::from_bits(density) / self.weight.unwrap_or(1.0)).into();
@@ -225,48 +216,40 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
     let columns = expand_tabs(code);
     let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
     let name = if is_free { code.split(',').next().unwrap_or_default().to_owned() } else { slice(0, SMALL_FIELD) };
-    let (width, count) = match is_large(name.trim()) {
-        true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE),
-        false => (SMALL_FIELD, FIELDS_PER_LINE),
-    };
+    let is_large = is_large(name.trim());
+    let (width, count) = if is_large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE) } else { (SMALL_FIELD, FIELDS_PER_LINE) };
     let field = |place: usize| SMALL_FIELD + width * place;
+    // The fields, and what follows them in a part of its own.
     let mut parts: Vec<String> = match is_free {
         true => code.split(',').skip(1).map(str::to_owned).collect(),
-        false => (0..count).map(|place| slice(field(place), field(place + 1))).collect(),
+        false => {
+            (0..count).map(|place| slice(field(place), field(place + 1))).chain([slice(TAG, usize::MAX)]).collect()
+        }
     };
-    parts.resize(parts.len().max(count), String::new());
+    let given = parts.len();
+    parts.resize(given.max(count), String::new());
     for (from_last, text) in texts {
         let part = &mut parts[count - from_last];
-        let old = part.trim().to_owned();
+        let old = part.chars().count();
         // A number stays at the side of its field where it was.
         *part = match () {
-            () if is_free => part.replacen(&old, text, 1),
-            () if part.starts_with(' ') => format!("{text:>width$}"),
-            () => format!("{text:width$}"),
+            () if is_free => part.replacen(&part.trim().to_owned(), text, 1),
+            () if part.starts_with(' ') => format!("{text:>old$}"),
+            () => format!("{text:old$}"),
         };
     }
     if texts.values().all(|text| text.len() <= width) {
-        let rest = slice(field(count), usize::MAX);
-        return match is_free {
-            true => [&name, ",", &parts.join(","), comment, end].concat(),
-            false => {
-                let all = format!("{name:SMALL_FIELD$}{}{rest}", parts.concat());
-                [if comment.is_empty() { all.trim_end() } else { &all }, comment, end].concat()
-            }
-        };
+        let separator = if is_free { "," } else { "" };
+        return [&name, separator, &parts[..given].join(separator), comment, end].concat();
     }
     writer.tag += 1;
     let tag = format!("*{}{}", writer.prefix, writer.tag);
-    let last = match is_free {
-        true => parts.get(count).map_or(String::new(), |tag| tag.trim().to_owned()),
-        false => slice(TAG, LINE_WIDTH) + &slice(LINE_WIDTH, usize::MAX),
-    };
+    let last = parts.get(count).map_or("", |rest| if is_free { rest.trim() } else { rest });
     let half = |first: &str, parts: &[String]| {
         parts.iter().fold(format!("{first:SMALL_FIELD$}"), |line, part| line + &format!("{:LARGE_FIELD$}", part.trim()))
     };
-    let large = format!("{}*", name.trim());
-    let first = format!("{}{tag:SMALL_FIELD$}{comment}", half(&large, &parts[..LARGE_FIELDS_PER_LINE]));
-    let second = half(&tag, &parts[LARGE_FIELDS_PER_LINE..count]) + &last;
-    let between = if end.is_empty() { "\n" } else { end };
-    [first.trim_end(), between, second.trim_end(), end].concat()
+    let name = format!("{}*", name.trim());
+    let first = format!("{}{tag:SMALL_FIELD$}{comment}", half(&name, &parts[..LARGE_FIELDS_PER_LINE]));
+    let second = half(&tag, &parts[LARGE_FIELDS_PER_LINE..count]) + last;
+    [first.trim_end(), if end.is_empty() { "\n" } else { end }, second.trim_end(), end].concat()
 }

@@ -4,7 +4,7 @@ use super::{Found, LabeledMatrix, is_wanted};
 use crate::files::deck::{Card, cards};
 use crate::files::error::FileError;
 use crate::studies::whole_model::SparseMatrix;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// A grid and its component.
 type Label = (usize, usize);
@@ -28,7 +28,7 @@ pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found
     Ok((names, matrices))
 }
 
-fn matrix(header: &Card, columns: &[&Card]) -> Result<LabeledMatrix, FileError> {
+fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     let is_symmetric = header.text(4) == "6";
     let is_square = is_symmetric || header.text(4) == "1";
     if !is_square && !["2", "9"].contains(&header.text(4)) {
@@ -38,7 +38,8 @@ fn matrix(header: &Card, columns: &[&Card]) -> Result<LabeledMatrix, FileError> 
         return Err(header.error(5, "type 1 or 2, a real matrix"));
     }
     let (mut entries, mut places) = (Vec::new(), HashSet::new());
-    for card in columns {
+    let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
+    for card in cards {
         let column = label(card, 3)?;
         let last = card.filled().pop().unwrap_or(0);
         let starts = std::iter::once(6).chain((10..).step_by(10).flat_map(|line| [line + 2, line + 6]));
@@ -53,20 +54,15 @@ fn matrix(header: &Card, columns: &[&Card]) -> Result<LabeledMatrix, FileError> 
             if !places.insert(place) {
                 return Err(card.error(start, "a place of the matrix that no other entry has"));
             }
+            rows.extend(if is_square { [row, column] } else { [row; 2] });
+            columns.extend(if is_square { [row, column] } else { [column; 2] });
             entries.push((row, column, value));
             if is_symmetric && row != column {
                 entries.push((column, row, value));
             }
         }
     }
-    let labels = |of: &dyn Fn(&(Label, Label, f64)) -> Label| {
-        let mut labels: Vec<Label> = entries.iter().map(of).collect();
-        labels.extend(entries.iter().filter(|_| is_square).flat_map(|entry| [entry.0, entry.1]));
-        labels.sort_unstable();
-        labels.dedup();
-        labels
-    };
-    let (rows, columns) = (labels(&|entry| entry.0), labels(&|entry| entry.1));
+    let [rows, columns] = [rows, columns].map(|labels| labels.into_iter().collect::<Vec<Label>>());
     // Every label was put in its list above.
     let place = |labels: &[Label], label| labels.partition_point(|other| *other < label);
     let entries = entries.iter().map(|&(row, column, value)| (place(&rows, row), place(&columns, column), value));

@@ -4,9 +4,6 @@ use crate::files::error::FileError;
 use crate::studies::whole_model::SparseMatrix;
 use std::fmt::Write;
 
-/// What stands in the triangle that the file leaves out: the factor on the other one, `None` where nothing is left out.
-type Mirror = Option<f64>;
-
 /// Reads a matrix; entries of one place in the coordinate format add up.
 pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let wrong = |line: usize, expected, found: &str| FileError::line(file, line, expected, found);
@@ -14,7 +11,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let mut lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, line)| !line.is_empty());
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let words = banner.to_ascii_lowercase();
-    let (is_array, mirror): (bool, Mirror) = match words.split_whitespace().collect::<Vec<_>>()[..] {
+    // The factor on the triangle that the file has gives the other one.
+    let (is_array, mirror): (bool, Option<f64>) = match words.split_whitespace().collect::<Vec<_>>()[..] {
         [_, "matrix", format @ ("array" | "coordinate"), "real" | "integer", symmetry] => {
             let mirror = match symmetry {
                 "general" => None,

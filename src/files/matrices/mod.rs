@@ -32,8 +32,8 @@ pub struct LabeledMatrix {
 /// nothing in Matrix Market's format. Matrices of other names may be complex.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off;
-/// [`FileError::MatrixName`] without such a matrix; those of [`SparseMatrix::new`].
+/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without
+/// such a matrix; those of [`SparseMatrix::new`].
 pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
     let text = decoded(bytes);
     if begins(text.trim_start(), "%%MatrixMarket") {
@@ -43,10 +43,10 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
     let read = if is_dmig { dmig::read } else { output4::read };
     let (names, mut found) = read(name, &text, wanted)?;
-    match (found.pop(), found.is_empty()) {
-        (Some(one), true) => Ok(one),
-        _ => Err(FileError::MatrixName { file: name.to_owned(), wanted: wanted.map(str::to_owned), names }),
-    }
+    let names = names.join(", ");
+    let expected = "one matrix of the name asked for, which may be left out where there is one alone";
+    let one = found.pop().filter(|_| found.is_empty());
+    one.ok_or_else(|| FileError::line(name, 1, expected, if names.is_empty() { "none" } else { &names }))
 }
 
 /// Names of all matrices of a file, and those among them that are wanted.

@@ -9,12 +9,8 @@ use crate::studies::whole_model::SparseMatrix;
 const INTEGER: usize = 8;
 /// Widest header of a string: two integers. Those of a column and a matrix are wider.
 const STRING_HEADER: usize = 2 * INTEGER;
-/// Width of a number where the header has no format: that of 5E16.9.
-const USUAL_WIDTH: usize = 16;
 /// A string's header holds its words and its first row together, the words above this.
 const ROWS_IN_HEADER: usize = 65536;
-/// The form of a symmetric matrix.
-const SYMMETRIC: usize = 6;
 
 /// The lines of a file.
 struct Lines<'a> {
@@ -43,9 +39,9 @@ pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found
             let matrix = lines.matrix(&mut at)?;
             matrices.push(LabeledMatrix { name: Some(name.clone()), rows: None, columns: None, matrix });
         } else {
-            let columns = lines.integer(at, 0)?;
-            at += 1;
-            at = lines.after(at + 1, columns)?;
+            // Only a header has a name behind four integers.
+            let goes_on = |line: &&str| line.len() <= 4 * INTEGER || line.as_bytes()[..4 * INTEGER].contains(&b'.');
+            at += 1 + lines.lines[at + 1..].iter().take_while(|line| goes_on(line)).count();
         }
         names.push(name);
     }
@@ -71,16 +67,6 @@ impl Lines<'_> {
         self.lines.get(at).is_some_and(|line| !line.contains('.') && line.len() <= STRING_HEADER)
     }
 
-    /// The line after a matrix of so many columns whose records begin in a line.
-    fn after(&self, first: usize, columns: usize) -> Result<usize, FileError> {
-        for at in first..self.lines.len() {
-            if !self.lines[at].contains('.') && !self.is_string(at) && self.integer(at, 0)? > columns {
-                return Ok(at + 2);
-            }
-        }
-        Err(self.wrong(self.lines.len(), "the last record of a matrix"))
-    }
-
     /// The matrix with its header at this line, which then is the next matrix's.
     fn matrix(&self, at: &mut usize) -> Result<SparseMatrix, FileError> {
         let header = self.lines.get(*at).copied().unwrap_or_default();
@@ -89,17 +75,14 @@ impl Lines<'_> {
         let rows = rows.filter(|rows| *rows != 0).ok_or_else(|| self.wrong(*at, "a number of rows"))?;
         let is_large = rows < 0 || rows >= ROWS_IN_HEADER as i64;
         let rows = rows.unsigned_abs() as usize;
-        if ![1, 2, SYMMETRIC, 9].contains(&form) || form == SYMMETRIC && rows != columns {
+        if ![1, 2, 6, 9].contains(&form) || form == 6 && rows != columns {
             return Err(self.wrong(*at, "a matrix of form 1, 2, 6 or 9, square if it is 6"));
         }
         if ![1, 2].contains(&kind) {
             return Err(self.wrong(*at, "a matrix of type 1 or 2, which is real"));
         }
-        let format = header.get(5 * INTEGER..).unwrap_or_default();
-        let width = match format.rsplit_once(['E', 'D', 'e', 'd']).map(|(_, width)| width.split('.').next()) {
-            None if format.is_empty() => Some(USUAL_WIDTH),
-            width => width.flatten().and_then(|width| width.parse().ok()).filter(|width| *width > 0),
-        };
+        let format = header.get(5 * INTEGER..).and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
+        let width = format.and_then(|(_, width)| width.split('.').next()?.parse().ok()).filter(|width| *width > 0);
         let width = width.ok_or_else(|| self.wrong(*at, "a format such as 1P,5E16.9"))?;
         let (mut entries, mut last_column) = (Vec::new(), 0);
         loop {
@@ -114,9 +97,7 @@ impl Lines<'_> {
                 return Err(self.wrong(*at, "a column after the one before"));
             }
             last_column = column;
-            let (head, mut next_row) = (*at, 1);
-            let before = entries.len();
-            let mut strings = Vec::new();
+            let (head, before, mut next_row, mut strings) = (*at, entries.len(), 1, Vec::new());
             if first > 0 {
                 self.numbers(at, width, (first, rows, column), &mut entries)?;
             }
@@ -147,11 +128,9 @@ impl Lines<'_> {
                 return Err(self.wrong(*string, "a string with as many numbers as it says"));
             }
         }
-        let is_upper = |entry: &(usize, usize, f64)| entry.0 <= entry.1;
-        let is_lower = |entry: &(usize, usize, f64)| entry.0 >= entry.1;
-        if form == SYMMETRIC && (entries.iter().all(is_upper) || entries.iter().all(is_lower)) {
-            let off_diagonal = entries.iter().filter(|entry| entry.0 != entry.1);
-            let mirrored: Vec<_> = off_diagonal.map(|&(row, column, value)| (column, row, value)).collect();
+        let mirrored = entries.iter().map(|&(row, column, value)| (column, row, value));
+        let mirrored: Vec<_> = mirrored.filter(|entry| form == 6 && entry.0 != entry.1).collect();
+        if mirrored.iter().all(|entry| entry.0 < entry.1) || mirrored.iter().all(|entry| entry.0 > entry.1) {
             entries.extend(mirrored);
         }
         Ok(SparseMatrix::new("matrix of OUTPUT4", rows, columns, entries)?)
