@@ -7,9 +7,6 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The bulk data cards of a text whatever they are, in the order of the file.
-///
-/// # Errors
-/// [`FileError::DeckLine`] for lines that are no cards.
 pub(in crate::files) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
     join(&file.into(), sections(file, text)?.1)
 }

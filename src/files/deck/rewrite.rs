@@ -12,9 +12,6 @@ use crate::method::error::Error;
 use crate::method::structure::{Element, Material};
 use std::collections::{BTreeMap, HashMap};
 
-/// Column of the continuation's tag.
-const TAG: usize = 72;
-
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
 type Target = (u64, u64);
 
@@ -222,14 +219,15 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
     // The fields, and what follows them in a part of its own.
     let mut parts: Vec<String> = match is_free {
         true => code.split(',').skip(1).map(str::to_owned).collect(),
-        false => {
-            (0..count).map(|place| slice(field(place), field(place + 1))).chain([slice(TAG, usize::MAX)]).collect()
-        }
+        false => (0..count)
+            .map(|place| slice(field(place), field(place + 1)))
+            .chain([slice(field(count), usize::MAX)])
+            .collect(),
     };
     let given = parts.len();
     parts.resize(given.max(count), String::new());
     for (from_last, text) in texts {
-        let part = &mut parts[count - from_last];
+        let Some(part) = count.checked_sub(*from_last).and_then(|place| parts.get_mut(place)) else { continue };
         let old = part.chars().count();
         // A number stays at the side of its field where it was.
         *part = match () {

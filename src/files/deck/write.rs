@@ -174,12 +174,9 @@ impl Cards {
 
     /// A card with fields of 8 characters if they hold every number exactly, of 16 otherwise.
     pub fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
-        let is_long = |entry: &Entry| match entry {
-            Entry::Real(x) => exact_real(*x, SMALL_FIELD).is_none(),
-            Entry::Word(word) => word.len() > SMALL_FIELD,
-            Entry::Blank | Entry::Label(_) => false,
-        };
-        let large = entries.iter().any(is_long);
+        let is_long_word = |entry: &Entry| matches!(entry, Entry::Word(word) if word.len() > SMALL_FIELD);
+        let is_long = |entry: &Entry| matches!(entry, Entry::Real(x) if exact_real(*x, SMALL_FIELD).is_none());
+        let large = entries.iter().any(|entry| is_long(entry) || is_long_word(entry));
         self.put_sized(name, entries, large)
     }
 
