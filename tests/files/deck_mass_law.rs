@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 
 /// Structural DOF of the box, all of them dynamic here.
-const DOF: usize = 36;
+pub const DOF: usize = 36;
 const COVERS: [usize; 6] = [2, 4, 8, 9, 11, 15];
 const WEBS: [usize; 9] = [1, 3, 5, 6, 7, 10, 12, 13, 14];
 
@@ -28,7 +28,7 @@ enum Changed {
 ///
 /// With all these DOF dynamic, nothing is condensed but what has no mass, so that the modes of the model are those of
 /// the structure. Its parameters are the stiffness of covers and of webs, the mass of covers and of rods, and point masses.
-fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
+pub fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
     let model = Case::new(2).and_then(|case| case.model()).expect("a model");
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {

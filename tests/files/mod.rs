@@ -8,6 +8,9 @@ pub mod deck_mass_law;
 pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;
+pub mod deck_rewrite;
+pub mod matrices;
+pub mod matrices_damaged;
 pub mod readers_survive;
 
 pub mod nastran95_analysis;

@@ -6,7 +6,8 @@
 use crate::common::draws::Draws;
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::Reconstruction;
-use corfem::files::deck::{modes, read_without};
+use corfem::files::deck::{modes, read_without, rewrite};
+use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
 use corfem::studies::delta_wing::DeltaWing;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -58,6 +59,20 @@ const READERS: &[Reader] = &[
     ("OUTPUT5", include_bytes!("../../golden/nastran95/output5_rod.txt"), |text| {
         read_output5(&String::from_utf8_lossy(text), 10_000).is_ok()
     }),
+    ("deck to be rewritten", include_bytes!("../../golden/formats/original.bdf"), |text| {
+        let deck = read_without("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).expect("it reads");
+        rewrite("deck", text, &deck.model.elements).is_ok()
+    }),
+    ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),
+    ("array of Matrix Market", include_bytes!("../../golden/formats/skew_array.mtx"), |text| {
+        read_matrix("m", text, None).is_ok()
+    }),
+    ("DMIG", include_bytes!("../../golden/formats/small.dmig"), |text| read_matrix("m", text, Some("KAAX")).is_ok()),
+    ("dense OUTPUT4", include_bytes!("../../golden/formats/dense.op4"), |text| read_matrix("m", text, Some("T")).is_ok()),
+    ("sparse OUTPUT4", include_bytes!("../../golden/formats/sparse.op4"), |text| {
+        read_matrix("m", text, Some("KAA")).is_ok()
+    }),
+    ("large OUTPUT4", include_bytes!("../../golden/formats/bigmat.op4"), |text| read_matrix("m", text, Some("T")).is_ok()),
     ("torque box", include_bytes!("../../paper/reconstruction.toml"), |text| {
         Reconstruction::parse("box", &String::from_utf8_lossy(text)).is_ok()
     }),

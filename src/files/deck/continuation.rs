@@ -1,10 +1,15 @@
 //! From lines to cards: every continuation joined to the card it belongs to.
 
 use super::card::{Card, FIELDS_PER_LINE, Field};
-use super::lines::Line;
+use super::lines::{Line, sections};
 use crate::files::error::FileError;
 use std::collections::HashMap;
 use std::sync::Arc;
+
+/// The bulk data cards of a text whatever they are, in the order of the file.
+pub(in crate::files) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
+    join(&file.into(), sections(file, text)?.1)
+}
 
 /// Joins lines to cards, in the order of the file. `file` is its name in messages.
 ///

@@ -21,9 +21,9 @@ const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 /// What the cards say of elements before they are put together.
 #[derive(Debug, Default)]
 pub(super) struct ElementCards {
-    connections: Numbered<(ElementKind, Size)>,
-    properties: [Numbered<f64>; 4],
-    materials: Numbered<Material>,
+    pub connections: Numbered<(ElementKind, Size)>,
+    pub properties: [Numbered<f64>; 4],
+    pub materials: Numbered<Material>,
 }
 
 /// The cards that an element refers to.
@@ -37,7 +37,7 @@ pub struct Membership {
 
 /// Where an element's size and material are found.
 #[derive(Debug)]
-enum Size {
+pub(super) enum Size {
     /// On a property card of the kind with this place in [`ELEMENT_CARDS`].
     Property(usize),
     /// On the element's own card (CONROD).

@@ -49,7 +49,7 @@ impl Line {
 }
 
 /// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
-pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect::<String>();
     std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
@@ -106,7 +106,6 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
         return Ok(Line { number, first: name.to_owned(), data: Vec::new(), large: false, tag: String::new() });
     }
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
-    let is_large = |name: &str| name.ends_with('*') || name.starts_with('*');
     let mut parts: Vec<String> = if text.contains(',') {
         text.split(',').map(|part| part.trim().to_owned()).collect()
     } else {
@@ -138,8 +137,13 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     Ok(Line { number, first, data: data.collect(), large, tag: tag.trim_start_matches(['+', '*']).to_owned() })
 }
 
+/// Whether field 1 says that a line is in the large format.
+pub(super) fn is_large(name: &str) -> bool {
+    name.ends_with('*') || name.starts_with('*')
+}
+
 /// Replaces every tab by blanks up to the next multiple of eight columns.
-fn expand_tabs(text: &str) -> Vec<char> {
+pub(super) fn expand_tabs(text: &str) -> Vec<char> {
     let mut columns: Vec<char> = Vec::new();
     for c in text.chars() {
         columns.push(if c == '\t' { ' ' } else { c });

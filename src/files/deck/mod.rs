@@ -27,11 +27,17 @@ mod model;
 mod modes;
 pub mod number;
 mod read;
+mod rewrite;
 mod write;
 
 pub use elements::Membership;
+pub(super) use card::Card;
+pub(super) use continuation::cards;
+pub(super) use lines::decoded;
+
 pub use known::{Reason, Unread};
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;
 pub use read::{Deck, read, read_without};
+pub use rewrite::rewrite;
 pub use write::{Task, bulk_data, write};

@@ -50,7 +50,7 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
          TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
         title.to_ascii_uppercase()
     );
-    let mut cards = Cards { text, tag: 0 };
+    let mut cards = Cards { text, ..Cards::default() };
     cards.model(model)?;
     let method = [SET.into(), "INV".into(), lower.into(), upper.into(), count.into(), count.into()];
     cards.put("EIGR", method.into_iter().chain([Entry::Blank, Entry::Blank, "MASS".into()]).collect())?;
@@ -74,7 +74,7 @@ pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
 
 /// A field to be written: a label is the number of a grid, an element and so on, a word may be a list of components.
 #[derive(Clone)]
-enum Entry {
+pub(super) enum Entry {
     Blank,
     Label(usize),
     Word(String),
@@ -101,10 +101,12 @@ impl From<f64> for Entry {
 
 /// Cards as text.
 #[derive(Default)]
-struct Cards {
-    text: String,
+pub(super) struct Cards {
+    pub text: String,
+    /// What the names of continuations begin with.
+    pub prefix: String,
     /// Counts the continuations of the deck, so that each has a name of its own.
-    tag: usize,
+    pub tag: usize,
 }
 
 impl Cards {
@@ -171,9 +173,10 @@ impl Cards {
     }
 
     /// A card with fields of 8 characters if they hold every number exactly, of 16 otherwise.
-    fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
+    pub fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
+        let is_long_word = |entry: &Entry| matches!(entry, Entry::Word(word) if word.len() > SMALL_FIELD);
         let is_long = |entry: &Entry| matches!(entry, Entry::Real(x) if exact_real(*x, SMALL_FIELD).is_none());
-        let large = entries.iter().any(is_long);
+        let large = entries.iter().any(|entry| is_long(entry) || is_long_word(entry));
         self.put_sized(name, entries, large)
     }
 
@@ -207,7 +210,7 @@ impl Cards {
             }
             if (row + 1) * per_line < whole {
                 self.tag += 1;
-                first = format!("{plus}{}", self.tag);
+                first = format!("{plus}{}{}", self.prefix, self.tag);
                 written.push_str(&first);
             }
             self.text.push_str(written.trim_end());

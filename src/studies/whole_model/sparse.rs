@@ -71,6 +71,13 @@ impl SparseMatrix {
         &self.entries
     }
 
+    /// Whether it is square and every entry exactly that of the other triangle.
+    pub fn is_symmetric(&self) -> bool {
+        let mut mirrored: Vec<_> = self.entries.iter().map(|&(row, column, value)| (column, row, value)).collect();
+        mirrored.sort_by_key(|&(row, column, _)| (column, row));
+        self.rows == self.columns && mirrored == self.entries
+    }
+
     /// The product with a dense matrix (columns × m), rows × m.
     ///
     /// # Errors

@@ -1,0 +1,80 @@
+//! DMIG cards of bulk data: matrices at grids and components, as NASTRAN takes and punches them.
+
+use super::{Found, LabeledMatrix, is_wanted};
+use crate::files::deck::{Card, cards};
+use crate::files::error::FileError;
+use crate::studies::whole_model::SparseMatrix;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+/// A grid and its component.
+type Label = (usize, usize);
+
+/// Reads the matrices of this name, or all. A header (field 3 is 0) has the form in field 4, 1 square, 2 or 9 rectangular, 6
+/// symmetric, and in field 5 the type, 1 or 2 for real; the other cards are columns, and their entries are four fields each.
+///
+/// Rows and columns of a square or symmetric matrix have one list of labels; those that no card names are not in it. A
+/// symmetric matrix has every pair of places on one card alone, in either triangle.
+pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
+    let cards: Vec<Card> = cards(file, text)?.into_iter().filter(|card| card.name == "DMIG").collect();
+    let (headers, others): (Vec<&Card>, Vec<&Card>) = cards.iter().partition(|card| card.text(3) == "0");
+    let mut columns: BTreeMap<&str, Vec<&Card>> = headers.iter().map(|header| (header.text(2), Vec::new())).collect();
+    for card in others {
+        let own = columns.get_mut(card.text(2)).ok_or_else(|| card.error(2, "the name of a matrix with a header"))?;
+        own.push(card);
+    }
+    let names = headers.iter().map(|header| header.text(2).to_owned()).collect();
+    let chosen = headers.iter().filter(|header| is_wanted(header.text(2), wanted));
+    let matrices = chosen.map(|header| matrix(header, &columns[header.text(2)])).collect::<Result<_, _>>()?;
+    Ok((names, matrices))
+}
+
+fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
+    let is_symmetric = header.text(4) == "6";
+    let is_square = is_symmetric || header.text(4) == "1";
+    if !is_square && !["2", "9"].contains(&header.text(4)) {
+        return Err(header.error(4, "form 1, 2, 6 or 9"));
+    }
+    if !["1", "2"].contains(&header.text(5)) {
+        return Err(header.error(5, "type 1 or 2, a real matrix"));
+    }
+    let (mut entries, mut places) = (Vec::new(), HashSet::new());
+    let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
+    for card in cards {
+        let column = label(card, 3)?;
+        let last = card.filled().pop().unwrap_or(0);
+        let starts = std::iter::once(6).chain((10..).step_by(10).flat_map(|line| [line + 2, line + 6]));
+        for start in starts.take_while(|&start| start <= last) {
+            if (start..start + 4).all(|field| card.text(field).is_empty()) {
+                continue;
+            }
+            let row = label(card, start)?;
+            let value = card.optional_real(start + 2)?.ok_or_else(|| card.error(start + 2, "a real number"))?;
+            card.absent(start + 3, "complex matrices")?;
+            let place = if is_symmetric { (row.min(column), row.max(column)) } else { (row, column) };
+            if !places.insert(place) {
+                return Err(card.error(start, "a place of the matrix that no other entry has"));
+            }
+            rows.extend(if is_square { [row, column] } else { [row; 2] });
+            columns.extend(if is_square { [row, column] } else { [column; 2] });
+            entries.push((row, column, value));
+            if is_symmetric && row != column {
+                entries.push((column, row, value));
+            }
+        }
+    }
+    let [rows, columns] = [rows, columns].map(|labels| labels.into_iter().collect::<Vec<Label>>());
+    // Every label was put in its list above.
+    let place = |labels: &[Label], label| labels.partition_point(|other| *other < label);
+    let entries = entries.iter().map(|&(row, column, value)| (place(&rows, row), place(&columns, column), value));
+    let matrix = SparseMatrix::new("DMIG matrix", rows.len(), columns.len(), entries.collect())?;
+    Ok(LabeledMatrix { name: Some(header.text(2).to_owned()), rows: Some(rows), columns: Some(columns), matrix })
+}
+
+/// A grid in a field and its component, blank or 0 for a scalar point, in the next.
+fn label(card: &Card, field: usize) -> Result<Label, FileError> {
+    let component = match card.text(field + 1) {
+        "" => Some(0),
+        text => text.parse().ok().filter(|component| *component <= 6),
+    };
+    Ok((card.label(field)?, component.ok_or_else(|| card.error(field + 1, "a component from 0 to 6"))?))
+}

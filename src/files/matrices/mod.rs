@@ -1,0 +1,61 @@
+//! Matrices as other programs write them: Matrix Market, DMIG cards of NASTRAN, and the text of its module OUTPUT4.
+//!
+//! Memory is bounded by a file's own size: what a header promises takes no room before it is there.
+
+mod dmig;
+mod matrix_market;
+mod output4;
+
+pub use matrix_market::write_matrix_market;
+
+use crate::files::deck::decoded;
+use crate::files::error::FileError;
+use crate::studies::whole_model::SparseMatrix;
+
+/// A matrix of a file, with what the file says of its rows and columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LabeledMatrix {
+    /// Its name; Matrix Market has none.
+    pub name: Option<String>,
+    /// Grid and component of every row, ascending: component 1 to 6, or 0 for a scalar point. Only DMIG has them.
+    pub rows: Option<Vec<(usize, usize)>>,
+    /// The same for the columns; of a square or symmetric matrix the same list, of all labels in either.
+    pub columns: Option<Vec<(usize, usize)>>,
+    /// The matrix, a symmetric one with both triangles.
+    pub matrix: SparseMatrix,
+}
+
+/// Reads a real matrix from a file, `name` in messages: in Matrix Market's format if it begins with `%%MatrixMarket`, as
+/// bulk data if a line begins with `DMIG`, and otherwise in that of OUTPUT4.
+///
+/// `wanted` is the matrix's name in capitals or not; it may be left out where the file has one matrix alone, and counts for
+/// nothing in Matrix Market's format. Matrices of other names may be complex.
+///
+/// # Errors
+/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without
+/// such a matrix; those of [`SparseMatrix::new`].
+pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
+    let text = decoded(bytes);
+    if begins(text.trim_start(), "%%MatrixMarket") {
+        let matrix = matrix_market::read(name, &text)?;
+        return Ok(LabeledMatrix { name: None, rows: None, columns: None, matrix });
+    }
+    let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
+    let read = if is_dmig { dmig::read } else { output4::read };
+    let (names, mut found) = read(name, &text, wanted)?;
+    let names = names.join(", ");
+    let expected = "one matrix of the name asked for, which may be left out where there is one alone";
+    let one = found.pop().filter(|_| found.is_empty());
+    one.ok_or_else(|| FileError::line(name, 1, expected, if names.is_empty() { "none" } else { &names }))
+}
+
+/// Names of all matrices of a file, and those among them that are wanted.
+type Found = (Vec<String>, Vec<LabeledMatrix>);
+
+fn is_wanted(name: &str, wanted: Option<&str>) -> bool {
+    wanted.is_none_or(|wanted| wanted.eq_ignore_ascii_case(name))
+}
+
+fn begins(text: &str, word: &str) -> bool {
+    text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+}

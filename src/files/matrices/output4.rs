@@ -1,0 +1,162 @@
+//! The text that NASTRAN's module OUTPUT4 writes, dense or sparse.
+
+use super::{Found, LabeledMatrix, is_wanted};
+use crate::files::deck::number::parse_real;
+use crate::files::error::FileError;
+use crate::studies::whole_model::SparseMatrix;
+
+/// Width of the integers of headers.
+const INTEGER: usize = 8;
+/// Widest header of a string: two integers. Those of a column and a matrix are wider.
+const STRING_HEADER: usize = 2 * INTEGER;
+/// A string's header holds its words and its first row together, the words above this.
+const ROWS_IN_HEADER: usize = 65536;
+
+/// The lines of a file.
+struct Lines<'a> {
+    file: &'a str,
+    lines: Vec<&'a str>,
+}
+
+/// Reads the matrices of this name, or all.
+///
+/// A matrix has a header, a record for every column that is not zero, and a record of a column too many. A record begins
+/// with its column, its first row and its words. Where the first row is zero, strings follow: each begins with its words and
+/// first row as one number, or as two in a matrix of more than 65535 rows or of a negative number of them.
+///
+/// NASTRAN gives both triangles of a symmetric matrix (form 6). Where all entries stand in one, it is mirrored.
+pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
+    let lines = Lines { file, lines: text.lines().map(str::trim_end).collect() };
+    let (mut names, mut matrices, mut at) = (Vec::new(), Vec::new(), 0);
+    while let Some(header) = lines.lines.get(at) {
+        if header.is_empty() {
+            at += 1;
+            continue;
+        }
+        let name = header.get(4 * INTEGER..).map(|rest| rest.get(..INTEGER).unwrap_or(rest).trim().to_owned());
+        let name = name.ok_or_else(|| lines.wrong(at, "the header of a matrix"))?;
+        if is_wanted(&name, wanted) {
+            let matrix = lines.matrix(&mut at)?;
+            matrices.push(LabeledMatrix { name: Some(name.clone()), rows: None, columns: None, matrix });
+        } else {
+            // Only a header has a name behind four integers.
+            let goes_on = |line: &&str| line.len() <= 4 * INTEGER || line.as_bytes()[..4 * INTEGER].contains(&b'.');
+            at += 1 + lines.lines[at + 1..].iter().take_while(|line| goes_on(line)).count();
+        }
+        names.push(name);
+    }
+    Ok((names, matrices))
+}
+
+impl Lines<'_> {
+    fn wrong(&self, at: usize, expected: &'static str) -> FileError {
+        let found = self.lines.get(at).map_or("the end of the file", |line| line.trim());
+        FileError::line(self.file, at + 1, expected, found)
+    }
+
+    /// One of the integers of a header.
+    fn integer(&self, at: usize, place: usize) -> Result<usize, FileError> {
+        let field = self.lines.get(at).and_then(|line| {
+            let rest = line.get(place * INTEGER..)?;
+            rest.get(..INTEGER).unwrap_or(rest).trim().parse().ok()
+        });
+        field.ok_or_else(|| self.wrong(at, "integers of eight characters"))
+    }
+
+    fn is_string(&self, at: usize) -> bool {
+        self.lines.get(at).is_some_and(|line| !line.contains('.') && line.len() <= STRING_HEADER)
+    }
+
+    /// The matrix with its header at this line, which then is the next matrix's.
+    fn matrix(&self, at: &mut usize) -> Result<SparseMatrix, FileError> {
+        let header = self.lines.get(*at).copied().unwrap_or_default();
+        let (columns, form, kind) = (self.integer(*at, 0)?, self.integer(*at, 2)?, self.integer(*at, 3)?);
+        let rows: Option<i64> = header.get(INTEGER..2 * INTEGER).and_then(|text| text.trim().parse().ok());
+        let rows = rows.filter(|rows| *rows != 0).ok_or_else(|| self.wrong(*at, "a number of rows"))?;
+        let is_large = rows < 0 || rows >= ROWS_IN_HEADER as i64;
+        let rows = rows.unsigned_abs() as usize;
+        if ![1, 2, 6, 9].contains(&form) || form == 6 && rows != columns {
+            return Err(self.wrong(*at, "a matrix of form 1, 2, 6 or 9, square if it is 6"));
+        }
+        if ![1, 2].contains(&kind) {
+            return Err(self.wrong(*at, "a matrix of type 1 or 2, which is real"));
+        }
+        let format = header.get(5 * INTEGER..).and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
+        let width = format.and_then(|(_, width)| width.split('.').next()?.parse().ok()).filter(|width| *width > 0);
+        let width = width.ok_or_else(|| self.wrong(*at, "a format such as 1P,5E16.9"))?;
+        let (mut entries, mut last_column) = (Vec::new(), 0);
+        loop {
+            *at += 1;
+            let [column, first, words] = [0, 1, 2].map(|place| self.integer(*at, place));
+            let (column, first, words) = (column?, first?, words?);
+            if column > columns {
+                *at += 2; // The last record has one number, which says nothing.
+                break;
+            }
+            if column <= last_column {
+                return Err(self.wrong(*at, "a column after the one before"));
+            }
+            last_column = column;
+            let (head, before, mut next_row, mut strings) = (*at, entries.len(), 1, Vec::new());
+            if first > 0 {
+                self.numbers(at, width, (first, rows, column), &mut entries)?;
+            }
+            while first == 0 && self.is_string(*at + 1) {
+                *at += 1;
+                let (string, line) = (*at, self.lines.get(*at).copied().unwrap_or_default());
+                let (words, row) = if is_large {
+                    (self.integer(string, 0)?, self.integer(string, 1)?)
+                } else {
+                    let both = line.trim().parse::<usize>().ok();
+                    let both = both.ok_or_else(|| self.wrong(string, "the one integer of a string"))?;
+                    (both / ROWS_IN_HEADER, both % ROWS_IN_HEADER)
+                };
+                if row < next_row {
+                    return Err(self.wrong(string, "a string after the one before"));
+                }
+                let count = self.numbers(at, width, (row, rows, column), &mut entries)?;
+                next_row = row + count;
+                strings.push((string, words, count));
+            }
+            let all = entries.len() - before;
+            if first > 0 && all != words || first == 0 && strings.is_empty() {
+                return Err(self.wrong(head, "a column with as many numbers as it says"));
+            }
+            // A number has one word or two. Some programs count one in any case, or all of the column for every string.
+            let counts = |count: usize| [count, 2 * count, 2 * all].map(|words| words + 1);
+            if let Some((string, ..)) = strings.iter().find(|(_, words, count)| !counts(*count).contains(words)) {
+                return Err(self.wrong(*string, "a string with as many numbers as it says"));
+            }
+        }
+        let mirrored = entries.iter().map(|&(row, column, value)| (column, row, value));
+        let mirrored: Vec<_> = mirrored.filter(|entry| form == 6 && entry.0 != entry.1).collect();
+        if mirrored.iter().all(|entry| entry.0 < entry.1) || mirrored.iter().all(|entry| entry.0 > entry.1) {
+            entries.extend(mirrored);
+        }
+        Ok(SparseMatrix::new("matrix of OUTPUT4", rows, columns, entries)?)
+    }
+
+    /// Takes the numbers after this line from a row of a column on, and returns how many there are.
+    fn numbers(
+        &self,
+        at: &mut usize,
+        width: usize,
+        (first, rows, column): (usize, usize, usize),
+        entries: &mut Vec<(usize, usize, f64)>,
+    ) -> Result<usize, FileError> {
+        let mut row = first;
+        while let Some(line) = self.lines.get(*at + 1).filter(|line| line.contains('.')) {
+            *at += 1;
+            for field in line.as_bytes().chunks(width) {
+                let value = std::str::from_utf8(field).ok().and_then(|text| parse_real(text.trim()));
+                let value = value.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))?;
+                if row > rows {
+                    return Err(self.wrong(*at, "no more numbers than rows"));
+                }
+                entries.push((row - 1, column - 1, value));
+                row += 1;
+            }
+        }
+        Ok(row - first)
+    }
+}

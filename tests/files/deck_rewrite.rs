@@ -1,0 +1,349 @@
+//! A deck with other sizes: what changes in it, and that nothing else does.
+
+use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
+use crate::files::deck_mass_law::{DOF, whole_box};
+use crate::files::matrices::{assert_written, table};
+use crate::method::mass_parameters::DENSITY;
+use corfem::files::deck::number::nearest_in_field;
+use corfem::files::deck::{self, BulkData, bulk_data, rewrite};
+use corfem::files::error::FileError;
+use corfem::method::error::Error;
+use corfem::method::modes::solve;
+use corfem::method::structure::Element;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+const ORIGINAL: &str = include_str!("../../golden/formats/original.bdf");
+
+fn elements(deck: &[u8]) -> Vec<Element> {
+    deck::read_without("deck", deck, &[]).expect("it reads").model.elements
+}
+
+/// The elements of a deck, some with another size and another density.
+fn with(deck: &str, changes: &[(usize, f64, f64)]) -> Vec<Element> {
+    let mut elements = elements(deck.as_bytes());
+    for &(label, size, density) in changes {
+        let element = elements.iter_mut().find(|element| element.label == label).expect("an element");
+        element.size = nearest_in_field(element.size * size);
+        element.material.density = nearest_in_field(element.material.density * density);
+    }
+    elements
+}
+
+fn rewritten(deck: &str, changes: &[(usize, f64, f64)]) -> String {
+    let text = rewrite("deck", deck.as_bytes(), &with(deck, changes)).expect("it rewrites");
+    String::from_utf8(text).expect("a text")
+}
+
+/// Lines of one text that the other has not.
+fn only_in<'a>(text: &'a str, other: &str) -> Vec<&'a str> {
+    let known: BTreeSet<&str> = other.lines().collect();
+    text.lines().filter(|line| !known.contains(line)).collect()
+}
+
+#[test]
+fn a_size_is_rewritten_in_its_field_and_nowhere_else() {
+    let text = rewritten(ORIGINAL, &[(11, 1.5, 1.0), (12, 1.5, 1.0), (13, 1.5, 1.0), (14, 1.5, 1.0), (21, 2.0, 1.0)]);
+    let caps = "PROD    7       1         .25                           $ area, in2";
+    let expected = ORIGINAL
+        .replace(caps, "PROD    7       1           .375                        $ area, in2")
+        .replace("               2            .032", "               2            .064");
+    assert_eq!(text, expected);
+    let text = rewritten(ORIGINAL, &[(22, 0.5, 1.0), (31, 3.0, 1.0), (32, 1.25, 1.0)]);
+    let expected = ORIGINAL
+        .replace("PSHEAR,9,2,.04  $", "PSHEAR,9,2,.02  $")
+        .replace("       5       1       .1", "       5       1       .3")
+        .replace("*       .1\n", "*       .125\n");
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn elements_that_need_other_sizes_get_properties_of_their_own() {
+    let text = rewritten(ORIGINAL, &[(12, 2.0, 1.0), (13, 2.0, 1.0), (14, 4.0, 1.0)]);
+    let new = only_in(&text, ORIGINAL);
+    assert_eq!(
+        new,
+        [
+            "CROD    12      10      2       3",
+            "CROD    13      10      4       5",
+            "CROD,14,11,5,6",
+            "PROD    10      1       .5",
+            "PROD    11      1       1."
+        ]
+    );
+    assert_eq!(only_in(ORIGINAL, &text).len(), 3, "the first property stays");
+    let lines: Vec<&str> = text.lines().collect();
+    let first = lines.iter().position(|line| line.starts_with("PROD    7 ")).expect("it stays");
+    assert!(lines[first + 1].starts_with("PROD    10") && lines[first + 2].starts_with("PROD    11"));
+    // Where none keeps its size, the property follows the most.
+    let text = rewritten(ORIGINAL, &[(11, 2.0, 1.0), (12, 3.0, 1.0), (13, 3.0, 1.0), (14, 4.0, 1.0)]);
+    let new = only_in(&text, ORIGINAL);
+    assert_eq!(new.len(), 5, "two connections, their properties and the first property: {new:?}");
+}
+
+#[test]
+fn a_number_too_long_for_its_field_takes_a_card_of_the_large_format() {
+    let factor = 1.234_567_891;
+    let changes = [11, 12, 13, 14, 22].map(|label| (label, factor, 1.0));
+    let text = rewritten(ORIGINAL, &changes);
+    let caps = "PROD*   7               1               .30864197275                    *Z1     $ area, in2\n*Z1\n";
+    assert!(text.contains(caps), "{text}");
+    assert!(
+        text.contains(
+            "PSHEAR* 9               2               .04938271564                    *Z2     $ a doubler\n*Z2\n"
+        ),
+        "{text}"
+    );
+    assert_eq!(elements(text.as_bytes()), with(ORIGINAL, &changes));
+}
+
+/// The mass of an element follows its size in a deck, so that another density makes up for it.
+#[test]
+fn a_new_density_takes_a_new_material() {
+    let text = rewritten(ORIGINAL, &[(11, 2.0, 0.5), (12, 2.0, 0.5), (13, 2.0, 0.5), (14, 2.0, 0.5)]);
+    let new = only_in(&text, ORIGINAL);
+    assert_eq!(
+        new,
+        [
+            "PROD    7       3             .5                        $ area, in2",
+            "MAT1    3       1.05+7          .33     1.3-4"
+        ]
+    );
+    let text = rewritten(ORIGINAL, &[(31, 2.0, 1.0)]);
+    assert_eq!(only_in(&text, ORIGINAL).len(), 1, "no density, no new material");
+}
+
+#[test]
+fn nothing_to_change_gives_back_the_same_bytes() {
+    for deck in
+        [ORIGINAL, "\u{feff}CROD,1,1,1,2\r\nPROD,1,1,.5\r\nMAT1,1,1.,,.3\r\nGRID,1\r\nGRID,2\r\nPARAM,WTMASS,.00259"]
+    {
+        assert_eq!(rewrite("deck", deck.as_bytes(), &elements(deck.as_bytes())).expect("it rewrites"), deck.as_bytes());
+        assert_eq!(rewrite("deck", deck.as_bytes(), &[]).expect("it rewrites"), deck.as_bytes());
+    }
+}
+
+#[test]
+fn line_ends_encoding_and_trailing_text_stay() {
+    let deck =
+        b"$ F\xfcr Fl\xfcgel\r\nGRID,1\r\nGRID,2,,1.\r\nCROD\t1\t1\t1\t2\r\nCROD    2       1       1       2\r\n\
+        MAT1,1,1.,,.3,.5\r\nPROD    1       1       .5      $ d\xfcnn\r\nPARAM,WTMASS,.25\r\nENDDATA\r\nr\xe9sum\xe9";
+    let mut wanted = elements(deck);
+    wanted[0].size = 0.75;
+    wanted[0].material.density *= 0.5;
+    let text = rewrite("deck", deck, &wanted).expect("it rewrites");
+    let expected = b"$ F\xfcr Fl\xfcgel\r\nGRID,1\r\nGRID,2,,1.\r\nCROD    1       2       1       2\r\nCROD    2       1       1       2\r\n\
+        MAT1,1,1.,,.3,.5\r\nMAT1    2       1.              .3      .25\r\nPROD    1       1       .5      $ d\xfcnn\r\n\
+        PROD    2       2       .75\r\nPARAM,WTMASS,.25\r\nENDDATA\r\nr\xe9sum\xe9";
+    assert_eq!(String::from_utf8_lossy(&text), String::from_utf8_lossy(expected));
+    assert_eq!(text, expected);
+    assert_eq!(elements(&text), wanted);
+    let marked = [b"\xef\xbb\xbfPROD,1,1,.5\nGRID,1\nGRID,2\nMAT1,1,1.,,.3\nCROD,1,1,1,2".as_slice()].concat();
+    let mut wanted = elements(&marked);
+    wanted[0].size = 0.25;
+    let text = rewrite("deck", &marked, &wanted).expect("it rewrites");
+    assert_eq!(text, b"\xef\xbb\xbfPROD,1,1,.25\nGRID,1\nGRID,2\nMAT1,1,1.,,.3\nCROD,1,1,1,2");
+}
+
+#[test]
+fn two_on_a_card_are_rewritten_one_by_one() {
+    let deck = "GRID,1\nGRID,2\nGRID,3\nCTRMEM,1,30,1,2,3\nCTRMEM,2,31,1,2,3\nCROD    3       10      1       2       4       10      2       3\n\
+        PTRMEM  30      1       .1      0.      31      1       .2\nPROD,10,1,.5\nMAT1,1,1.,,.3\n";
+    let text = rewritten(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]);
+    let connection = "CROD    3       10      1       2       4       32      2       3";
+    let new = [connection, "PTRMEM  30      1       .1      0.      31      1       .4", "PROD    32      1       1."];
+    assert_eq!(only_in(&text, deck), new);
+    assert_eq!(elements(text.as_bytes()), with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]));
+    let long = rewritten(deck, &[(1, 1.0 + 1e-9, 1.0)]);
+    let sizes: Vec<f64> = elements(long.as_bytes()).iter().map(|element| element.size).collect();
+    assert_eq!(sizes, [0.100_000_000_1, 0.2, 0.5, 0.5]);
+    assert_eq!(only_in(&long, deck).len(), 2);
+}
+
+#[test]
+fn what_no_deck_can_say_is_refused() {
+    let mut wanted = elements(ORIGINAL.as_bytes());
+    wanted[0].label = 99;
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no element 99");
+    assert!(matches!(error, FileError::Method(Error::Unknown { what: "element", label: 99, .. })), "{error}");
+    wanted[0].label = 11;
+    wanted[0].size = f64::INFINITY;
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
+    assert!(matches!(error, FileError::Method(Error::NotFinite { .. })), "{error}");
+    wanted = elements(ORIGINAL.as_bytes());
+    wanted[7].size = f64::NAN;
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
+    assert!(matches!(&error, FileError::DeckField { card, field: 6, .. } if card == "CONROD"), "{error}");
+    let full = ORIGINAL.replace("PROD    7 ", "PROD,99999999,1,.25\nPROD    7 ");
+    let error = rewrite("deck", full.as_bytes(), &with(&full, &[(11, 2.0, 1.0)])).expect_err("no number is free");
+    assert!(matches!(error, FileError::Method(Error::TooMany { .. })), "{error}");
+}
+
+/// What the crate writes, and what pyNastran reads from it.
+#[test]
+fn the_owners_programs_read_a_rewritten_deck() {
+    let changes = [
+        (12, 1.1, 1.0 / 1.1),
+        (14, 1.234_567_891, 1.0 / 1.234_567_891),
+        (21, 1.3, 1.0),
+        (22, 0.7, 1.0),
+        (31, 0.9, 1.0),
+    ];
+    let text = rewritten(ORIGINAL, &changes);
+    assert_written("rewritten.bdf", text.as_bytes());
+    let stored = table("read_back_elements.csv");
+    for (file, expected) in
+        [("original.bdf", elements(ORIGINAL.as_bytes())), ("rewritten.bdf", elements(text.as_bytes()))]
+    {
+        let read = stored.iter().filter(|line| line[0] == file).map(|line| {
+            let number = |text: &str| text.parse::<f64>().expect("a number");
+            (line[1].parse().expect("a number"), number(&line[2]), number(&line[3]))
+        });
+        let expected = expected.iter().map(|element| (element.label, element.size, element.material.density));
+        assert_eq!(read.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "{file}");
+    }
+}
+
+/// How a card is written: with small fields to either side, with large ones with or without a tag, or in free format.
+fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
+    let large = |ends: [String; 2]| {
+        let mut fields = fields.to_vec();
+        fields.resize(8, String::new());
+        let half = |first: &str, fields: &[String]| {
+            fields.iter().fold(format!("{first:8}"), |line, field| line + &format!("{field:>16}"))
+        };
+        let first = half(&format!("{name}*"), &fields[..4]);
+        format!("{first}{}\n{}\n", ends[0], half(&ends[1], &fields[4..]).trim_end())
+    };
+    match style {
+        0 => fields.iter().fold(format!("{name:8}"), |line, field| line + &format!("{field:8}")) + " $ kept\n",
+        1 => {
+            fields.iter().fold(format!("{:8}", name.to_lowercase()), |line, field| line + &format!("{field:>8}")) + "\n"
+        }
+        2 => large([String::new(), "*".to_owned()]),
+        3 => large([format!("*T{tag}"), format!("*T{tag}")]),
+        _ => format!("{name} , {}\n", fields.join(", ")),
+    }
+}
+
+/// A deck of up to ten elements of two kinds that share up to three properties of each and two materials, and new sizes and
+/// densities of some elements.
+fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
+    let element = (any::<bool>(), 0..3_usize, 0..5_usize, prop::option::of((0..3_usize, 0..3_usize)));
+    let property = (0..2_usize, 1..9999_u32, 0..5_usize);
+    let weight = prop::option::of(0.001..2.0_f64);
+    let factors = (prop::array::uniform3(0.2..5.0_f64), prop::array::uniform3(0.2..5.0_f64));
+    (prop::collection::vec(element, 1..10), prop::array::uniform6(property), weight, factors, any::<bool>()).prop_map(
+        |(drawn, properties, weight, (sizes, densities), windows)| {
+            let mut text = "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\n$ properties\n".to_owned();
+            for (row, (material, size, style)) in properties.iter().enumerate() {
+                let fields = [(row + 5).to_string(), (material + 1).to_string(), format!(".{size:04}")];
+                text += &card(["PROD", "PTRMEM"][row / 3], &fields, *style, row);
+            }
+            text += "MAT1,1,1.+7,,.3,2.5-4\nMAT1    2       1.+7            .3\n";
+            for (row, (is_rod, property, style, _)) in drawn.iter().enumerate() {
+                let (name, property) = if *is_rod { ("CROD", 5 + property) } else { ("CTRMEM", 8 + property) };
+                let corners = if *is_rod { 2 } else { 3 };
+                let labels = [row + 1, property].into_iter().chain(1..=corners).map(|label| label.to_string());
+                text += &card(name, &labels.collect::<Vec<_>>(), *style, 10 + row);
+            }
+            if let Some(weight) = weight {
+                text += &format!("PARAM,WTMASS,{weight:.4}\n");
+            }
+            let text = if windows { text.replace('\n', "\r\n") } else { text };
+            let mut wanted = elements(text.as_bytes());
+            for (element, (.., change)) in wanted.iter_mut().zip(&drawn) {
+                if let Some((size, density)) = change {
+                    element.size = nearest_in_field(element.size * sizes[*size]);
+                    element.material.density = nearest_in_field(element.material.density * densities[*density]);
+                }
+            }
+            (text, wanted)
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn a_rewritten_deck_says_the_new_sizes_and_else_the_same((text, wanted) in decks()) {
+        let result = rewrite("deck", text.as_bytes(), &wanted).expect("it rewrites");
+        let read = elements(&result);
+        let first = elements(text.as_bytes());
+        prop_assert_eq!(read.len(), wanted.len());
+        for (read, wanted) in read.iter().zip(&wanted) {
+            // A density is divided by WTMASS and rounded before it is multiplied again.
+            let density = wanted.material.density;
+            prop_assert!((read.material.density - density).abs() <= 2.0 * DECK_ROUNDING * density);
+            let mut read = read.clone();
+            read.material.density = density;
+            prop_assert_eq!(&read, wanted);
+        }
+        // One more property for every other size or density of a property, and the fewest connections to it.
+        let result = String::from_utf8(result).expect("a text");
+        let property = |text: &str| -> Vec<Vec<String>> {
+            text.lines().filter(|line| line.to_uppercase().starts_with(['C', 'P']) && !line.starts_with("PARAM"))
+                .map(|line| line.replace([',', '*'], " ").split_whitespace().map(str::to_uppercase).collect()).collect()
+        };
+        let (before, after) = (property(&text), property(&result));
+        let mut groups: BTreeMap<&str, BTreeMap<(u64, u64), usize>> = BTreeMap::new();
+        let mut moved = 0;
+        for (element, first) in wanted.iter().zip(&first) {
+            let own = before.iter().find(|card| card[0].starts_with('C') && card[1] == element.label.to_string());
+            let own = own.expect("a connection");
+            let key = |element: &Element| (element.size.to_bits(), element.material.density.to_bits());
+            *groups.entry(&own[2]).or_default().entry(key(element)).or_default() += 1;
+            // Whose size and density stay, stays with its property.
+            if key(element) == key(first) {
+                prop_assert!(after.iter().any(|card| card[..3] == own[..3]), "{:?}", own);
+            }
+            moved += usize::from(!after.iter().any(|card| card[..3] == own[..3]));
+        }
+        let added: usize = groups.values().map(|targets| targets.len() - 1).sum();
+        prop_assert_eq!(after.len(), before.len() + added, "{}", result);
+        let most = |targets: &BTreeMap<(u64, u64), usize>| targets.values().sum::<usize>() - targets.values().min().unwrap_or(&0);
+        prop_assert!(moved <= groups.values().map(most).sum::<usize>());
+        // Every other line stands where it stood.
+        let others = |text: &str| -> Vec<String> {
+            let other = |line: &&str| !line.to_uppercase().starts_with(['C', 'P', '*', 'M']);
+            text.split_inclusive('\n').filter(other).map(str::to_owned).collect()
+        };
+        prop_assert_eq!(others(&text), others(&result));
+        // Once more with the same wish changes nothing, unless WTMASS rounds.
+        if !text.contains("WTMASS") {
+            prop_assert_eq!(rewrite("deck", result.as_bytes(), &wanted).expect("it rewrites"), result.as_bytes());
+        }
+    }
+
+    /// The modes of the model at some factors are those of its first deck with the sizes rewritten.
+    #[test]
+    fn modes_of_the_rewritten_deck_are_those_of_the_model(
+        stiffness in prop::collection::vec(0.3..3.0_f64, 2),
+        mass in prop::option::of(prop::collection::vec(0.3..3.0_f64, 2)),
+        has_density in any::<bool>(),
+        points in prop::collection::vec(0.002..0.02_f64, DOF),
+    ) {
+        let model = whole_box(if has_density { DENSITY } else { 0.0 }, &points);
+        let places = [Vector3::zeros(); DOF];
+        let ones = [1.0; 6];
+        let first = bulk_data(&BulkData::of(&model, &ones, &places).expect("bulk data")).expect("a deck");
+        let mass = mass.unwrap_or(vec![1.0; 2]);
+        let factors = [&stiffness[..], &mass, &[1.0; 2]].concat();
+        let wanted = BulkData::of(&model, &factors, &places).expect("bulk data").elements;
+        let text = rewrite("box", first.as_bytes(), &wanted).expect("it rewrites");
+        let read = deck::read_without("box", &text, &[]).expect("it reads").model;
+        let found = deck::modes(&read).expect("modes").modes.omega_squared.clone();
+        let dynamic = model.matrices(&factors).expect("an analysis");
+        let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes").omega_squared.clone();
+        prop_assert_eq!(found.len(), own.len());
+        let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * own[DOF - 1] / own[0];
+        prop_assert!(tolerance < 1e-4);
+        for (own, found) in own.iter().zip(&found) {
+            prop_assert!((own / found - 1.0).abs() < tolerance, "{own} {found} {tolerance}");
+        }
+        let untouched = BulkData::of(&model, &ones, &places).expect("bulk data").elements;
+        prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched).expect("it rewrites"), first.as_bytes());
+    }
+}
