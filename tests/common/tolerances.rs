@@ -200,3 +200,5 @@ pub const MOST_LOW_PAIRS: usize = 10;
 pub const DEPENDENT_SHAPES: f64 = 1e-5;
 /// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
 pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
+/// A number with six digits, in the format E13.5: half a unit of the sixth, relative to a first digit of one.
+pub const UNIVERSAL_ROUNDING: f64 = 5e-6;

@@ -1,4 +1,4 @@
-//! Decks and the solver.
+//! Decks, the solver, and ground vibration tests.
 
 pub mod deck;
 pub mod deck_cards;
@@ -9,6 +9,11 @@ pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;
 pub mod readers_survive;
+
+pub mod test_data;
+pub mod test_data_csv;
+pub mod test_data_pyuff;
+pub mod test_data_universal;
 
 pub mod nastran95_analysis;
 pub mod nastran95_bounds;

@@ -49,7 +49,7 @@ impl Line {
 }
 
 /// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
-pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect::<String>();
     std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)

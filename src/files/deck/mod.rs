@@ -29,6 +29,8 @@ pub mod number;
 mod read;
 mod write;
 
+pub(in crate::files) use lines::decoded;
+
 pub use known::{Reason, Unread};
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;
