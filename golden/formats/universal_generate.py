@@ -62,7 +62,7 @@ FILES = {
     "complex": [HEADER, nodes(15), complex_mode(1), complex_mode(2), complex_mode(2, conjugate=True)],
     "moving": [nodes(15), mode(1, spec_data_type=11), mode(2, spec_data_type=12),
                mode(3, analysis_type=5, freq_step_n=1)],
-#W    "written": None,
+    "written": None,
 }
 
 

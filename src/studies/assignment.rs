@@ -10,7 +10,8 @@ use nalgebra::DMatrix;
 /// $$ \max_a \sum_j c_{a(j) j}, \qquad c_{a(j) j} \ge \mathrm{floor} \ge 0, $$
 ///
 /// with no analysis mode in two pairs; g may exceed n. Test modes enter in their order, each by the shortest path that makes room for
-/// it, and of equal paths by that to the lowest analysis mode, to none last. So the same numbers always give the same pairs.
+/// it; of equal ones by that to the lowest analysis mode, or else without taking an earlier test mode's pair. So the same numbers always
+/// give the same pairs.
 ///
 /// # Errors
 /// [`Error::NotFinite`]; [`Error::Setting`] for a floor that is negative or not finite.
@@ -21,12 +22,12 @@ pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option
     if !(0.0..f64::INFINITY).contains(&floor) {
         return Err(Error::Setting { name: "floor of closeness", expected: "a number from zero up", found: floor });
     }
-    // Behind the analysis modes every test mode has a place of its own, which stands for none and counts nothing.
+    // Behind the analysis modes every test mode has a place of its own, the last one first, which stands for none and counts nothing.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;
     let cost = |test: usize, place: usize| match closeness.get((place, test)) {
         Some(&close) if place < analysis_count && close >= floor => -close,
-        _ if place == analysis_count + test => 0.0,
+        _ if place + test + 1 == places => 0.0,
         _ => f64::INFINITY,
     };
     let mut owner: Vec<Option<usize>> = vec![None; places];

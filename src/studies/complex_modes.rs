@@ -12,8 +12,8 @@ use nalgebra::{Complex, DMatrix};
 /// first of its largest components positive. With $S_{xx} = x^t x$, $S_{xy} = x^t y$, $S_{yy} = y^t y$ the square of the real part
 /// of $e^{-i \theta} v$ is the quadratic form of this 2 × 2 matrix in $(\cos \theta, \sin \theta)$; with its eigenvalues $\mu_1 \ge \mu_2$
 ///
-/// $$ \tan 2 \theta = \frac{2 S_{xy}}{S_{xx} - S_{yy}}, \qquad
-///    \mathrm{MPC} = \left( \frac{\mu_1 - \mu_2}{\mu_1 + \mu_2} \right)^2 = \frac{(S_{xx} - S_{yy})^2 + 4 S_{xy}^2}{(S_{xx} + S_{yy})^2} . $$
+/// $$ \tan 2 \theta = \frac{2 S_{xy}}{S_{xx} - S_{yy}}, \qquad \mathrm{MPC} = \frac{(\mu_1 - \mu_2)^2}{(\mu_1 + \mu_2)^2}
+///    = \frac{(S_{xx} - S_{yy})^2 + 4 S_{xy}^2}{(S_{xx} + S_{yy})^2} . $$
 ///
 /// A complex factor of the shape changes neither, up to the real shape's scale. The mean of the components is not taken off.
 /// Where MPC is zero every phase does as well, and the real part stays as it is.

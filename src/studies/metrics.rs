@@ -49,9 +49,9 @@ pub fn modal_scale_factors(analysis: &DMatrix<f64>, test: &DMatrix<f64>) -> Resu
     finite("modal scale factors", factors)
 }
 
-/// Coordinate modal assurance of every DOF over paired modes of analysis (d × n) and test (d × g), d numbers from 0 to 1:
+/// Coordinate modal assurance (COMAC) of every DOF over paired modes of analysis (d × n) and test (d × g), d numbers from 0 to 1:
 ///
-/// $$ \mathrm{COMAC}_p = \frac{\left( \sum_l |v_{pl} w_{pl}| \right)^2}{\sum_l v_{pl}^2 \sum_l w_{pl}^2} $$
+/// $$ c_p = \frac{(\sum_l |v_{pl} w_{pl}|)^2}{\sum_l v_{pl}^2 \sum_l w_{pl}^2} $$
 ///
 /// for shapes of unit length, so that scale and sign of none matter. `pairs` has the analysis mode of every test mode, or none, as
 /// [`pair_optimally`](crate::studies::assignment::pair_optimally) gives it. A DOF that does not move on either side has 1, one that

@@ -32,8 +32,8 @@ fn parsed(text: &str) -> TestData {
 
 #[test]
 fn columns_that_touch_and_fortran_exponents_are_read() {
-    let data = parsed(&real_mode("        12\n-1.23456D-101-2.00000d+00-3.00000E+00\n"));
-    assert_eq!(data.shapes, dmatrix![-1.23456e-101; -2.0; -3.0]);
+    let data = parsed(&real_mode("        12\n-1.23456D-101-2.00000d+100 -3.00000E+00\n"));
+    assert_eq!(data.shapes, dmatrix![-1.23456e-101; -2e100; -3.0]);
     // Three digits of an exponent push its letter out; blanks may separate what is in no columns.
     let data = parsed(&real_mode("12\n-1.23456-101 2.0 3\n"));
     assert_eq!(data.shapes, dmatrix![-1.23456e-101; 2.0; 3.0]);

@@ -42,7 +42,8 @@ proptest! {
         let scaled = pseudo_orthogonality(&(&analysis * &a), &(&test * &b), &mass).unwrap();
         prop_assert_eq!(pseudo.shape(), (4, 3));
         prop_assert!((scaled.abs() - pseudo.abs()).amax() < MATRIX_ROUND_OFF);
-        let signs = &a.map(f64::signum) * &pseudo * &b.map(f64::signum);
+        let signs = |scales: &DMatrix<f64>| DMatrix::from_diagonal(&scales.diagonal().map(f64::signum));
+        let signs = signs(&a) * &pseudo * signs(&b);
         prop_assert!((scaled - signs).amax() < MATRIX_ROUND_OFF, "the signs of the shapes are its signs");
         let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
         let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS).unwrap();
