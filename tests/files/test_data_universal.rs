@@ -1,7 +1,7 @@
 //! The Universal File: fixed columns, marks and what looks like them, and files that are not what they should be.
 
 use crate::common::ground_tests::{ground_test, wing_test};
-use crate::common::tolerances::UNIVERSAL_ROUNDING;
+use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
 use corfem::files::error::FileError;
 use corfem::files::test_data::{TestData, read, write_universal};
 use nalgebra::{DMatrix, Vector3, dmatrix};
@@ -39,6 +39,20 @@ fn columns_that_touch_and_fortran_exponents_are_read() {
     assert_eq!(data.shapes, dmatrix![-1.23456e-101; 2.0; 3.0]);
     assert_eq!(parsed(&real_mode(TIP).replace('\n', "\r\n")), parsed(&real_mode(TIP)));
     assert_eq!(parsed(&real_mode(TIP).replace("    -1\n", &format!("{:80}\n", "    -1"))), parsed(&real_mode(TIP)));
+}
+
+#[test]
+fn complex_modes_of_six_components_have_two_lines_a_node() {
+    let row = |values: [f64; 6]| values.iter().map(|value| format!("{value:13.5}")).collect::<String>() + "\n";
+    let values =
+        format!("        12\n{}{}", row([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]), row([0.0, 0.0, 0.0, 0.0, -2.0, -2.0]));
+    let data = parsed(&(mode([1, 2, 3, 8, 5, 6], "  1.25000E+01", &values) + &real_mode(TIP)));
+    let names: Vec<&str> = data.sensors.iter().map(|sensor| sensor.name.as_str()).collect();
+    assert_eq!(names, ["12 x", "12 z", "12 rz"]);
+    // One in both parts turns to the root of two; a real mode among complex ones has a collinearity of one.
+    let expected = dmatrix![-2.0_f64.sqrt(), 0.0; 0.0, 1.0; 8.0_f64.sqrt(), 0.0];
+    assert!((data.shapes - expected).amax() < ROUND_OFF);
+    assert!(data.phase_collinearity.iter().all(|value| (value - 1.0).abs() < ROUND_OFF));
 }
 
 #[test]
