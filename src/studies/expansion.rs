@@ -7,8 +7,6 @@ use nalgebra::DMatrix;
 
 /// Smallest singular value over the largest, of modes scaled to unit length at the sensors, below which they are dependent there.
 const RANK: f64 = 1e-9;
-/// More iterations than any decomposition needs.
-const MOST_ITERATIONS: usize = 10_000;
 
 /// Expands test shapes from the sensors to all DOF as the nearest combinations of analysis modes in least squares (SEREP),
 ///
@@ -37,7 +35,7 @@ pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>
     }
     let decomposed = |count: usize| {
         let first = unit.columns(0, count).into_owned();
-        first.try_svd(true, true, f64::EPSILON, MOST_ITERATIONS).ok_or(Error::NoConvergence(what))
+        first.try_svd(true, true, f64::EPSILON, 10_000).ok_or(Error::NoConvergence(what))
     };
     let full_rank = |count| decomposed(count).map(|svd| svd.singular_values.min() >= RANK * svd.singular_values.max());
     if !full_rank(mode_count)? {

@@ -166,8 +166,11 @@ fn faults_are_named_by_line_with_what_is_expected() {
     }
 }
 
-/// What a Universal File can hold of a test, and its numbers by node and direction.
-fn by_node(data: &TestData) -> BTreeMap<(usize, usize), (Option<Vector3<f64>>, Vec<f64>)> {
+/// Place and numbers of a sensor.
+type PlacedRow = (Option<Vector3<f64>>, Vec<f64>);
+
+/// What a Universal File can hold of a test, by node and direction.
+fn by_node(data: &TestData) -> BTreeMap<(usize, usize), PlacedRow> {
     let last = data.sensors.iter().filter_map(|sensor| sensor.grid).max().unwrap_or(0);
     let mut next = last;
     let mut first_place = BTreeMap::new();
