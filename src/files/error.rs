@@ -11,10 +11,10 @@ pub enum FileError {
     /// The method refuses its input or cannot go on.
     #[error(transparent)]
     Method(#[from] crate::method::error::Error),
-    /// A line of a deck that is not what it must be.
+    /// A line of a deck or of a test's file that is not what it must be.
     #[error("{file}, line {line}: expected {expected}, found {found}")]
     DeckLine {
-        /// The deck.
+        /// The file.
         file: String,
         /// The line, from one.
         line: usize,

@@ -1,9 +1,13 @@
 //! Studies beyond the paper's own cases.
 
+pub mod assignment;
+pub mod complex_modes;
 pub mod delta_wing;
+pub mod expansion;
 pub mod free_modes;
 pub mod matrix_comparison;
 pub mod matrix_correction;
+pub mod metrics;
 pub mod noisy_modes;
 pub mod preflight;
 pub mod whole_modes;

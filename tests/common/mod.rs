@@ -11,6 +11,7 @@ pub mod draws;
 #[cfg(unix)]
 pub mod fake_solver;
 pub mod golden;
+pub mod ground_tests;
 pub mod hostile;
 pub mod loops;
 pub mod matrices;

@@ -207,3 +207,5 @@ pub const WHOLE_SHAPE: f64 = 1e-6;
 pub const RECOVERED_STORY: f64 = 0.01;
 /// Two routes to one condensed analysis of the box, relative: its condition number times round-off.
 pub const SAME_ANALYSIS: f64 = 1e-8;
+/// A number with six digits, in the format E13.5: half a unit of the sixth, relative to a first digit of one.
+pub const UNIVERSAL_ROUNDING: f64 = 5e-6;

@@ -1,4 +1,4 @@
-//! Decks and the solver.
+//! Decks, the solver, and ground vibration tests.
 
 pub mod deck;
 pub mod deck_cards;
@@ -12,6 +12,11 @@ pub mod deck_rewrite;
 pub mod matrices;
 pub mod matrices_damaged;
 pub mod readers_survive;
+
+pub mod test_data;
+pub mod test_data_csv;
+pub mod test_data_pyuff;
+pub mod test_data_universal;
 
 pub mod nastran95_analysis;
 pub mod nastran95_bounds;

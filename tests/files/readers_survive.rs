@@ -9,6 +9,7 @@ use corfem::cases::torque_box::Reconstruction;
 use corfem::files::deck::{modes, read_without, rewrite};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
+use corfem::files::test_data::{read as read_test, write_csv, write_universal};
 use corfem::studies::delta_wing::DeltaWing;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -73,6 +74,16 @@ const READERS: &[Reader] = &[
         read_matrix("m", text, Some("KAA")).is_ok()
     }),
     ("large OUTPUT4", include_bytes!("../../golden/formats/bigmat.op4"), |text| read_matrix("m", text, Some("T")).is_ok()),
+    ("universal file", include_bytes!("../../golden/formats/universal_real.unv"), |text| read_test("test", text).is_ok()),
+    ("complex modes", include_bytes!("../../golden/formats/universal_complex.unv"), |text| {
+        read_test("test", text).is_ok()
+    }),
+    ("nodes in long columns", include_bytes!("../../golden/formats/universal_six.unv"), |text| {
+        read_test("test", text).is_ok_and(|data| !write_universal(&data).is_empty() && !write_csv(&data).is_empty())
+    }),
+    ("table of a test", b"# wing\nfrequency_hz,,,,,,,1.5,2.5\nshape_deviation,,,,,,,.01,.02\nname,grid,direction,sign,x,y,z,mode 1,mode 2\n\"tip, left\",12,z,-,0.,1.,2.,.5,-1.\nroot,1,rx,,,,,.25,1.e-1\n", |text| {
+        read_test("test", text).is_ok_and(|data| data.mode_set(&[0]).is_ok())
+    }),
     ("torque box", include_bytes!("../../paper/reconstruction.toml"), |text| {
         Reconstruction::parse("box", &String::from_utf8_lossy(text)).is_ok()
     }),

@@ -9,6 +9,11 @@ pub mod matrix_comparison;
 pub mod matrix_comparison_elements;
 pub mod matrix_correction;
 
+pub mod assignment;
+pub mod complex_modes;
+pub mod expansion;
+pub mod metrics;
+
 pub mod free_modes;
 pub mod noisy_modes;
 

@@ -33,7 +33,7 @@ mod write;
 pub use elements::Membership;
 pub(super) use card::Card;
 pub(super) use continuation::cards;
-pub(super) use lines::decoded;
+pub(in crate::files) use lines::decoded;
 
 pub use known::{Reason, Unread};
 pub use model::{BulkData, PointMass, Tie};

@@ -1,6 +1,27 @@
 //! A ground vibration test as files hold it: frequencies, sensors, and what each of them measured in every mode.
+//!
+//! [`read`] knows two formats: `universal`, the Universal File of test systems, and `csv`, a table that a spreadsheet writes.
 
+mod csv;
+mod universal;
+mod universal_write;
+
+pub use csv::write_csv;
+pub use universal_write::write_universal;
+
+use crate::files::deck::{decoded, number::parse_real};
+use crate::files::error::FileError;
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_length, check_shape};
+use crate::method::modes::ModeSet;
+use crate::method::structure::positive;
 use nalgebra::{DMatrix, Vector3};
+use std::collections::HashSet;
+
+/// What directions 0 to 5 are called.
+pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+/// What a sensor is of which there are two.
+const TWICE: [&str; 6] = ["sensor x", "sensor y", "sensor z", "sensor rx", "sensor ry", "sensor rz"];
 
 /// One sensor: it measures a displacement along an axis at a grid or point of the test.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +37,7 @@ pub struct Sensor {
 }
 
 /// The measured modes of a ground vibration test.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct TestData {
     /// Natural frequencies, Hz.
     pub frequencies_hz: Vec<f64>,
@@ -32,4 +53,74 @@ pub struct TestData {
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.
     pub lines: Vec<[usize; 2]>,
+    /// The file's units in its own words, if it says; nothing is converted.
+    pub units: Option<String>,
+    /// Numbers of the datasets of a Universal File that were not read, ascending.
+    pub skipped: Vec<usize>,
+}
+
+impl TestData {
+    /// Refuses what cannot be a test.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
+    /// [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency, a deviation or a shape; [`Error::TooMany`] for a direction
+    /// above 5; [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
+    pub fn check(&self) -> Result<(), Error> {
+        let count = self.frequencies_hz.len();
+        check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
+        ModeSet::from_measured(&self.frequencies_hz, &self.shapes)?;
+        let mut seen = HashSet::new();
+        for sensor in &self.sensors {
+            let wrong = Error::TooMany { what: "direction", available: 5, requested: sensor.direction };
+            let what = TWICE.get(sensor.direction).ok_or(wrong)?;
+            if let Some(label) = sensor.grid.filter(|grid| !seen.insert((*grid, sensor.direction))) {
+                return Err(Error::Duplicate { what, label });
+            }
+        }
+        let lists = [("frequency deviation", &self.frequency_deviation), ("shape deviation", &self.shape_deviation)];
+        for (what, list) in lists.into_iter().filter_map(|(what, list)| Some((what, list.as_ref()?))) {
+            check_length(what, list.len(), count)?;
+            let owner = |mode: usize| move || format!("test mode {mode} (from zero)");
+            list.iter().enumerate().try_for_each(|(mode, &value)| positive(what, owner(mode), value))?;
+        }
+        let phases = self.phase_collinearity.len();
+        check_length("phase collinearity", phases, if phases == 0 { 0 } else { count })
+    }
+
+    /// The modes of the given places, from zero and in that order, at all sensors.
+    ///
+    /// # Errors
+    /// Those of [`Self::check`]; [`Error::Unknown`] for a mode that is not there; [`Error::Empty`] for none.
+    pub fn mode_set(&self, modes: &[usize]) -> Result<ModeSet, Error> {
+        self.check()?;
+        if let Some(&label) = modes.iter().find(|mode| **mode >= self.frequencies_hz.len()) {
+            return Err(Error::Unknown { owner: "choice of test modes".to_owned(), what: "mode (from zero)", label });
+        }
+        let frequencies: Vec<f64> = modes.iter().map(|&mode| self.frequencies_hz[mode]).collect();
+        ModeSet::from_measured(&frequencies, &self.shapes.select_columns(modes))
+    }
+}
+
+/// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.
+///
+/// # Errors
+/// [`FileError::DeckLine`] with file, line, what is expected and what is found; those of [`TestData::check`].
+pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
+    let text = decoded(bytes);
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty());
+    let data = if first == Some("-1") { universal::read(name, &text)? } else { csv::read(name, &text)? };
+    data.check()?;
+    Ok(data)
+}
+
+/// A finite number as Fortran or a spreadsheet writes it.
+fn real(text: &str) -> Option<f64> {
+    let value = || text.parse().ok().filter(|value: &f64| value.is_finite());
+    if text.contains(' ') { None } else { parse_real(text).or_else(value) }
+}
+
+/// A name for a sensor that has none.
+fn default_name(grid: usize, direction: usize) -> String {
+    format!("{grid} {}", DIRECTIONS.get(direction).unwrap_or(&"?"))
 }

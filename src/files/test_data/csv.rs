@@ -1,0 +1,180 @@
+//! A test as a table that a spreadsheet writes. Rows and columns are found by their names:
+//!
+//! ```text
+//! # Wing test of 3 May, soft suspension
+//! frequency_hz,,,,,,,12.1,17.9
+//! frequency_deviation,,,,,,,0.003,0.005
+//! name,grid,direction,sign,x,y,z,mode 1,mode 2
+//! tip,12,z,-,0.,52.5,3.1,-1.0,0.31
+//! "aileron, outer",14,z,+,8.,48.,3.1,0.87,-0.55
+//! ```
+//!
+//! - Commas, semicolons or tabs separate cells, as in the first row that is no comment; with the latter two a decimal comma is
+//!   understood. Separators may stand within quotation marks, which are doubled there.
+//! - A row that begins with `#` is a comment, above the header also one that begins with `"#`; empty rows do not count.
+//! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
+//!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
+//!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
+//! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
+//!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
+
+use super::{DIRECTIONS, Sensor, TestData, default_name, real};
+use crate::files::error::FileError;
+use nalgebra::{DMatrix, Vector3};
+
+/// First cells of the rows with a number for every mode.
+const ROWS: [&str; 4] = ["frequency_hz", "frequency_deviation", "shape_deviation", "phase_collinearity"];
+/// Titles of columns that are no modes.
+const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
+
+/// Where the header has [`TITLES`], and its modes.
+type Header = ([Option<usize>; 7], Vec<usize>);
+
+/// One row, cut into cells.
+struct Row<'a> {
+    file: &'a str,
+    number: usize,
+    cells: Vec<String>,
+    separator: char,
+}
+
+impl Row<'_> {
+    fn cell(&self, column: Option<usize>) -> &str {
+        column.and_then(|column| self.cells.get(column)).map_or("", String::as_str)
+    }
+
+    fn wrong<T>(&self, expected: &'static str, found: &str) -> Result<T, FileError> {
+        Err(FileError::line(self.file, self.number, expected, if found.is_empty() { "nothing" } else { found }))
+    }
+
+    fn numbers(&self, columns: &[usize]) -> Result<Vec<f64>, FileError> {
+        let number = |&column: &usize| {
+            let cell = self.cell(Some(column));
+            let value = real(&if self.separator == ',' { cell.to_owned() } else { cell.replace(',', ".") });
+            value.map_or_else(|| self.wrong("a number", cell), Ok)
+        };
+        columns.iter().map(number).collect()
+    }
+
+    fn header(&self) -> Result<Header, FileError> {
+        let (mut titles, mut modes) = ([None; 7], Vec::new());
+        for (column, cell) in self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+            let title = cell.to_lowercase();
+            match TITLES.iter().position(|name| *name == title) {
+                Some(place) if titles[place].is_none() => titles[place] = Some(column),
+                None if title.starts_with("mode") => modes.push(column),
+                _ => {
+                    return self.wrong("a header with name, grid, direction, sign, x, y, z once each, and modes", cell);
+                }
+            }
+        }
+        let axes = titles[4..].iter().flatten().count();
+        let complete = titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes) && !modes.is_empty();
+        let expected = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
+        if complete { Ok((titles, modes)) } else { self.wrong(expected, &self.cells.join(" ")) }
+    }
+
+    /// The sensor of the row, and -1 if it points against its axis.
+    fn sensor(&self, titles: &[Option<usize>; 7]) -> Result<(Sensor, f64), FileError> {
+        let [name, grid, word, sign, x, y, z] = titles.map(|column| self.cell(column));
+        let Some(direction) = DIRECTIONS.iter().position(|name| *name == word.to_lowercase()) else {
+            return self.wrong("a direction x, y, z, rx, ry or rz", word);
+        };
+        let sign = match sign {
+            "" | "+" | "1" | "+1" => 1.0,
+            "-" | "-1" => -1.0,
+            other => return self.wrong("a sign + or -", other),
+        };
+        let number = |text: &str| text.parse().or_else(|_| self.wrong("a grid number", text));
+        let grid = if grid.is_empty() { None } else { Some(number(grid)?) };
+        let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
+        let coordinates = if [x, y, z] == [""; 3] { None } else { Some(self.numbers(&axes)?) };
+        let place = coordinates.map(|coordinates| Vector3::from_column_slice(&coordinates));
+        let name = match grid {
+            None if name.is_empty() => return self.wrong("a name or a grid number", ""),
+            Some(grid) if name.is_empty() => default_name(grid, direction),
+            _ => name.to_owned(),
+        };
+        Ok((Sensor { name, grid, direction, place }, sign))
+    }
+}
+
+pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
+    let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
+    let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    let first = lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line);
+    let separator = ['\t', ';'].into_iter().find(|separator| first.contains(*separator)).unwrap_or(',');
+    let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) = Default::default();
+    for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
+        let row = Row { file, number, cells: cells(line, separator), separator };
+        let name = row.cell(Some(0)).to_lowercase();
+        if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
+            continue;
+        } else if line.matches('"').count() % 2 == 1 {
+            return row.wrong("quotation marks in pairs", line);
+        } else if let Some(place) = ROWS.iter().position(|row| *row == name) {
+            if by_mode[place].is_some() {
+                return row.wrong("each row by mode once", &name);
+            }
+            by_mode[place] = Some(row);
+        } else if header.is_none() {
+            header = Some(row.header()?);
+        } else {
+            rows.push(row);
+        }
+    }
+    let missing =
+        || FileError::line(file, text.lines().count(), "a header and a row frequency_hz", "the end of the file");
+    let (titles, modes) = header.ok_or_else(missing)?;
+    let list = |place: usize| by_mode[place].as_ref().map(|row: &Row| row.numbers(&modes)).transpose();
+    let mut data = TestData { frequencies_hz: list(0)?.ok_or_else(missing)?, ..TestData::default() };
+    (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
+    data.phase_collinearity = list(3)?.unwrap_or_default();
+    let mut shapes = Vec::new();
+    for row in &rows {
+        let (sensor, sign) = row.sensor(&titles)?;
+        data.sensors.push(sensor);
+        shapes.extend(row.numbers(&modes)?.into_iter().map(|value| sign * value));
+    }
+    data.shapes = DMatrix::from_row_slice(rows.len(), modes.len(), &shapes);
+    Ok(data)
+}
+
+/// Cuts a line at its separators, those within quotation marks excepted.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let last = line.matches('"').count();
+    let mut cells = vec![String::new()];
+    for (number, part) in line.split('"').enumerate() {
+        let inside = number % 2 == 1;
+        let doubled = part.is_empty() && 0 < number && number < last;
+        let mut pieces = part.split(|c| c == separator && !inside);
+        if let (Some(cell), Some(piece)) = (cells.last_mut(), pieces.next()) {
+            *cell += if doubled && !inside { "\"" } else { piece };
+        }
+        cells.extend(pieces.map(str::to_owned));
+    }
+    cells.iter().map(|cell| cell.trim().to_owned()).collect()
+}
+
+/// Writes a test in the layout that [`read`](super::read) takes, with commas; every number reads back as it is.
+///
+/// Wire frame, units and skipped datasets have no place in it. Line ends in a name become blanks.
+pub fn write_csv(data: &TestData) -> String {
+    let quoted = |name: &str| format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""));
+    let joined = |values: &mut dyn Iterator<Item = &f64>| values.map(|value| format!(",{value:?}")).collect::<String>();
+    let phase = Some(&data.phase_collinearity).filter(|list| !list.is_empty());
+    let lists = [Some(&data.frequencies_hz), data.frequency_deviation.as_ref(), data.shape_deviation.as_ref(), phase];
+    let mut text = String::new();
+    for (name, values) in ROWS.iter().zip(lists).filter_map(|(name, values)| Some((name, values?))) {
+        text += &format!("{name},,,,,,{}\n", joined(&mut values.iter()));
+    }
+    let modes: String = (1..=data.frequencies_hz.len()).map(|mode| format!(",mode {mode}")).collect();
+    text += &format!("grid,name,direction,sign,x,y,z{modes}\n");
+    for (sensor, row) in data.sensors.iter().zip(data.shapes.row_iter()) {
+        let grid = sensor.grid.map(|grid| grid.to_string()).unwrap_or_default();
+        let place = sensor.place.map_or(",,,".to_owned(), |place| joined(&mut place.iter()));
+        let direction = DIRECTIONS.get(sensor.direction).unwrap_or(&"?");
+        text += &format!("{grid},{},{direction},+{place}{}\n", quoted(&sensor.name), joined(&mut row.iter()));
+    }
+    text
+}

@@ -1,0 +1,236 @@
+//! The Universal File (UFF, UNV) of SDRC, which test systems write: blocks of fixed columns between lines `    -1`.
+//!
+//! Datasets 15 and 2411 are nodes and their coordinates, 55 a mode at the nodes, 82 a line of the wire frame, 164 the units, whose
+//! description is kept (nothing is converted), 151 a header. All others are passed over and named in [`TestData::skipped`], so is
+//! a dataset 55 that is no mode. Coordinate systems (18, 2420) are among them: all axes are taken as global.
+//!
+//! Only a line of these six columns and nothing else ends a block; a data line `        -1` does not. Exponents may be E or D, and
+//! full columns touch; where columns do not hold one number each, blanks separate them.
+//!
+//! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
+//! are in ascending order of node and direction. A node that a mode leaves out is zero in it.
+//!
+//! The frequency of a complex eigenvalue is its magnitude over $2 \pi$, that of the undamped structure; of a conjugate pair the one
+//! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
+//! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
+
+use super::{Sensor, TestData, default_name, real};
+use crate::files::error::FileError;
+use crate::studies::complex_modes::realize;
+use nalgebra::{Complex, DMatrix, Vector3};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::f64::consts::PI;
+
+/// Columns of a record of node numbers or codes, and of one of values.
+const INTEGER: usize = 10;
+const REAL: usize = 13;
+const LONG_REAL: usize = 25;
+/// Columns of a line of values, and of a node in dataset 15.
+const VALUES: [usize; 6] = [REAL; 6];
+const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
+/// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
+const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
+
+/// What has been read so far; the modes' values by node and direction.
+#[derive(Default)]
+struct Found {
+    data: TestData,
+    places: HashMap<usize, Vector3<f64>>,
+    shapes: Vec<BTreeMap<(usize, usize), Complex<f64>>>,
+    complex: bool,
+}
+
+/// The lines of one dataset that are still to be read.
+struct Block<'a> {
+    file: &'a str,
+    lines: &'a [&'a str],
+    /// Number of the next line in the file, from one.
+    number: usize,
+}
+
+impl<'a> Block<'a> {
+    fn is_done(&self) -> bool {
+        self.lines.iter().all(|line| line.trim().is_empty())
+    }
+
+    fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
+        let end = || FileError::line(self.file, self.number, expected, "the end of the dataset");
+        let (first, rest) = self.lines.split_first().ok_or_else(end)?;
+        (self.lines, self.number) = (rest, self.number + 1);
+        Ok(first)
+    }
+
+    /// An error about the line read last.
+    fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
+        FileError::line(self.file, self.number - 1, expected, found.to_string())
+    }
+
+    /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
+    fn reals(&mut self, expected: &'static str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
+        let line = self.line(expected)?;
+        let mut start = 0;
+        let column = |&width: &usize| {
+            let text = line.get(start..line.len().min(start + width));
+            start += width;
+            text.and_then(|text| real(text.trim()))
+        };
+        let by_columns: Option<Vec<f64>> = widths.iter().map(column).collect();
+        let by_blanks = || line.split_whitespace().take(widths.len()).map(real).collect::<Option<Vec<f64>>>();
+        let numbers = by_columns.or_else(by_blanks).filter(|numbers| numbers.len() == widths.len());
+        numbers.ok_or_else(|| self.wrong(expected, line.trim()))
+    }
+
+    fn integers(&mut self, expected: &'static str, count: usize) -> Result<Vec<usize>, FileError> {
+        let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
+        numbers.into_iter().map(|number| integer(number).ok_or_else(|| self.wrong(expected, number))).collect()
+    }
+}
+
+fn integer(number: f64) -> Option<usize> {
+    ((0.0..1e15).contains(&number) && number.fract() == 0.0).then_some(number as usize)
+}
+
+fn is_mark(line: &str) -> bool {
+    line.trim_end() == "    -1"
+}
+
+pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
+    let lines: Vec<&str> = text.lines().collect();
+    let wrong = |at: usize, expected| {
+        FileError::line(file, at + 1, expected, lines.get(at).map_or("the end of the file", |line| line.trim()))
+    };
+    let (mut found, mut at) = (Found::default(), 0);
+    while let Some(blank) = lines[at..].iter().position(|line| !line.trim().is_empty()) {
+        at += blank;
+        if !is_mark(lines[at]) {
+            return Err(wrong(at, "the mark of a dataset, -1 in columns 5 and 6"));
+        }
+        let header = lines.get(at + 1).and_then(|line| line.split_whitespace().next()).unwrap_or_default();
+        let (number, binary) = header.strip_suffix(['b', 'B']).map_or((header, false), |number| (number, true));
+        let dataset: usize = number.parse().map_err(|_| wrong(at + 1, "the number of a dataset"))?;
+        // Binary data have no last line end: their mark may stand behind them.
+        let ends = |line: &&str| is_mark(line) || binary && line.trim_end().ends_with("    -1");
+        let count = lines[at + 2..].iter().position(ends);
+        let end = at + 2 + count.ok_or_else(|| wrong(lines.len(), "the end of the dataset, -1 in columns 5 and 6"))?;
+        let mut block = Block { file, lines: &lines[at + 2..end], number: at + 3 };
+        match dataset {
+            15 | 2411 => found.nodes(&mut block, dataset)?,
+            55 => found.mode(&mut block)?,
+            82 => found.trace(&mut block)?,
+            151 => {}
+            164 => found.units(&mut block)?,
+            _ => found.data.skipped.push(dataset),
+        }
+        at = end + 1;
+    }
+    found.into_data()
+}
+
+impl Found {
+    /// Dataset 15 has a line for every node, dataset 2411 two with longer coordinates. A node may come again at its place.
+    fn nodes(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
+        let expected = "the number of a node, two coordinate systems, a color, and three coordinates";
+        while !block.is_done() {
+            let mut numbers = block.reals(expected, if dataset == 15 { &NODE } else { &NODE[..4] })?;
+            let node = integer(numbers[0]).ok_or_else(|| block.wrong(expected, numbers[0]))?;
+            if dataset == 2411 {
+                numbers.extend(block.reals("three coordinates", &[LONG_REAL; 3])?);
+            }
+            let place = Vector3::from_column_slice(&numbers[4..]);
+            if *self.places.entry(node).or_insert(place) != place {
+                return Err(block.wrong("a node once, or again at the same place", format!("node {node} elsewhere")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Dataset 82: nodes that a pen goes through, zero where it is lifted.
+    fn trace(&mut self, block: &mut Block) -> Result<(), FileError> {
+        while !block.is_done() {
+            let mut left = block.integers("number, count of nodes and color of a trace line", 3)?[1];
+            block.line("the name of a trace line")?;
+            let mut pen = 0;
+            while left > 0 {
+                for node in block.integers("nodes of a trace line, eight to a line", left.min(8))? {
+                    self.data.lines.extend(Some([pen, node]).filter(|ends| !ends.contains(&0)));
+                    (pen, left) = (node, left - 1);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Dataset 164: a code and its description in 20 columns, then factors to SI.
+    fn units(&mut self, block: &mut Block) -> Result<(), FileError> {
+        let line = block.line("the code of a system of units and its description")?;
+        let words: String = line.chars().skip(INTEGER).take(20).collect();
+        self.data.units = Some(if words.trim().is_empty() { line } else { &words }.trim().to_owned());
+        block.reals("three factors of units", &[LONG_REAL; 3]).map(drop)
+    }
+
+    /// Dataset 55, if it is a mode.
+    fn mode(&mut self, block: &mut Block) -> Result<(), FileError> {
+        for _ in 0..5 {
+            block.line("five lines of identification")?;
+        }
+        let kind = block.integers("six codes of a dataset 55", 6)?;
+        let (analysis, characteristic, specific, data_type, count) = (kind[1], kind[2], kind[3], kind[4], kind[5]);
+        if ![2, 3, 7].contains(&analysis) || ![2, 3].contains(&characteristic) || !SHAPES.contains(&specific) {
+            self.data.skipped.push(55);
+            return Ok(());
+        }
+        if count != 3 * (characteristic - 1) || ![2, 5].contains(&data_type) {
+            let found = format!("characteristic {characteristic}, {count} values of type {data_type}");
+            return Err(block.wrong("a mode with three or six values a node, real (2) or complex (5)", found));
+        }
+        block.line("integers that describe a mode")?;
+        let root = block.reals("a frequency, or a complex eigenvalue", &VALUES[..if analysis == 2 { 1 } else { 2 }])?;
+        let frequency = match root[..] {
+            [_, imaginary] if imaginary < 0.0 => return Ok(()),
+            [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
+            _ => root[0],
+        };
+        if frequency <= 0.0 {
+            return Err(block.wrong("a positive frequency", frequency));
+        }
+        let omega = 2.0 * PI * frequency;
+        let divisor = [1.0, omega, -omega * omega][specific.saturating_sub(10)];
+        let mut shape = BTreeMap::new();
+        let parts = if data_type == 5 { 2 } else { 1 };
+        while !block.is_done() {
+            let node = block.integers("the number of a node", 1)?[0];
+            let mut values = Vec::with_capacity(parts * count);
+            while values.len() < parts * count {
+                let widths = &VALUES[..(parts * count - values.len()).min(VALUES.len())];
+                values.extend(block.reals("values of a mode, six to a line", widths)?);
+            }
+            for (direction, value) in values.chunks(parts).enumerate() {
+                let value = Complex::new(value[0], if parts == 2 { value[1] } else { 0.0 }) / divisor;
+                if shape.insert((node, direction), value).is_some() {
+                    return Err(block.wrong("each node once in a mode", format!("node {node} again")));
+                }
+            }
+        }
+        self.complex |= data_type == 5;
+        self.data.frequencies_hz.push(frequency);
+        self.shapes.push(shape);
+        Ok(())
+    }
+
+    fn into_data(mut self) -> Result<TestData, FileError> {
+        let values = self.shapes.iter().flatten().filter(|(_, value)| **value != Complex::default());
+        let keys: Vec<(usize, usize)> = values.map(|(key, _)| *key).collect::<BTreeSet<_>>().into_iter().collect();
+        let value = |row: usize, mode: usize| self.shapes[mode].get(&keys[row]).copied().unwrap_or_default();
+        let shapes = DMatrix::from_fn(keys.len(), self.shapes.len(), value);
+        let real = || Ok((shapes.map(|value| value.re), Vec::new()));
+        let data = &mut self.data;
+        (data.shapes, data.phase_collinearity) = if self.complex { realize(&shapes) } else { real() }?;
+        for (node, direction) in keys {
+            let (name, place) = (default_name(node, direction), self.places.get(&node).copied());
+            data.sensors.push(Sensor { name, grid: Some(node), direction, place });
+        }
+        data.skipped.sort_unstable();
+        data.skipped.dedup();
+        Ok(self.data)
+    }
+}

@@ -1,0 +1,62 @@
+//! What a test must be, whichever file it comes from.
+
+use crate::common::ground_tests::wing_test;
+use corfem::files::test_data::TestData;
+use corfem::method::error::Error;
+use nalgebra::DMatrix;
+use std::f64::consts::PI;
+
+fn refused(change: impl Fn(&mut TestData)) -> Error {
+    let mut data = wing_test();
+    change(&mut data);
+    let (of_check, of_modes) = (data.check().expect_err("refused"), data.mode_set(&[0]).expect_err("refused"));
+    assert_eq!(of_check.to_string(), of_modes.to_string());
+    of_check
+}
+
+#[test]
+fn a_sound_test_gives_the_modes_asked_for_in_their_order() {
+    let data = wing_test();
+    data.check().expect("sound");
+    let set = data.mode_set(&[1, 0]).expect("modes");
+    assert_eq!(set.shapes, data.shapes.select_columns(&[1, 0]));
+    for (place, mode) in [1, 0].into_iter().enumerate() {
+        assert_eq!(set.omega_squared[place], (2.0 * PI * data.frequencies_hz[mode]).powi(2));
+    }
+}
+
+#[test]
+fn modes_that_are_not_there_and_none_at_all_are_refused() {
+    let data = wing_test();
+    assert!(matches!(data.mode_set(&[0, 2]), Err(Error::Unknown { label: 2, .. })));
+    assert!(matches!(data.mode_set(&[]), Err(Error::Empty { .. })));
+    assert!(matches!(TestData::default().check(), Err(Error::Empty { .. })));
+}
+
+#[test]
+fn errors_name_the_offender() {
+    let cases: [(&str, Error); 9] = [
+        ("frequency of test mode 1 (from zero)", refused(|data| data.frequencies_hz[1] = -17.0)),
+        ("frequency of test mode 0 (from zero)", refused(|data| data.frequencies_hz[0] = f64::NAN)),
+        ("largest component of test mode 1 (from zero)", refused(|data| data.shapes.column_mut(1).fill(0.0))),
+        ("found inf at entry (2, 1)", refused(|data| data.shapes[(2, 1)] = f64::INFINITY)),
+        ("test mode shapes: expected 4 x 2, found 4 x 1", refused(|data| data.shapes = DMatrix::identity(4, 1))),
+        ("sensor z 12: expected each sensor z once", refused(|data| data.sensors[2].direction = 2)),
+        ("direction: expected at most 5, found 6", refused(|data| data.sensors[3].direction = 6)),
+        ("shape deviation of test mode 1", refused(|data| data.shape_deviation = Some(vec![0.1, 0.0]))),
+        ("phase collinearity: expected 2 x 1, found 1 x 1", refused(|data| data.phase_collinearity = vec![0.5])),
+    ];
+    for (words, error) in cases {
+        assert!(error.to_string().contains(words), "{words}: {error}");
+    }
+    let short = refused(|data| data.frequency_deviation = Some(vec![0.1]));
+    assert!(matches!(short, Error::WrongShape { what: "frequency deviation", rows: 1, .. }), "{short}");
+}
+
+#[test]
+fn sensors_without_a_grid_may_share_a_direction() {
+    let mut data = wing_test();
+    data.sensors[1].grid = None;
+    data.sensors[1].direction = 0;
+    data.check().expect("sound");
+}

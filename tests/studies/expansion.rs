@@ -1,0 +1,64 @@
+//! Test shapes from the sensors to all degrees of freedom.
+
+use crate::common::tolerances::MATRIX_ROUND_OFF;
+use corfem::closed_forms::spring_chain::uniform_held_modes;
+use corfem::method::error::Error;
+use corfem::studies::expansion::expand;
+use nalgebra::{DMatrix, dmatrix};
+use proptest::prelude::*;
+
+/// Where the sensors of a chain of eight are.
+const SENSORS: [usize; 4] = [1, 3, 4, 7];
+
+fn modes() -> DMatrix<f64> {
+    uniform_held_modes(8, 1000.0, 0.01).expect("a chain").lowest(3).expect("modes").shapes.clone()
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn shapes_in_the_span_of_the_modes_are_reproduced(shares in prop::collection::vec(-1.0..1.0_f64, 6)) {
+        let all = modes();
+        let shapes = &all * DMatrix::from_vec(3, 2, shares);
+        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS)).unwrap();
+        prop_assert!((expanded - &shapes).amax() < MATRIX_ROUND_OFF * all.amax());
+    }
+
+    #[test]
+    fn what_the_sensors_measured_otherwise_is_orthogonal_to_the_modes_there(
+        measured in prop::collection::vec(-1.0..1.0_f64, 4),
+        scale in -12..12,
+    ) {
+        let (all, measured) = (modes() * 10_f64.powi(scale), DMatrix::from_vec(4, 1, measured));
+        let at_sensors = all.select_rows(&SENSORS);
+        let expanded = expand(&all, &at_sensors, &measured).unwrap();
+        let left = measured - expanded.select_rows(&SENSORS);
+        prop_assert!(at_sensors.tr_mul(&left).amax() < MATRIX_ROUND_OFF * at_sensors.amax());
+    }
+}
+
+#[test]
+fn sensors_that_cannot_tell_the_modes_apart_are_refused() {
+    let all = modes();
+    let few = |rows: &[usize]| expand(&all, &all.select_rows(rows), &DMatrix::identity(rows.len(), 1));
+    assert!(matches!(few(&[1, 3]), Err(Error::TooMany { available: 2, requested: 3, .. })));
+    assert!(matches!(few(&[1, 3, 3, 1]), Err(Error::Dependent { index: 2, .. })));
+    let unseen = dmatrix![1.0, 0.0; 2.0, 0.0; 0.5, 0.0];
+    let refused = expand(&unseen, &unseen, &DMatrix::identity(3, 1));
+    assert!(matches!(refused, Err(Error::Dependent { index: 1, .. })), "{refused:?}");
+    let twice = dmatrix![1.0, -2.0, 0.0; 0.0, 0.0, 1.0; 0.5, -1.0, 0.0];
+    let refused = expand(&twice, &twice, &DMatrix::identity(3, 1));
+    assert!(matches!(refused, Err(Error::Dependent { index: 1, .. })), "{refused:?}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let (two, three) = (DMatrix::<f64>::identity(2, 2), DMatrix::<f64>::identity(3, 3));
+    assert!(matches!(expand(&three, &two, &two), Err(Error::WrongShape { .. })));
+    assert!(matches!(expand(&two, &two, &three), Err(Error::WrongShape { .. })));
+    assert!(matches!(expand(&two, &DMatrix::zeros(2, 0), &two), Err(Error::Empty { .. })));
+    assert!(matches!(expand(&two, &(f64::NAN * &two), &two), Err(Error::NotFinite { .. })));
+    assert!(matches!(expand(&two, &two, &(f64::NAN * &two)), Err(Error::NotFinite { .. })));
+    assert!(matches!(expand(&(f64::NAN * &two), &two, &two), Err(Error::NotFinite { .. })));
+}
