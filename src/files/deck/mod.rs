@@ -30,9 +30,9 @@ mod read;
 mod rewrite;
 mod write;
 
-pub use elements::Membership;
 pub(super) use card::Card;
 pub(super) use continuation::cards;
+pub use elements::Membership;
 pub(in crate::files) use lines::decoded;
 
 pub use known::{Reason, Unread};

@@ -1,0 +1,173 @@
+//! Model and test put together: what a correlation of a job starts from.
+
+use super::model::{beside, load};
+use super::sensors::{PlacedSensor, place};
+use super::{ComparedModes, Job, ModelSource, PairingRule, read};
+use crate::files::error::FileError;
+use crate::files::test_data::{self, TestData};
+use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
+use crate::method::error::Error;
+use crate::method::model::{ModalModel, Pair};
+use crate::method::modes::ModeSet;
+use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
+use crate::studies::assignment::pair_optimally;
+use crate::studies::whole_model::SparseMatrix;
+use nalgebra::DMatrix;
+use std::path::{Path, PathBuf};
+
+/// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
+pub const FLOOR: f64 = 0.5;
+
+/// A job with everything it names read and matched.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// The job's file.
+    pub path: PathBuf,
+    /// What it says.
+    pub job: Job,
+    /// What reports call the structure.
+    pub title: String,
+    /// The model.
+    pub source: ModelSource,
+    /// The test as its file has it.
+    pub data: TestData,
+    /// Its sensors on the model.
+    pub placed: Vec<PlacedSensor>,
+    /// Reads them off the model (sensors × DOF).
+    pub sensors: SparseMatrix,
+    /// The test modes that are compared, at the sensors placed.
+    pub test: ModeSet,
+    /// Their places in the test's file, from zero.
+    pub modes: Vec<usize>,
+    /// Test modes, from zero, that no mode of the first model is like, with their largest modal assurance.
+    pub unpaired: Vec<(usize, f64)>,
+    /// Test modes, from zero, that Appendix B deleted, and why.
+    pub deleted: Vec<(usize, ModeReport)>,
+    /// How many modes of the model are taken.
+    pub analysis_modes: usize,
+}
+
+impl Prepared {
+    /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
+    ///
+    /// # Errors
+    /// Those of the files; [`FileError::Job`] for modes that the test does not have, and when no test mode has a partner;
+    /// those of the first analysis.
+    pub fn new(path: &Path) -> Result<Self, FileError> {
+        let job = read(path)?;
+        let file = beside(path, &job.test.file);
+        let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
+        let data = test_data::read(&file.display().to_string(), &bytes)?;
+        let source = load(path, &job)?;
+        let (placed, sensors) = place(path, &job, &data, &source)?;
+        let available = data.frequencies_hz.len();
+        let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
+        if let Some(&mode) = numbers.iter().find(|mode| !(1..=available).contains(*mode)) {
+            return Err(FileError::job(path, format!("test.modes from 1 to {available}"), mode.to_string()));
+        }
+        let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
+        let test = measured(&data, &placed, &modes)?;
+        let usual = modes.len() + (modes.len() / 2).max(4);
+        let most = match job.compare.modes {
+            ComparedModes::Whole => source.whole.dof_count(),
+            ComparedModes::Condensed => placed.len(),
+        };
+        let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
+        let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let title = job.title.clone().unwrap_or(title);
+        let path = path.to_owned();
+        let (unpaired, deleted) = (Vec::new(), Vec::new());
+        let mut prepared =
+            Self { path, job, title, source, data, placed, sensors, test, modes, unpaired, deleted, analysis_modes };
+        if prepared.job.test.orthogonalize {
+            prepared.orthogonalize()?;
+        }
+        prepared.leave_out_unpaired()?;
+        Ok(prepared)
+    }
+
+    /// Appendix B: the test modes orthogonalized with the mass at the sensors, without those that move too much by it. The structure
+    /// counts as held, so that nothing is balanced.
+    fn orthogonalize(&mut self) -> Result<(), FileError> {
+        let ones = vec![1.0; self.source.whole.parameters().len()];
+        let (_, mass) = self.source.whole.condensed(&ones, &self.sensors)?;
+        let examined = examine(&self.test, &mass, Supports::Held, &MovementLimits::default())?;
+        let reports = self.modes.iter().copied().zip(examined.reports);
+        self.deleted = reports.filter(|(_, report)| report.verdict != ModeVerdict::Kept).collect();
+        self.modes = examined.kept.into_iter().map(|mode| self.modes[mode]).collect();
+        self.test = examined.modes;
+        Ok(())
+    }
+
+    /// Leaves out the test modes that no mode of the first model is like.
+    fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
+        let ones = vec![1.0; self.source.whole.parameters().len()];
+        let shapes = match self.analyze(&ones) {
+            Ok(first) => first.exact.modes.shapes.clone(),
+            // More test modes than the model has are still to be looked at.
+            Err(Error::TooMany { what: "test modes", .. }) => {
+                let modes = self.source.whole.modes(&ones, self.analysis_modes)?.vibrations;
+                self.sensors.times(&modes.shapes)?
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let assurance = modal_assurance(&shapes, &self.test.shapes)?;
+        let floor = self.job.compare.floor.unwrap_or(FLOOR);
+        let partners = pair_optimally(&assurance, floor)?;
+        let kept: Vec<usize> = (0..partners.len()).filter(|&mode| partners[mode].is_some()).collect();
+        let left = (0..partners.len()).filter(|&mode| partners[mode].is_none());
+        self.unpaired = left.map(|mode| (self.modes[mode], assurance.column(mode).max())).collect();
+        if kept.is_empty() {
+            let best = assurance.max();
+            let expected =
+                format!("a mode of the model with a modal assurance of {floor} or more for one test mode at least");
+            return Err(FileError::job(&self.path, expected, format!("{best:.3} at most")));
+        }
+        self.test = self.test.select(&kept);
+        self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
+        Ok(())
+    }
+
+    /// What the loops are handed at the given parameter factors.
+    ///
+    /// # Errors
+    /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
+    pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
+        let (whole, pair) = (&self.source.whole, pairing_rule(self.job.compare.pairing));
+        match self.job.compare.modes {
+            ComparedModes::Whole => whole.analyze(factors, &self.sensors, (&self.test, pair), self.analysis_modes),
+            ComparedModes::Condensed => {
+                whole.analyze_condensed(factors, &self.sensors, &self.test, Some(self.analysis_modes))
+            }
+        }
+    }
+}
+
+/// The test modes at the sensors placed.
+fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result<ModeSet, Error> {
+    let rows: Vec<usize> = placed.iter().map(|sensor| sensor.row).collect();
+    let mut shapes = data.shapes.select_rows(&rows).select_columns(modes);
+    shapes.row_iter_mut().zip(placed).for_each(|(mut row, sensor)| row *= sensor.sign);
+    let frequencies: Vec<f64> = modes.iter().map(|&mode| data.frequencies_hz[mode]).collect();
+    ModeSet::from_measured(&frequencies, &shapes)
+}
+
+fn pairing_rule(rule: PairingRule) -> Pair {
+    match rule {
+        PairingRule::Closest => pair_modes,
+        PairingRule::Optimal => pair_by_assignment,
+    }
+}
+
+/// The pairs with the largest sum of squared closeness, every test mode with one.
+///
+/// # Errors
+/// Those of [`pair_optimally`]; [`Error::TooMany`] with more test modes than analysis modes.
+pub fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+    let partners = pair_optimally(&cross.map(|closeness| 1.0 + closeness * closeness), 0.0)?;
+    let (available, requested) = cross.shape();
+    let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
+    let analysis_mode = analysis_mode.ok_or(Error::TooMany { what: "test modes", available, requested })?;
+    let sign = analysis_mode.iter().enumerate().map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 }).collect();
+    Ok(Pairing { analysis_mode, sign })
+}
