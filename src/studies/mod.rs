@@ -1,10 +1,13 @@
 //! Studies beyond the paper's own cases.
 
+pub mod coverage;
 pub mod delta_wing;
 pub mod free_modes;
+pub mod localization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod noisy_modes;
 pub mod preflight;
+pub mod weighted;
 pub mod whole_modes;
 pub mod whole_model;
