@@ -7,11 +7,12 @@ use crate::cases::torque_box::TEST_GAGE;
 use crate::cases::{Case, run_case};
 use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
+use crate::method::outer_loop::Correlation;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{GROUPS, correlate_wing, first_model, test_modes};
 use serde::Serialize;
 
-/// A structure whose true factors are known: the model before its correlation, the exact test, and the truth.
+/// A structure whose true factors are known.
 pub struct Known {
     /// What it is.
     pub name: String,
@@ -44,24 +45,37 @@ impl Known {
         Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
     }
 
-    fn result(&self, iterations: usize, analyses: usize, factors: &[f64]) -> Result<RuleResult, CaseError> {
+    fn compared(&self, rule: Rule, steps: usize, analyses: usize, factors: &[f64]) -> Result<Compared, CaseError> {
         let errors: Vec<f64> = factors.iter().zip(&self.truth).map(|(found, right)| found / right - 1.0).collect();
         let squares: f64 = errors.iter().map(|error| error * error).sum();
-        Ok(RuleResult {
-            iterations,
-            analyses,
-            factor_rms: (squares / errors.len() as f64).sqrt(),
-            largest: errors.iter().fold(0.0, |largest, error| error.abs().max(largest)),
-            error_sum: self.model.analyze(factors, &self.test, None)?.exact.errors.sum(),
-        })
+        let factor_rms = (squares / errors.len() as f64).sqrt();
+        let largest = errors.iter().fold(0.0, |largest, error| error.abs().max(largest));
+        let error_sum = self.model.analyze(factors, &self.test, None)?.exact.errors.sum();
+        Ok(Compared { name: self.name.clone(), rule, steps, analyses, factor_rms, largest, error_sum })
     }
 }
 
-/// What a rule came to; errors are fractions.
+/// What corrects a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// Nothing: the first model.
+    None,
+    /// The paper's, with the settings of the case.
+    Paper,
+    /// Gauss–Newton, with weights of [`DEVIATIONS`].
+    GaussNewton,
+}
+
+/// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RuleResult {
+pub struct Compared {
+    /// The structure.
+    pub name: String,
+    /// The rule.
+    pub rule: Rule,
     /// Accepted steps.
-    pub iterations: usize,
+    pub steps: usize,
     /// Exact analyses.
     pub analyses: usize,
     /// RMS error of the factors.
@@ -72,42 +86,29 @@ pub struct RuleResult {
     pub error_sum: f64,
 }
 
-/// Both rules on one structure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Compared {
-    /// The structure.
-    pub name: String,
-    /// RMS error of the factors before any step.
-    pub first_rms: f64,
-    /// By the paper's rule, with the settings of the case.
-    pub paper: RuleResult,
-    /// By Gauss–Newton with weights of [`DEVIATIONS`].
-    pub weighted: RuleResult,
-}
-
-/// Cases 1 to 3 and the delta wing by the paper's rule and by Gauss–Newton, both within the same bounds.
+/// Cases 1 to 3 and the delta wing before correction, by the paper's rule and by Gauss–Newton, within the same bounds.
 ///
 /// # Errors
 /// Those of the models and of both rules.
-pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<Compared>, CaseError> {
+pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, CaseError> {
+    let wing = (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation);
     let of_case = |number| {
         let case = Case::new(number)?;
         Ok((Known::of_case(&case)?, run_case(&case, |_, _| {})?.correlation))
     };
-    let wing = || Ok((Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation));
-    let compared = |run: Result<(Known, _), CaseError>| {
-        let (known, paper): (Known, crate::method::outer_loop::Correlation) = run?;
+    let mut all = (1..=3).map(of_case).collect::<Result<Vec<_>, CaseError>>()?;
+    all.push(wing);
+    let compared = |(known, paper): (Known, Correlation)| {
         let weights = Weights::uniform(DEVIATIONS, known.test.len())?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
-        let weighted = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;
-        let iterations = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
-        Ok(Compared {
-            first_rms: known.result(0, 1, &ones)?.factor_rms,
-            paper: known.result(iterations, paper.passes.len() + 1, &paper.best_factors())?,
-            weighted: known.result(weighted.iterations.len(), weighted.analyses, &weighted.factors)?,
-            name: known.name,
-        })
+        let found = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;
+        let steps = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
+        Ok([
+            known.compared(Rule::None, 0, 1, &ones)?,
+            known.compared(Rule::Paper, steps, paper.passes.len() + 1, &paper.best_factors())?,
+            known.compared(Rule::GaussNewton, found.iterations.len(), found.analyses, &found.factors)?,
+        ])
     };
-    [of_case(1), of_case(2), of_case(3), wing()].into_iter().map(compared).collect()
+    all.into_iter().map(compared).collect()
 }

@@ -6,22 +6,12 @@ use crate::method::model::Range;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-/// Cosine between the columns of two parameters, in magnitude, above which they are nearly parallel: of a change in one, what
-/// another cannot imitate is a fifth.
+/// Cosine of two parameters' columns above which they are nearly parallel: a fifth of one is what the other cannot imitate.
 pub const PARALLEL_COSINE: f64 = 0.98;
 /// Length of a parameter's column below which it is blind, as a fraction of the longest.
 pub const BLIND_FRACTION: f64 = 0.01;
 /// Standard deviations on either side that hold 95 % of a normal distribution.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
-
-/// Two parameters whose effects the test modes can hardly tell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Parallel {
-    /// Both, from zero.
-    pub parameters: [usize; 2],
-    /// Cosine between their columns; negative where one undoes the other.
-    pub cosine: f64,
-}
 
 /// What a weighted Jacobian $J$ (residuals × p parameters) says of the logarithms of the factors.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -30,27 +20,26 @@ pub struct Identifiability {
     pub singular_values: Vec<f64>,
     /// The largest over the smallest; infinite where some combination has no effect.
     pub condition: f64,
-    /// Pairs above [`PARALLEL_COSINE`].
-    pub parallel: Vec<Parallel>,
+    /// Pairs above [`PARALLEL_COSINE`] with their cosine, negative where one undoes the other.
+    pub parallel: Vec<(usize, usize, f64)>,
     /// Parameters below [`BLIND_FRACTION`].
     pub blind: Vec<usize>,
-    /// Parameters worth correcting together, the best seen first: by QR with column pivoting, as long as what the ones before
-    /// cannot imitate of a parameter says more of it than the prior.
+    /// Parameters worth correcting together, by QR with column pivoting: while what the ones before cannot imitate says more
+    /// of the next than the prior.
     pub subset: Vec<usize>,
     /// Covariance of the logarithms, $(J^t J + I/\tau^2)^{-1}$ (p × p).
     #[serde(skip)]
     pub covariance: DMatrix<f64>,
     /// Standard deviations of the logarithms.
     pub deviations: Vec<f64>,
-    /// How much of each parameter's variance before the test the test has taken away, $1 - s^2/\tau^2$: near one where the data
-    /// decide, near zero where the prior does.
+    /// How much of each prior variance the test has taken away, $1 - s^2/\tau^2$: near one where the data decide.
     pub learned: Vec<f64>,
 }
 
 /// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
 ///
-/// The covariance is that of a linear model with normal errors of the standard deviations in the weights, and of logarithms that
-/// were normal about zero with $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over
+/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero with
+/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over
 /// repeated tests.
 ///
 /// # Errors
@@ -72,16 +61,16 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
     let longest = lengths.iter().fold(0.0_f64, |a, &b| a.max(b));
     let blind: Vec<usize> = (0..count).filter(|&e| lengths[e] <= BLIND_FRACTION * longest).collect();
-    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
-    let cosine = |[a, b]: [usize; 2]| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
-    let parallel = pairs.map(|pair| Parallel { parameters: pair, cosine: cosine(pair) });
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+    let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
+    let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
     let information = jacobian.tr_mul(jacobian) + DMatrix::identity(count, count) / prior_deviation.powi(2);
     let factor = information.cholesky().ok_or(Error::NotPositiveDefinite { what: "information", dof: 0 })?;
     let covariance = factor.inverse();
     let deviations: Vec<f64> = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
     Ok(Identifiability {
         condition: if smallest > 0.0 { singular_values[0] / smallest } else { f64::INFINITY },
-        parallel: parallel.filter(|pair| pair.cosine.abs() > PARALLEL_COSINE).collect(),
+        parallel: parallel.filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE).collect(),
         subset: subset(jacobian.clone(), 1.0 / prior_deviation),
         learned: deviations.iter().map(|deviation| 1.0 - (deviation / prior_deviation).powi(2)).collect(),
         singular_values,
@@ -111,9 +100,8 @@ fn subset(mut left: DMatrix<f64>, least: f64) -> Vec<usize> {
 impl Identifiability {
     /// 95 % intervals about the factors, $c e^{\pm 1.96 s}$.
     ///
-    /// Of a parameter with `learned` near one, they hold the true factor in 95 of 100 tests with errors as the weights say, if the
-    /// model is right but for its factors and nearly linear within the interval. Of any other they say as much of the prior as of
-    /// the test. They know nothing of bounds.
+    /// Of a parameter with `learned` near one they hold the true factor in 95 of 100 tests, if the model is right but for
+    /// its factors and nearly linear within them. Of another they say as much of the prior. They know nothing of bounds.
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter.

@@ -9,9 +9,8 @@ use crate::method::pairing::Pairing;
 use crate::studies::noisy_modes::Noise;
 use nalgebra::{DMatrix, DVector};
 
-/// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are nearly
-/// twice those of a good test, [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, linearity,
-/// the place of a sensor.
+/// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
+/// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
 pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
 
 /// Weights of every test mode: one over a standard deviation.
@@ -47,11 +46,10 @@ impl Weights {
 /// $$ r_{fj} = w_{fj} \Big(\frac{f_{Fi}}{f_{Gj}} - 1\Big), \qquad r_{vj} = w_{vj} (a_j v_i - u_j), \qquad
 ///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
 ///
-/// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. The paper scales the analysis
-/// shape to its own largest component as well. Here its scale is the one of least squares (the modal scale factor): it turns the
-/// shape the right way, has no kink where the largest component changes its place, and the noise of one component does not
-/// enter all the others. Eliminating a linear unknown in this way leaves the covariance of the others what it is with the scale
-/// among the unknowns, which intervals depend on.
+/// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. The analysis shape's scale is that
+/// of least squares (the modal scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
+/// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
+/// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
 ///
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Setting`] for weights that do not fit; [`Error::NotFinite`].
