@@ -1,7 +1,5 @@
-//! Which parameter is wrong, before any correlation: two rankings, and how often they put the culprit first.
-//!
-//! The paper finds a modeling error by the unlimited factor (13) of the first iteration. That is a slope, and a slope says little
-//! where the error is gross. The other ranking lets each parameter alone do what it can, over six decades of its factor.
+//! Which parameter is wrong, before any correlation: by the paper's unlimited factor, which is a slope and says little where an
+//! error is gross, and by what each parameter can do alone. And how often either ranking puts the culprit first.
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
@@ -24,12 +22,8 @@ pub const NOISE: Noise = Noise { shape: 0.01, frequency: 0.005 };
 pub const SEEDS: RangeInclusive<u64> = 1..=100;
 /// Gages of the culprit over the true one: Case 4's error, and one that is not gross.
 pub const RATIOS: [f64; 2] = [0.01, 0.5];
-/// Decades of factors tried on either side of one.
-const DECADES: f64 = 3.0;
-/// Factors tried on either side of the best so far, in each refinement by eight: a quarter of a decade, then 7 %, then 1 %.
-const TRIED: i32 = 12;
-/// How often.
-const REFINEMENTS: usize = 3;
+/// Decades on either side of the best factor so far that are searched, at first about one: 25 factors each, to 1 %.
+const DECADES: [f64; 3] = [3.0, 0.375, 0.047];
 
 /// A parameter under suspicion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -74,12 +68,11 @@ pub fn by_single_fit(model: &ModalModel, weights: &Weights) -> Result<Vec<Suspec
         })
     };
     let best = |parameter: usize| {
-        let (mut lowest, mut log, mut width) = (f64::INFINITY, 0.0, DECADES);
-        for _ in 0..REFINEMENTS {
-            let at = |place: i32| log + width * f64::from(place) / f64::from(TRIED);
-            let tried = (-TRIED..=TRIED).map(|place| (objective(parameter, at(place)), at(place)));
+        let (mut lowest, mut log) = (f64::INFINITY, 0.0);
+        for decades in DECADES {
+            let tried = (-12..=12).map(|place| log + decades * f64::from(place) / 12.0);
+            let tried = tried.map(|log| (objective(parameter, log), log));
             (lowest, log) = tried.fold((lowest, log), |best, tried| if tried.0 < best.0 { tried } else { best });
-            width /= 8.0;
         }
         Suspect { parameter, factor: 10.0_f64.powf(log), evidence: start - lowest }
     };

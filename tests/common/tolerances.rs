@@ -200,3 +200,14 @@ pub const MOST_LOW_PAIRS: usize = 10;
 pub const DEPENDENT_SHAPES: f64 = 1e-5;
 /// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
 pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
+/// Factors by Gauss–Newton where the gradient is a ten-thousandth of a standard deviation of up to a half, and the prior a
+/// millionth of the least that data say.
+pub const WEIGHTED_FACTOR: f64 = 1e-3;
+/// How far the coverage of 95 % intervals over a thousand tests may be from 95 %: 93 to 97 % is what is asked of it.
+pub const COVERAGE: f64 = 0.02;
+/// The same for one parameter: four standard errors of a thousand tests, 0.7 % each.
+pub const LEAST_PARAMETER_COVERAGE: f64 = 0.92;
+/// Coverage in twenty tests, over a dozen parameters: their errors are correlated, so that it scatters by some percent.
+pub const FEW_COVERAGE: f64 = 0.88;
+/// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.
+pub const SINGLE_FIT_FACTOR: f64 = 0.01;

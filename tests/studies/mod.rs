@@ -15,3 +15,6 @@ pub mod noisy_modes;
 pub mod preflight;
 pub mod preflight_modes;
 pub mod preflight_rates;
+
+pub mod weighted;
+pub mod weighted_coverage;

@@ -7,7 +7,6 @@ use crate::cases::torque_box::TEST_GAGE;
 use crate::cases::{Case, run_case};
 use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
-use crate::method::outer_loop::Correlation;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{GROUPS, correlate_wing, first_model, test_modes};
 use serde::Serialize;
@@ -29,10 +28,10 @@ impl Known {
     ///
     /// # Errors
     /// Those of its model.
-    pub fn of_case(case: &Case) -> Result<Self, CaseError> {
+    pub fn of_case(number: usize) -> Result<Self, CaseError> {
+        let case = Case::new(number)?;
         let truth = case.first_gages().into_iter().map(|gage| TEST_GAGE / gage).collect();
-        let (model, test) = (case.model()?, case.test_modes()?.into());
-        Ok(Self { name: format!("Case {}", case.number), model, test, truth })
+        Ok(Self { name: format!("Case {number}"), model: case.model()?, test: case.test_modes()?.into(), truth })
     }
 
     /// The delta wing with its wrong gages.
@@ -45,7 +44,12 @@ impl Known {
         Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
     }
 
-    fn compared(&self, rule: Rule, steps: usize, analyses: usize, factors: &[f64]) -> Result<Compared, CaseError> {
+    fn compared(
+        &self,
+        rule: &'static str,
+        [steps, analyses]: [usize; 2],
+        factors: &[f64],
+    ) -> Result<Compared, CaseError> {
         let errors: Vec<f64> = factors.iter().zip(&self.truth).map(|(found, right)| found / right - 1.0).collect();
         let squares: f64 = errors.iter().map(|error| error * error).sum();
         let factor_rms = (squares / errors.len() as f64).sqrt();
@@ -55,25 +59,13 @@ impl Known {
     }
 }
 
-/// What corrects a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Rule {
-    /// Nothing: the first model.
-    None,
-    /// The paper's, with the settings of the case.
-    Paper,
-    /// Gauss–Newton, with weights of [`DEVIATIONS`].
-    GaussNewton,
-}
-
 /// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compared {
     /// The structure.
     pub name: String,
-    /// The rule.
-    pub rule: Rule,
+    /// Nothing, the paper's with the settings of the case, or Gauss–Newton with weights of [`DEVIATIONS`].
+    pub rule: &'static str,
     /// Accepted steps.
     pub steps: usize,
     /// Exact analyses.
@@ -91,24 +83,21 @@ pub struct Compared {
 /// # Errors
 /// Those of the models and of both rules.
 pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, CaseError> {
-    let wing = (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation);
-    let of_case = |number| {
-        let case = Case::new(number)?;
-        Ok((Known::of_case(&case)?, run_case(&case, |_, _| {})?.correlation))
-    };
-    let mut all = (1..=3).map(of_case).collect::<Result<Vec<_>, CaseError>>()?;
-    all.push(wing);
-    let compared = |(known, paper): (Known, Correlation)| {
+    let compared = |number| {
+        let (known, paper) = match number {
+            0 => (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation),
+            _ => (Known::of_case(number)?, run_case(&Case::new(number)?, |_, _| {})?.correlation),
+        };
         let weights = Weights::uniform(DEVIATIONS, known.test.len())?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
         let found = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;
         let steps = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
         Ok([
-            known.compared(Rule::None, 0, 1, &ones)?,
-            known.compared(Rule::Paper, steps, paper.passes.len() + 1, &paper.best_factors())?,
-            known.compared(Rule::GaussNewton, found.iterations.len(), found.analyses, &found.factors)?,
+            known.compared("none", [0, 1], &ones)?,
+            known.compared("paper", [steps, paper.passes.len() + 1], &paper.best_factors())?,
+            known.compared("gauss_newton", [found.iterations.len(), found.analyses], &found.factors)?,
         ])
     };
-    all.into_iter().map(compared).collect()
+    [1, 2, 3, 0].into_iter().map(compared).collect()
 }

@@ -12,36 +12,30 @@ use serde::{Deserialize, Serialize};
 /// Objectives this near count as the same: a $\chi^2$ of two thousandths, which no test can tell.
 pub const SAME_OBJECTIVE: f64 = 1e-3;
 
-/// How a weighted correlation steps and when it stops.
+/// Damping of the first step, relative to the curvature of each parameter.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Longest step in the logarithm of any factor: $e$ times as soft or stiff.
+const LONGEST_STEP: f64 = 1.0;
+/// A step that moves no logarithm by more is none.
+const SHORTEST_STEP: f64 = 1e-6;
+
+/// What a weighted correlation assumes and when it stops.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WeightedSettings {
     /// Standard deviation $\tau$ of the factors' logarithms before the test; its inverse is Tikhonov's weight toward one.
     pub prior_deviation: f64,
-    /// Damping of the first step, relative to the curvature of each parameter.
-    pub first_damping: f64,
-    /// Longest step in the logarithm of any factor.
-    pub longest_step: f64,
     /// Stop when no parameter alone would move by more than this part of its standard deviation.
-    pub gradient_tolerance: f64,
-    /// Stop when a step would move no logarithm by more than this.
-    pub step_tolerance: f64,
+    pub tolerance: f64,
     /// Most trial steps, taken or not: one exact analysis each.
     pub trials: usize,
 }
 
 impl Default for WeightedSettings {
-    /// A prior of $\tau$ = 1: a first factor wrong by $e$ is one standard deviation, so that it decides where the test is
-    /// silent and nowhere else. Damping 0.001, steps up to a factor of $e$, tolerances 1e-4 and 1e-6, a hundred trials.
+    /// A prior of $\tau$ = 1, by which a first factor wrong by $e$ is one standard deviation: it decides where the test is
+    /// silent and nowhere else. A tolerance of 1e-4 and a hundred trials.
     fn default() -> Self {
-        Self {
-            prior_deviation: 1.0,
-            first_damping: 1e-3,
-            longest_step: 1.0,
-            gradient_tolerance: 1e-4,
-            step_tolerance: 1e-6,
-            trials: 100,
-        }
+        Self { prior_deviation: 1.0, tolerance: 1e-4, trials: 100 }
     }
 }
 
@@ -142,18 +136,13 @@ pub fn gauss_newton<E: From<Error>>(
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
     positive_setting("prior_deviation", settings.prior_deviation)?;
-    positive_setting("first_damping", settings.first_damping)?;
-    positive_setting("longest_step", settings.longest_step)?;
-    positive_setting("gradient_tolerance", settings.gradient_tolerance)?;
-    positive_setting("step_tolerance", settings.step_tolerance)?;
+    positive_setting("tolerance", settings.tolerance)?;
     check_length("parameter limits", ranges.len(), first.len())?;
-    for range in ranges.iter().flatten() {
-        Range::positive("parameter limits", range.lower, range.upper)?;
-    }
+    ranges.iter().flatten().try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
     let prior = settings.prior_deviation.powi(-2);
     let mut place_at = |factors: Vec<f64>| -> Result<Place, E> {
-        let clamped = factors.iter().zip(ranges).map(|(&factor, range)| range.map_or(factor, |r| r.clamp(factor)));
-        let factors: Vec<f64> = clamped.collect();
+        let within = |(&factor, range): (&f64, &Option<Range>)| range.map_or(factor, |range| range.clamp(factor));
+        let factors: Vec<f64> = factors.iter().zip(ranges).map(within).collect();
         let model = analyze(&factors)?;
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
@@ -166,7 +155,7 @@ pub fn gauss_newton<E: From<Error>>(
     let mut place = place_at(first.to_vec())?;
     let initial = place.exact.clone();
     let (mut iterations, mut swaps): (Vec<WeightedIteration>, Vec<Swap>) = (Vec::new(), Vec::new());
-    let (mut damping, mut growth, mut trials) = (settings.first_damping, 2.0, 0);
+    let (mut damping, mut growth, mut trials) = (FIRST_DAMPING, 2.0, 0);
     let stop = loop {
         let Place { factors, gradient, curvature, .. } = &place;
         let room = |(range, factor): (&Option<Range>, &f64)| {
@@ -175,16 +164,16 @@ pub fn gauss_newton<E: From<Error>>(
         let room: Vec<(f64, f64)> = ranges.iter().zip(factors).map(room).collect();
         let is_free = |&e: &usize| if gradient[e] > 0.0 { room[e].0 < 0.0 } else { room[e].1 > 0.0 };
         let free: Vec<usize> = (0..first.len()).filter(is_free).collect();
-        let alone = |&e: &usize| gradient[e].abs() / curvature[(e, e)].sqrt();
-        if free.iter().all(|e| alone(e) <= settings.gradient_tolerance) {
+        let is_flat = |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
+        if free.iter().all(is_flat) {
             break WeightedStop::Gradient;
         }
         if trials == settings.trials {
             break WeightedStop::Trials;
         }
         let mut step = bounded_step(curvature, gradient, free, &room, damping)?;
-        step *= (settings.longest_step / step.amax()).min(1.0);
-        if step.amax() <= settings.step_tolerance {
+        step *= (LONGEST_STEP / step.amax()).min(1.0);
+        if step.amax() <= SHORTEST_STEP {
             break WeightedStop::Step;
         }
         trials += 1;

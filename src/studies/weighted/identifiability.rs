@@ -39,8 +39,7 @@ pub struct Identifiability {
 /// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
 ///
 /// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero with
-/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over
-/// repeated tests.
+/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated tests.
 ///
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
@@ -50,10 +49,10 @@ pub struct Identifiability {
 pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;
+    let count = jacobian.ncols();
     if jacobian.is_empty() {
         return Err(Error::Empty { what: "parameters or residuals" });
     }
-    let count = jacobian.ncols();
     let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
     singular_values.resize(count, 0.0);
     singular_values.sort_by(|a, b| b.total_cmp(a));

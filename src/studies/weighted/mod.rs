@@ -1,9 +1,6 @@
-//! A weighted correlation beside the paper's step: bounded Gauss–Newton steps on residuals in units of their own
-//! standard deviations, and what the test modes can tell of each parameter.
-//!
-//! The paper lowers $e_f + e_v$, in which every mode and sensor counts alike, and says nothing of how sure its factors are.
-//! Here each residual has a weight, so that the sum of squares is the $\chi^2$ of the test, and its curvature the
-//! covariance of the factors.
+//! A weighted correlation beside the paper's step: bounded Gauss–Newton steps on residuals in units of their standard
+//! deviations. Their sum of squares is the test's $\chi^2$ and its curvature says how sure the factors are, of which the
+//! paper's error sum, where every mode and sensor counts alike, says nothing.
 
 pub mod comparison;
 pub mod gauss_newton;

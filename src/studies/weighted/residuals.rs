@@ -54,8 +54,7 @@ impl Weights {
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Setting`] for weights that do not fit; [`Error::NotFinite`].
 ///
-/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110; Golub and Pereyra, *SIAM
-/// Journal on Numerical Analysis* 10 (1973), 413.
+/// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
 pub fn residuals(model: &ModalModel, weights: &Weights) -> Result<DVector<f64>, Error> {
     weights.check(model.test.len())?;
     let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, &model.test, weights);
@@ -92,8 +91,7 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 ///
 /// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v} . $$
 ///
-/// It is exact when the analysis has all modes and the transformation $B$ of a condensation does not move mass. Modes closer
-/// than [`SMALLEST_SEPARATION`] keep their own shapes.
+/// It is exact with all modes, unless a condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
