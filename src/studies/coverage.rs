@@ -36,17 +36,17 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Part of the intervals that hold the truth, of parameters of which the data learned at least so much.
+    /// Part of the intervals that hold the truth, of parameters of which the data learned at least so much; zero of none.
     pub fn overall(&self, least_learned: f64) -> f64 {
         let seen = self.parameters.iter().filter(|held| held.learned >= least_learned);
         let (count, held) = seen.fold((0, 0), |(count, held), of| (count + self.tests, held + of.tests));
-        held as f64 / count as f64
+        held as f64 / count.max(1) as f64
     }
 }
 
 /// Correlates a structure with noisy tests, with weights of that noise, and counts the intervals that hold the truth.
 ///
-/// Bounds on the factors are left out: an estimate at a bound has no interval of its own.
+/// Bounds on the factors are left out: an estimate at one has no interval of its own.
 ///
 /// # Errors
 /// Those of [`with_noise`] and [`gauss_newton`].

@@ -1,5 +1,5 @@
-//! Which parameter is wrong, before any correlation: by the paper's unlimited factor, which is a slope and says little where an
-//! error is gross, and by what each parameter can do alone. And how often either ranking puts the culprit first.
+//! Which parameter is wrong, before any correlation: by the paper's unlimited factor, which is a slope and says little of gross
+//! errors, and by what each parameter can do alone.
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
@@ -56,7 +56,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 /// $10^{-3}$ to $10^3$, then near the best. A fall is the logarithm of a likelihood ratio: of this one error against none.
 ///
 /// # Errors
-/// [`Error::Empty`] without parameters; those of [`residuals`] for weights that do not fit.
+/// Those of [`residuals`].
 pub fn by_single_fit(model: &ModalModel, weights: &Weights) -> Result<Vec<Suspect>, Error> {
     let start = 0.5 * residuals(model, weights)?.norm_squared();
     let objective = |parameter: usize, log: f64| {
@@ -116,19 +116,18 @@ pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseErro
         gages[culprit] *= ratio;
         let model = case.model_with(&gages)?;
         for (is_noisy, tests) in [(false, std::slice::from_ref(&exact)), (true, &noisy)] {
-            let (mut factor, mut fit) = ([0; 2], [0; 2]);
-            let count = |found: &mut [usize; 2], suspects: &[Suspect]| {
-                let place = suspects.iter().position(|suspect| suspect.parameter == culprit);
-                found[0] += usize::from(place == Some(0));
-                found[1] += usize::from(place.is_some_and(|place| place < 3));
-            };
+            let mut found = [[0; 2]; 2];
             for test in tests {
                 let modal = model.analyze(&[1.0; PANEL_COUNT], test, None)?;
-                count(&mut factor, &by_factor(&modal, &case.settings.inner)?);
-                count(&mut fit, &by_single_fit(&modal, &weights)?);
+                let rankings = [by_factor(&modal, &case.settings.inner)?, by_single_fit(&modal, &weights)?];
+                for (found, suspects) in found.iter_mut().zip(rankings) {
+                    let place = suspects.iter().position(|suspect| suspect.parameter == culprit);
+                    found[0] += usize::from(place == Some(0));
+                    found[1] += usize::from(place.is_some_and(|place| place < 3));
+                }
             }
-            let (panel, tests) = (case.panels[culprit].label, tests.len());
-            located.push(Located { panel, ratio, is_noisy, tests, by_factor: factor, by_single_fit: fit });
+            let (panel, tests, [by_factor, by_single_fit]) = (case.panels[culprit].label, tests.len(), found);
+            located.push(Located { panel, ratio, is_noisy, tests, by_factor, by_single_fit });
         }
     }
     Ok(located)

@@ -29,7 +29,13 @@ fn by_bays() -> Known {
 
 fn print(all: &[Coverage]) {
     for of in all {
-        println!("{}: {:.4} of all, {:.4} of those seen, {} tests", of.name, of.overall(0.0), of.overall(SEEN), of.tests);
+        println!(
+            "{}: {:.4} of all, {:.4} of those seen, {} tests",
+            of.name,
+            of.overall(0.0),
+            of.overall(SEEN),
+            of.tests
+        );
         for held in &of.parameters {
             println!("  {:24} {:4}, learned {:.3}", held.parameter, held.tests, held.learned);
         }
@@ -101,7 +107,7 @@ fn a_panel_too_thin_is_the_first_suspect() {
     let located = localization(1..=1).unwrap();
     assert_eq!(located.len(), 60);
     assert!(located.iter().all(|of| of.tests == 1 && of.by_single_fit == [1, 1] && of.by_factor[1] == 1));
-    // By the paper's factor too, but for the covers of the outboard bay, behind which the rib between them stands.
+    // By the paper's factor too, but for the covers of the middle bay: the rib at their outboard end stands before them.
     let gross = located.iter().filter(|of| of.ratio == localization::RATIOS[0] && of.by_factor[0] == 0);
     let mut missed: Vec<usize> = gross.map(|of| of.panel).collect();
     missed.dedup();

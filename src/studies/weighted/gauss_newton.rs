@@ -32,8 +32,7 @@ pub struct WeightedSettings {
 }
 
 impl Default for WeightedSettings {
-    /// A prior of $\tau$ = 1, by which a first factor wrong by $e$ is one standard deviation: it decides where the test is
-    /// silent and nowhere else. A tolerance of 1e-4 and a hundred trials.
+    /// A prior of $\tau$ = 1, a factor of $e$, which decides where the test is silent alone; 1e-4 and a hundred trials.
     fn default() -> Self {
         Self { prior_deviation: 1.0, tolerance: 1e-4, trials: 100 }
     }
@@ -229,19 +228,8 @@ fn bounded_step(
     }
 }
 
-/// The best of several correlations, and how many lead to it.
-#[derive(Debug, Clone)]
-pub struct SeveralStarts {
-    /// The one with the lowest objective.
-    pub best: WeightedCorrelation,
-    /// The objective of each.
-    pub objectives: Vec<f64>,
-    /// How many come within [`SAME_OBJECTIVE`] of the best.
-    pub reached: usize,
-}
-
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`split_mix_64`] from `seed`, brought within their bounds.
+/// [`split_mix_64`] from `seed`, brought within their bounds. Returns the best, and how many reach it to [`SAME_OBJECTIVE`].
 ///
 /// # Errors
 /// Those of [`gauss_newton`]; [`Error::Empty`] without starts.
@@ -252,8 +240,8 @@ pub fn from_several_starts<E: From<Error>>(
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
-) -> Result<SeveralStarts, E> {
-    let (mut state, mut objectives, mut best) = (seed, Vec::new(), None::<WeightedCorrelation>);
+) -> Result<(WeightedCorrelation, usize), E> {
+    let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) = (seed, Vec::new(), None);
     let mut draw = || 0.5 * 4.0_f64.powf((split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64);
     for start in 0..starts {
         let first: Vec<f64> = ranges.iter().map(|_| if start == 0 { 1.0 } else { draw() }).collect();
@@ -263,5 +251,5 @@ pub fn from_several_starts<E: From<Error>>(
     }
     let best = best.ok_or(Error::Empty { what: "starts" })?;
     let reached = objectives.iter().filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE).count();
-    Ok(SeveralStarts { best, objectives, reached })
+    Ok((best, reached))
 }

@@ -24,8 +24,7 @@ pub struct Identifiability {
     pub parallel: Vec<(usize, usize, f64)>,
     /// Parameters below [`BLIND_FRACTION`].
     pub blind: Vec<usize>,
-    /// Parameters worth correcting together, by QR with column pivoting: while what the ones before cannot imitate says more
-    /// of the next than the prior.
+    /// Those that say more than the prior beyond what the ones before can imitate, by QR with column pivoting.
     pub subset: Vec<usize>,
     /// Covariance of the logarithms, $(J^t J + I/\tau^2)^{-1}$ (p × p).
     #[serde(skip)]
@@ -44,8 +43,7 @@ pub struct Identifiability {
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
 ///
-/// Source: Friswell and Mottershead, *Finite Element Model Updating in Structural Dynamics* (1995); Golub and Van Loan,
-/// *Matrix Computations*, on QR with column pivoting and subset selection.
+/// Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix Computations*.
 pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;

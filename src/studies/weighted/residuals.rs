@@ -35,8 +35,9 @@ impl Weights {
     }
 
     fn check(&self, modes: usize) -> Result<(), Error> {
-        check_length("frequency weights", self.frequency.len(), modes)?;
-        check_length("shape weights", self.shape.len(), modes)?;
+        [&self.frequency, &self.shape]
+            .into_iter()
+            .try_for_each(|weights| check_length("weights", weights.len(), modes))?;
         self.frequency.iter().chain(&self.shape).try_for_each(|&weight| positive_setting("weight", weight))
     }
 }
