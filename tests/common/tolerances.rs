@@ -209,3 +209,14 @@ pub const RECOVERED_STORY: f64 = 0.01;
 pub const SAME_ANALYSIS: f64 = 1e-8;
 /// A number with six digits, in the format E13.5: half a unit of the sixth, relative to a first digit of one.
 pub const UNIVERSAL_ROUNDING: f64 = 5e-6;
+/// Factors by Gauss–Newton where the gradient is a ten-thousandth of a standard deviation of up to a half, and the prior a
+/// millionth of the least that data say.
+pub const WEIGHTED_FACTOR: f64 = 1e-3;
+/// How far the coverage of 95 % intervals over a thousand tests may be from 95 %: 93 to 97 % is what is asked of it.
+pub const COVERAGE: f64 = 0.02;
+/// The same for one parameter: four standard errors of a thousand tests, 0.7 % each.
+pub const LEAST_PARAMETER_COVERAGE: f64 = 0.92;
+/// Coverage in twenty tests, over a dozen parameters: their errors are correlated, so that it scatters by some percent.
+pub const FEW_COVERAGE: f64 = 0.88;
+/// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.
+pub const SINGLE_FIT_FACTOR: f64 = 0.01;

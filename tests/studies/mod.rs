@@ -22,3 +22,5 @@ pub mod preflight_modes;
 pub mod preflight_rates;
 
 pub mod whole_model;
+pub mod weighted;
+pub mod weighted_coverage;

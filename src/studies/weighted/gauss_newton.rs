@@ -1,0 +1,255 @@
+//! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
+
+use super::identifiability::{Identifiability, identifiability};
+use super::residuals::{Weights, jacobian, residuals};
+use crate::method::error::{Error, positive_setting};
+use crate::method::linear_algebra::check_length;
+use crate::method::model::{Check, ModalModel, Range};
+use crate::studies::noisy_modes::split_mix_64;
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// Objectives this near count as the same: a $\chi^2$ of two thousandths, which no test can tell.
+pub const SAME_OBJECTIVE: f64 = 1e-3;
+
+/// Damping of the first step, relative to the curvature of each parameter.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Longest step in the logarithm of any factor: $e$ times as soft or stiff.
+const LONGEST_STEP: f64 = 1.0;
+/// A step that moves no logarithm by more is none.
+const SHORTEST_STEP: f64 = 1e-6;
+
+/// What a weighted correlation assumes and when it stops.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct WeightedSettings {
+    /// Standard deviation $\tau$ of the factors' logarithms before the test; its inverse is Tikhonov's weight toward one.
+    pub prior_deviation: f64,
+    /// Stop when no parameter alone would move by more than this part of its standard deviation.
+    pub tolerance: f64,
+    /// Most trial steps, taken or not: one exact analysis each.
+    pub trials: usize,
+}
+
+impl Default for WeightedSettings {
+    /// A prior of $\tau$ = 1, a factor of $e$, which decides where the test is silent alone; 1e-4 and a hundred trials.
+    fn default() -> Self {
+        Self { prior_deviation: 1.0, tolerance: 1e-4, trials: 100 }
+    }
+}
+
+/// Why a weighted correlation stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WeightedStop {
+    /// The gradient is within tolerance, but for what it presses against bounds.
+    Gradient,
+    /// The step is.
+    Step,
+    /// The trials allowed were used up.
+    Trials,
+}
+
+/// One accepted step.
+#[derive(Debug, Clone)]
+pub struct WeightedIteration {
+    /// Factor of each parameter on its first value, after the step.
+    pub factors: Vec<f64>,
+    /// The exact solution there.
+    pub check: Check,
+    /// The objective there.
+    pub objective: f64,
+    /// Damping of the step.
+    pub damping: f64,
+}
+
+/// A test mode that another analysis mode answers after a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Swap {
+    /// The iteration, from one.
+    pub iteration: usize,
+    /// The test mode, from zero.
+    pub test_mode: usize,
+    /// Its analysis mode before, by its place in ascending order from zero.
+    pub from: usize,
+    /// After.
+    pub to: usize,
+}
+
+/// The history of a weighted correlation.
+#[derive(Debug, Clone)]
+pub struct WeightedCorrelation {
+    /// The exact solution at the first factors.
+    pub initial: Check,
+    /// Accepted steps.
+    pub iterations: Vec<WeightedIteration>,
+    /// Factor of each parameter on its first value, where it ended.
+    pub factors: Vec<f64>,
+    /// The objective where it ended.
+    pub objective: f64,
+    /// Exact analyses made.
+    pub analyses: usize,
+    /// Why it stopped.
+    pub stop: WeightedStop,
+    /// Test modes whose analysis mode changed.
+    pub swaps: Vec<Swap>,
+    /// What the test modes see of the parameters there.
+    pub identifiability: Identifiability,
+}
+
+/// Where a correlation stands.
+struct Place {
+    factors: Vec<f64>,
+    exact: Check,
+    jacobian: DMatrix<f64>,
+    objective: f64,
+    gradient: DVector<f64>,
+    curvature: DMatrix<f64>,
+}
+
+/// Lowers $\frac12 \sum r^2 + \frac12 \sum (\ln c_e)^2/\tau^2$ over the factors $c_e$ within their bounds, from `first`.
+///
+/// The unknowns are logarithms: factors stay positive, and twice and half as stiff are equally far. With the
+/// [`jacobian`] $J$, $A = J^t J + I/\tau^2$ and the gradient $g$, a step solves
+///
+/// $$ (A + \mu \mathrm{diag} A) h = -g $$
+///
+/// for the parameters that the gradient does not press against a bound. Those it takes beyond one stop there and the
+/// others are solved for anew. It is taken if the exact objective falls. With $\varrho$, the fall over the one that the
+/// quadratic model promised, $\mu$ is multiplied by $\max(\frac13, 1 - (2\varrho - 1)^3)$ then, and by 2, 4, 8, ... in
+/// rejections on end. Test modes are paired anew at every place.
+///
+/// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`].
+///
+/// # Errors
+/// Those of `analyze`, [`residuals`] and [`identifiability`]; [`Error::Setting`], [`Error::Limits`] and [`Error::WrongShape`] for
+/// settings and lists out of range.
+///
+/// Source: Marquardt, *SIAM Journal* 11 (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05,
+/// Technical University of Denmark (1999).
+pub fn gauss_newton<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    first: &[f64],
+    ranges: &[Option<Range>],
+    weights: &Weights,
+    settings: &WeightedSettings,
+) -> Result<WeightedCorrelation, E> {
+    positive_setting("prior_deviation", settings.prior_deviation)?;
+    positive_setting("tolerance", settings.tolerance)?;
+    check_length("parameter limits", ranges.len(), first.len())?;
+    ranges.iter().flatten().try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
+    let prior = settings.prior_deviation.powi(-2);
+    let mut place_at = |factors: Vec<f64>| -> Result<Place, E> {
+        let within = |(&factor, range): (&f64, &Option<Range>)| range.map_or(factor, |range| range.clamp(factor));
+        let factors: Vec<f64> = factors.iter().zip(ranges).map(within).collect();
+        let model = analyze(&factors)?;
+        check_length("parameter factors", factors.len(), model.shares.len())?;
+        let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
+        let (residuals, jacobian) = (residuals(&model, weights)?, jacobian(&model, weights)?);
+        let objective = 0.5 * (residuals.norm_squared() + prior * logs.norm_squared());
+        let gradient = jacobian.tr_mul(&residuals) + prior * &logs;
+        let curvature = jacobian.tr_mul(&jacobian) + prior * DMatrix::identity(logs.len(), logs.len());
+        Ok(Place { factors, exact: model.exact, jacobian, objective, gradient, curvature })
+    };
+    let mut place = place_at(first.to_vec())?;
+    let initial = place.exact.clone();
+    let (mut iterations, mut swaps): (Vec<WeightedIteration>, Vec<Swap>) = (Vec::new(), Vec::new());
+    let (mut damping, mut growth, mut trials) = (FIRST_DAMPING, 2.0, 0);
+    let stop = loop {
+        let Place { factors, gradient, curvature, .. } = &place;
+        let room = |(range, factor): (&Option<Range>, &f64)| {
+            range.map_or((f64::NEG_INFINITY, f64::INFINITY), |r| ((r.lower / factor).ln(), (r.upper / factor).ln()))
+        };
+        let room: Vec<(f64, f64)> = ranges.iter().zip(factors).map(room).collect();
+        let is_free = |&e: &usize| if gradient[e] > 0.0 { room[e].0 < 0.0 } else { room[e].1 > 0.0 };
+        let free: Vec<usize> = (0..first.len()).filter(is_free).collect();
+        let is_flat = |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
+        if free.iter().all(is_flat) {
+            break WeightedStop::Gradient;
+        }
+        if trials == settings.trials {
+            break WeightedStop::Trials;
+        }
+        let mut step = bounded_step(curvature, gradient, free, &room, damping)?;
+        step *= (LONGEST_STEP / step.amax()).min(1.0);
+        if step.amax() <= SHORTEST_STEP {
+            break WeightedStop::Step;
+        }
+        trials += 1;
+        let next = place_at(factors.iter().zip(&step).map(|(factor, step)| factor * step.exp()).collect())?;
+        let promised = -gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
+        let fall = place.objective - next.objective;
+        if !(fall > 0.0 && promised > 0.0) {
+            (damping, growth) = (damping * growth, 2.0 * growth);
+            continue;
+        }
+        let pairs = place.exact.pairing.analysis_mode.iter().zip(&next.exact.pairing.analysis_mode);
+        let swapped = pairs.enumerate().filter(|(_, (from, to))| from != to);
+        let iteration = iterations.len() + 1;
+        swaps.extend(swapped.map(|(test_mode, (&from, &to))| Swap { iteration, test_mode, from, to }));
+        place = next;
+        let (factors, check, objective) = (place.factors.clone(), place.exact.clone(), place.objective);
+        iterations.push(WeightedIteration { factors, check, objective, damping });
+        damping *= (1.0 - (2.0 * fall / promised - 1.0).powi(3)).max(1.0 / 3.0);
+        growth = 2.0;
+    };
+    let identifiability = identifiability(&place.jacobian, settings.prior_deviation)?;
+    let (Place { factors, objective, .. }, analyses) = (place, trials + 1);
+    Ok(WeightedCorrelation { initial, iterations, factors, objective, analyses, stop, swaps, identifiability })
+}
+
+/// The damped step of the `free` parameters within their `room` below and above: one that would leave it stops at its bound.
+fn bounded_step(
+    curvature: &DMatrix<f64>,
+    gradient: &DVector<f64>,
+    mut free: Vec<usize>,
+    room: &[(f64, f64)],
+    damping: f64,
+) -> Result<DVector<f64>, Error> {
+    let mut step = DVector::zeros(gradient.len());
+    loop {
+        // What the parameters stopped at their bounds do to the others is on the right-hand side.
+        let right = -(gradient + curvature * &step).select_rows(&free);
+        let mut left = curvature.select_rows(&free).select_columns(&free);
+        (0..free.len()).for_each(|e| left[(e, e)] *= 1.0 + damping);
+        let factor = left.cholesky().ok_or(Error::NotPositiveDefinite { what: "damped curvature", dof: 0 })?;
+        let solved = factor.solve(&right);
+        let within = |place: &usize| (room[free[*place]].0..=room[free[*place]].1).contains(&solved[*place]);
+        let (inside, beyond): (Vec<usize>, Vec<usize>) = (0..free.len()).partition(within);
+        if beyond.is_empty() {
+            inside.iter().for_each(|&place| step[free[place]] = solved[place]);
+            return Ok(step);
+        }
+        for place in beyond {
+            let (lower, upper) = room[free[place]];
+            step[free[place]] = Range { lower, upper }.clamp(solved[place]);
+        }
+        free = inside.into_iter().map(|place| free[place]).collect();
+    }
+}
+
+/// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
+/// [`split_mix_64`] from `seed`, brought within their bounds. Returns the best, and how many reach it to [`SAME_OBJECTIVE`].
+///
+/// # Errors
+/// Those of [`gauss_newton`]; [`Error::Empty`] without starts.
+pub fn from_several_starts<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    ranges: &[Option<Range>],
+    weights: &Weights,
+    settings: &WeightedSettings,
+    starts: usize,
+    seed: u64,
+) -> Result<(WeightedCorrelation, usize), E> {
+    let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) = (seed, Vec::new(), None);
+    let mut draw = || 0.5 * 4.0_f64.powf((split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64);
+    for start in 0..starts {
+        let first: Vec<f64> = ranges.iter().map(|_| if start == 0 { 1.0 } else { draw() }).collect();
+        let found = gauss_newton(&mut analyze, &first, ranges, weights, settings)?;
+        objectives.push(found.objective);
+        best = best.filter(|best| best.objective <= found.objective).or(Some(found));
+    }
+    let best = best.ok_or(Error::Empty { what: "starts" })?;
+    let reached = objectives.iter().filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE).count();
+    Ok((best, reached))
+}

@@ -1,0 +1,113 @@
+//! What the test modes can see of the parameters, and how sure the factors are.
+
+use crate::method::error::{Error, positive_setting};
+use crate::method::linear_algebra::{check_finite, check_length};
+use crate::method::model::Range;
+use nalgebra::DMatrix;
+use serde::Serialize;
+
+/// Cosine of two parameters' columns above which they are nearly parallel: a fifth of one is what the other cannot imitate.
+pub const PARALLEL_COSINE: f64 = 0.98;
+/// Length of a parameter's column below which it is blind, as a fraction of the longest.
+pub const BLIND_FRACTION: f64 = 0.01;
+/// Standard deviations on either side that hold 95 % of a normal distribution.
+pub const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// What a weighted Jacobian $J$ (residuals × p parameters) says of the logarithms of the factors.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Identifiability {
+    /// Singular values of $J$, descending: one over the standard deviation of a direction by the data alone.
+    pub singular_values: Vec<f64>,
+    /// The largest over the smallest; infinite where some combination has no effect.
+    pub condition: f64,
+    /// Pairs above [`PARALLEL_COSINE`] with their cosine, negative where one undoes the other.
+    pub parallel: Vec<(usize, usize, f64)>,
+    /// Parameters below [`BLIND_FRACTION`].
+    pub blind: Vec<usize>,
+    /// Those that say more than the prior beyond what the ones before can imitate, by QR with column pivoting.
+    pub subset: Vec<usize>,
+    /// Covariance of the logarithms, $(J^t J + I/\tau^2)^{-1}$ (p × p).
+    #[serde(skip)]
+    pub covariance: DMatrix<f64>,
+    /// Standard deviations of the logarithms.
+    pub deviations: Vec<f64>,
+    /// How much of each prior variance the test has taken away, $1 - s^2/\tau^2$: near one where the data decide.
+    pub learned: Vec<f64>,
+}
+
+/// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
+///
+/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero with
+/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated tests.
+///
+/// # Errors
+/// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
+///
+/// Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix Computations*.
+pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
+    positive_setting("prior_deviation", prior_deviation)?;
+    check_finite("Jacobian", jacobian)?;
+    let count = jacobian.ncols();
+    if jacobian.is_empty() {
+        return Err(Error::Empty { what: "parameters or residuals" });
+    }
+    let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
+    singular_values.resize(count, 0.0);
+    singular_values.sort_by(|a, b| b.total_cmp(a));
+    let smallest = singular_values[count - 1];
+    let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
+    let longest = lengths.iter().fold(0.0_f64, |a, &b| a.max(b));
+    let blind: Vec<usize> = (0..count).filter(|&e| lengths[e] <= BLIND_FRACTION * longest).collect();
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+    let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
+    let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
+    let information = jacobian.tr_mul(jacobian) + DMatrix::identity(count, count) / prior_deviation.powi(2);
+    let factor = information.cholesky().ok_or(Error::NotPositiveDefinite { what: "information", dof: 0 })?;
+    let covariance = factor.inverse();
+    let deviations: Vec<f64> = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
+    Ok(Identifiability {
+        condition: if smallest > 0.0 { singular_values[0] / smallest } else { f64::INFINITY },
+        parallel: parallel.filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE).collect(),
+        subset: subset(jacobian.clone(), 1.0 / prior_deviation),
+        learned: deviations.iter().map(|deviation| 1.0 - (deviation / prior_deviation).powi(2)).collect(),
+        singular_values,
+        blind,
+        covariance,
+        deviations,
+    })
+}
+
+/// Columns in the order in which each is the longest after the ones before are projected out, while longer than `least`.
+fn subset(mut left: DMatrix<f64>, least: f64) -> Vec<usize> {
+    let mut chosen = Vec::new();
+    while chosen.len() < left.ncols().min(left.nrows()) {
+        let lengths: Vec<f64> = left.column_iter().map(|column| column.norm()).collect();
+        let longest = (0..lengths.len()).fold(0, |best, e| if lengths[e] > lengths[best] { e } else { best });
+        if chosen.contains(&longest) || lengths[longest] <= least {
+            break;
+        }
+        let unit = left.column(longest) / lengths[longest];
+        left -= &unit * unit.tr_mul(&left);
+        left.column_mut(longest).fill(0.0);
+        chosen.push(longest);
+    }
+    chosen
+}
+
+impl Identifiability {
+    /// 95 % intervals about the factors, $c e^{\pm 1.96 s}$.
+    ///
+    /// Of a parameter with `learned` near one they hold the true factor in 95 of 100 tests, if the model is right but for
+    /// its factors and nearly linear within them. Of another they say as much of the prior. They know nothing of bounds.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one factor per parameter.
+    pub fn intervals(&self, factors: &[f64]) -> Result<Vec<Range>, Error> {
+        check_length("parameter factors", factors.len(), self.deviations.len())?;
+        let interval = |(&factor, &deviation): (&f64, &f64)| {
+            let ratio = (NORMAL_95 * deviation).exp();
+            Range { lower: factor / ratio, upper: factor * ratio }
+        };
+        Ok(factors.iter().zip(&self.deviations).map(interval).collect())
+    }
+}

@@ -1,0 +1,127 @@
+//! Residuals between analysis and test, each over its standard deviation, and their Jacobian.
+
+use crate::method::appendix_c::SMALLEST_SEPARATION;
+use crate::method::error::{Error, positive_setting};
+use crate::method::linear_algebra::{check_finite, check_length};
+use crate::method::model::{ModalModel, Share};
+use crate::method::modes::ModeSet;
+use crate::method::pairing::Pairing;
+use crate::studies::noisy_modes::Noise;
+use nalgebra::{DMatrix, DVector};
+
+/// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
+/// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
+pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
+
+/// Weights of every test mode: one over a standard deviation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weights {
+    /// Of its relative frequency error.
+    pub frequency: Vec<f64>,
+    /// Of each component of its shape, of unit largest component.
+    pub shape: Vec<f64>,
+}
+
+impl Weights {
+    /// The same standard deviations for every one of `modes` test modes.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a standard deviation that is not positive.
+    pub fn uniform(deviations: Noise, modes: usize) -> Result<Self, Error> {
+        positive_setting("standard deviation of frequencies", deviations.frequency)?;
+        positive_setting("standard deviation of shapes", deviations.shape)?;
+        let weights = |deviation: f64| vec![1.0 / deviation; modes];
+        Ok(Self { frequency: weights(deviations.frequency), shape: weights(deviations.shape) })
+    }
+
+    fn check(&self, modes: usize) -> Result<(), Error> {
+        [&self.frequency, &self.shape]
+            .into_iter()
+            .try_for_each(|weights| check_length("weights", weights.len(), modes))?;
+        self.frequency.iter().chain(&self.shape).try_for_each(|&weight| positive_setting("weight", weight))
+    }
+}
+
+/// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors.
+///
+/// $$ r_{fj} = w_{fj} \Big(\frac{f_{Fi}}{f_{Gj}} - 1\Big), \qquad r_{vj} = w_{vj} (a_j v_i - u_j), \qquad
+///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
+///
+/// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. The analysis shape's scale is that
+/// of least squares (the modal scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
+/// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
+/// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
+///
+/// # Errors
+/// [`Error::WrongShape`] and [`Error::Setting`] for weights that do not fit; [`Error::NotFinite`].
+///
+/// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
+pub fn residuals(model: &ModalModel, weights: &Weights) -> Result<DVector<f64>, Error> {
+    weights.check(model.test.len())?;
+    let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, &model.test, weights);
+    check_finite("residuals", &DMatrix::from_column_slice(residuals.len(), 1, residuals.as_slice()))?;
+    Ok(residuals)
+}
+
+/// The residuals of any modes, of weights that fit.
+pub(crate) fn residuals_of(modes: &ModeSet, pairing: &Pairing, test: &ModeSet, weights: &Weights) -> DVector<f64> {
+    let rows = 1 + test.shapes.nrows();
+    let mut residuals = DVector::zeros(rows * test.len());
+    for (j, &i) in pairing.analysis_mode.iter().enumerate() {
+        let ratio = (modes.omega_squared[i] / test.omega_squared[j]).sqrt();
+        residuals[rows * j] = weights.frequency[j] * (ratio - 1.0);
+        let (_, apart) = scaled(modes, i, test, j);
+        residuals.rows_mut(rows * j + 1, rows - 1).copy_from(&(weights.shape[j] * apart));
+    }
+    residuals
+}
+
+/// The scale $a$ of analysis mode `i` beside test mode `j`, and $a v - u$.
+fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<f64>) {
+    let (v, tested) = (modes.shapes.column(i), test.shapes.column(j));
+    let unit = tested / tested.amax();
+    let scale = v.dot(&unit) / v.norm_squared();
+    (scale, scale * v - unit)
+}
+
+/// Derivatives of [`residuals`] with respect to the logarithm of every parameter's factor, one column a parameter.
+///
+/// With $\beta = V^t K_e V$ of the parameter at its present factor, first order gives $\mathrm d\omega_i^2 = \beta_{ii}$ and
+/// $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$. A mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. With
+/// $e = a v - u$, which is orthogonal to $v$,
+///
+/// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v} . $$
+///
+/// It is exact with all modes, unless a condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+///
+/// # Errors
+/// Those of [`residuals`].
+///
+/// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
+pub fn jacobian(model: &ModalModel, weights: &Weights) -> Result<DMatrix<f64>, Error> {
+    weights.check(model.test.len())?;
+    let (modes, test) = (&model.exact.modes, &model.test);
+    let (k, rows, count) = (&modes.omega_squared, 1 + test.shapes.nrows(), model.shares.len());
+    let mut jacobian = DMatrix::zeros(rows * test.len(), count);
+    for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
+        let change = |r: usize, share: &Share| match share {
+            Share::Stiffness(beta) => beta[(r, i)],
+            Share::Mass(alpha) => -k[i] * alpha[(r, i)],
+        };
+        let ratio = (k[i] / test.omega_squared[j]).sqrt();
+        // The share of every other mode that each parameter adds to this one (n × p).
+        let added = DMatrix::from_fn(k.len(), count, |r, e| {
+            let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
+            if apart.abs() > held { change(r, &model.shares[e]) / apart } else { 0.0 }
+        });
+        let (v, (scale, apart)) = (modes.shapes.column(i), scaled(modes, i, test, j));
+        let moved = &modes.shapes * added;
+        let along = (scale * v + &apart).transpose() * &moved / v.norm_squared();
+        let shape = weights.shape[j] * (scale * moved - v * along);
+        jacobian.view_mut((rows * j + 1, 0), (rows - 1, count)).copy_from(&shape);
+        for (e, share) in model.shares.iter().enumerate() {
+            jacobian[(rows * j, e)] = weights.frequency[j] * ratio * change(i, share) / (2.0 * k[i]);
+        }
+    }
+    check_finite("Jacobian", &jacobian).map(|()| jacobian)
+}

@@ -1,0 +1,271 @@
+//! Weighted residuals, their Jacobian, and Gauss–Newton steps on them.
+
+use crate::common::draws::Draws;
+use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR};
+use corfem::cases::Case;
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::nalgebra::{DMatrix, DVector};
+use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::weighted::comparison::{Known, compare_all};
+use corfem::studies::weighted::gauss_newton::{
+    Swap, WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
+};
+use corfem::studies::weighted::identifiability::{NORMAL_95, identifiability};
+use corfem::studies::weighted::residuals::{DEVIATIONS, Weights, jacobian, residuals};
+
+/// The box of Case 2 by its matrices, with a stiffness parameter for every panel and a mass parameter for every point.
+fn by_matrices() -> DynamicModel {
+    let model = Case::new(2).unwrap().model().unwrap();
+    let mut matrices = model.matrices(&[1.0; 15]).unwrap();
+    for dof in 0..9 {
+        let mut mass = DMatrix::zeros(9, 9);
+        mass[(dof, dof)] = matrices.mass[(dof, dof)];
+        matrices.shares.push(Share::Mass(mass));
+    }
+    matrices
+}
+
+/// The model at other factors.
+pub fn at(first: &DynamicModel, factors: &[f64]) -> DynamicModel {
+    let mut model = first.clone();
+    for (share, factor) in first.shares.iter().zip(factors) {
+        match share {
+            Share::Stiffness(matrix) => model.stiffness += (factor - 1.0) * matrix,
+            Share::Mass(matrix) => model.mass += (factor - 1.0) * matrix,
+        }
+    }
+    model.shares = first.shares.iter().zip(factors).map(|(share, &factor)| share.map(|m| factor * m)).collect();
+    model
+}
+
+fn modes(model: &DynamicModel) -> ModeSet {
+    solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap().into()
+}
+
+fn weights(modes: usize) -> Weights {
+    Weights::uniform(DEVIATIONS, modes).unwrap()
+}
+
+#[test]
+fn the_jacobian_is_the_derivative_of_exact_analyses() {
+    let first = by_matrices();
+    let step = 1e-5_f64;
+    for seed in 1..=6 {
+        let mut draws = Draws(seed);
+        let factors: Vec<f64> = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect();
+        let test = with_noise(&modes(&first), Noise::USUAL, seed).unwrap();
+        let weights = Weights {
+            frequency: (0..9).map(|_| 100.0 + 200.0 * draws.unit()).collect(),
+            shape: (0..9).map(|_| 30.0 + 70.0 * draws.unit()).collect(),
+        };
+        let here = at(&first, &factors).analyze(&test, None).unwrap();
+        let slopes = jacobian(&here, &weights).unwrap();
+        assert_eq!(slopes.shape(), (90, 24));
+        for e in 0..24 {
+            let beside = |log: f64| {
+                let mut factors = factors.clone();
+                factors[e] *= log.exp();
+                let model = at(&first, &factors).analyze(&test, None).unwrap();
+                assert_eq!(model.exact.pairing.analysis_mode, here.exact.pairing.analysis_mode);
+                residuals(&model, &weights).unwrap()
+            };
+            let difference = (beside(step) - beside(-step)) / (2.0 * step);
+            let off = (difference - slopes.column(e)).amax();
+            assert!(off < CENTRAL_DIFFERENCE_GRADIENT * slopes.amax(), "seed {seed}, parameter {e}: {off}");
+        }
+    }
+}
+
+#[test]
+fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter() {
+    let first = by_matrices();
+    let test = with_noise(&modes(&first), Noise::USUAL, 3).unwrap();
+    let mut other = test.clone();
+    other.shapes *= -7.0;
+    let weights = weights(9);
+    let model = first.analyze(&test, None).unwrap();
+    let (one, two) =
+        (residuals(&model, &weights).unwrap(), residuals(&first.analyze(&other, None).unwrap(), &weights).unwrap());
+    for j in 0..9 {
+        let i = model.exact.pairing.analysis_mode[j];
+        let (v, r) = (model.exact.modes.shapes.column(i), one.rows(10 * j + 1, 9));
+        let other = two.rows(10 * j + 1, 9);
+        assert!(v.dot(&r).abs() < MATRIX_ROUND_OFF * v.norm() * weights.shape[j]);
+        // The least distance from any multiple of the shape: that of no other scale is less.
+        let unit = test.shapes.column(j) / test.shapes.column(j).amax();
+        let scale = v.dot(&unit) / v.norm_squared();
+        for scale in [0.999 * scale, 1.001 * scale] {
+            assert!((scale * v - &unit).norm() * weights.shape[j] > r.norm());
+        }
+        assert!((r + other).amax() < MATRIX_ROUND_OFF * weights.shape[j]);
+        let ratio = (model.exact.modes.omega_squared[i] / test.omega_squared[j]).sqrt();
+        assert!((one[10 * j] - (ratio - 1.0) * weights.frequency[j]).abs() < ROUND_OFF * weights.frequency[j]);
+    }
+}
+
+fn corrected(known: &Known, ranges: &[Option<Range>], settings: &WeightedSettings) -> WeightedCorrelation {
+    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
+    gauss_newton(analyze, &vec![1.0; ranges.len()], ranges, &weights(known.test.len()), settings).unwrap()
+}
+
+#[test]
+fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
+    let known = Known::of_case(2).unwrap();
+    let settings = WeightedSettings { prior_deviation: 1e3, ..WeightedSettings::default() };
+    let mut calls = 0;
+    let analyze = |factors: &[f64]| {
+        calls += 1;
+        known.model.analyze(factors, &known.test, None)
+    };
+    let found = gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights(9), &settings).unwrap();
+    assert_eq!(calls, found.analyses);
+    assert!(found.iterations.len() < 10 && found.swaps.is_empty());
+    for (factor, truth) in found.factors.iter().zip(&known.truth) {
+        assert!((factor / truth - 1.0).abs() < WEIGHTED_FACTOR, "{factor} {truth}");
+    }
+    assert!(found.iterations.windows(2).all(|pair| pair[1].objective < pair[0].objective));
+    let last = found.iterations.last().unwrap();
+    assert_eq!((&last.factors, last.objective), (&found.factors, found.objective));
+    let again = known.model.analyze(&[1.0; 15], &known.test, None).unwrap().exact.errors;
+    assert_eq!(found.initial.errors, again);
+}
+
+#[test]
+fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
+    let known = Known::of_case(2).unwrap();
+    let settings = WeightedSettings::default();
+    // The truth is 2/3 of the first gages.
+    let bound = Range { lower: 0.8, upper: 1.2 };
+    let mut ranges = vec![None; 15];
+    (ranges[0], ranges[9]) = (Some(bound), Some(bound));
+    let found = corrected(&known, &ranges, &settings);
+    assert_eq!((found.factors[0], found.factors[9], found.stop), (0.8, 0.8, WeightedStop::Gradient));
+    let objective = |factors: &[f64]| {
+        let model = known.model.analyze(factors, &known.test, None).unwrap();
+        let logs: f64 = factors.iter().map(|factor| factor.ln().powi(2)).sum();
+        0.5 * (residuals(&model, &weights(9)).unwrap().norm_squared() + logs)
+    };
+    assert!((objective(&found.factors) / found.objective - 1.0).abs() < MATRIX_ROUND_OFF);
+    for e in 0..15 {
+        for change in [0.999, 1.001] {
+            let mut factors = found.factors.clone();
+            factors[e] *= change;
+            let is_out = ranges[e].is_some_and(|range| !range.contains(factors[e]));
+            assert_eq!(objective(&factors) < found.objective, is_out, "{e} {change}");
+        }
+    }
+}
+
+/// Two masses on springs of their own, of which the first is too stiff, so that its mode stands second.
+#[test]
+fn modes_that_change_places_are_followed_and_recorded() {
+    let diagonal = |a, b| DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
+    let shares = vec![Share::Stiffness(diagonal(400.0, 0.0)), Share::Stiffness(diagonal(0.0, 200.0))];
+    let first = DynamicModel { stiffness: diagonal(400.0, 200.0), mass: diagonal(1.0, 1.0), shares };
+    let test = modes(&DynamicModel { stiffness: diagonal(100.0, 200.0), ..first.clone() });
+    let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
+    let settings = WeightedSettings { prior_deviation: 1e3, ..WeightedSettings::default() };
+    let found = gauss_newton(analyze, &[1.0; 2], &[None; 2], &weights(2), &settings).unwrap();
+    assert!((found.factors[0] - 0.25).abs() < WEIGHTED_FACTOR && (found.factors[1] - 1.0).abs() < WEIGHTED_FACTOR);
+    let iteration = found.swaps[0].iteration;
+    let swap = |test_mode, from, to| Swap { iteration, test_mode, from, to };
+    assert_eq!(found.swaps, [swap(0, 1, 0), swap(1, 0, 1)]);
+    let order = |factors: &[f64]| factors[0] * 400.0 < factors[1] * 200.0;
+    assert!(order(&found.iterations[iteration - 1].factors));
+    assert!(iteration == 1 || !order(&found.iterations[iteration - 2].factors));
+}
+
+#[test]
+fn the_data_see_what_the_columns_say() {
+    // Two separate parameters, one parallel to the first, one without effect.
+    let columns = DMatrix::from_row_slice(3, 4, &[3.0, 0.0, 1.5, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let seen = identifiability(&columns, 1.0).unwrap();
+    assert_eq!((seen.blind, seen.subset, seen.condition), (vec![3], vec![1, 0], f64::INFINITY));
+    assert_eq!(seen.parallel.iter().map(|&(a, b, _)| (a, b)).collect::<Vec<_>>(), [(0, 2)]);
+    for (found, expected) in seen.singular_values.iter().zip([4.0, 11.25_f64.sqrt(), 0.0, 0.0]) {
+        assert!((found - expected).abs() < ROUND_OFF);
+    }
+    let two = identifiability(&columns.columns(0, 2).into_owned(), 1.0).unwrap();
+    assert!((two.condition - 4.0 / 3.0).abs() < ROUND_OFF);
+    // One over the sum of the data's information and the prior's.
+    for (e, information) in [10.0_f64, 17.0].into_iter().enumerate() {
+        assert!((two.covariance[(e, e)] * information - 1.0).abs() < ROUND_OFF);
+        assert!((two.learned[e] - (1.0 - 1.0 / information)).abs() < ROUND_OFF);
+        let interval = two.intervals(&[2.0; 2]).unwrap()[e];
+        let ratio = (NORMAL_95 / information.sqrt()).exp();
+        assert!((interval.upper / 2.0 - ratio).abs() < ROUND_OFF && (interval.lower * ratio - 2.0).abs() < ROUND_OFF);
+    }
+    // What has no effect keeps the prior.
+    assert!((seen.deviations[3] - 1.0).abs() < ROUND_OFF && seen.learned[3].abs() < ROUND_OFF);
+}
+
+#[test]
+fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
+    let known = Known::of_case(2).unwrap();
+    let seen = corrected(&known, &[None; 15], &WeightedSettings::default()).identifiability;
+    let pairs: Vec<(usize, usize)> = seen.parallel.iter().map(|&(a, b, _)| (a + 1, b + 1)).collect();
+    assert_eq!(pairs, [(2, 15), (4, 8), (9, 11)]);
+    assert_eq!(seen.subset.len(), 12);
+    for (upper, lower) in pairs {
+        assert!(seen.subset.contains(&(upper - 1)) != seen.subset.contains(&(lower - 1)));
+    }
+}
+
+#[test]
+fn several_starts_lead_to_one_place_on_the_box_and_not_all_of_them_on_the_wing() {
+    for (known, all) in [(Known::of_case(2).unwrap(), true), (Known::delta_wing().unwrap(), false)] {
+        let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
+        let run = |starts| {
+            let ranges = vec![None; known.truth.len()];
+            let settings = WeightedSettings::default();
+            from_several_starts(analyze, &ranges, &weights(known.test.len()), &settings, starts, 1)
+        };
+        let (best, reached) = run(5).unwrap();
+        assert!(best.objective <= run(1).unwrap().0.objective);
+        assert!(reached >= 3 && (reached == 5) == all, "{reached}");
+        let again = run(5).unwrap();
+        assert_eq!((again.0.factors, again.1), (best.factors, reached));
+        assert!(matches!(run(0), Err(Error::Empty { .. })));
+    }
+}
+
+#[test]
+fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_truth() {
+    let all = compare_all(&WeightedSettings::default()).unwrap();
+    assert_eq!(
+        all.iter().map(|of| of[0].name.as_str()).collect::<Vec<_>>(),
+        ["Case 1", "Case 2", "Case 3", "Delta wing"]
+    );
+    for [none, paper, weighted] in &all {
+        assert_eq!([none.rule, paper.rule, weighted.rule], ["none", "paper", "gauss_newton"]);
+        assert!(weighted.steps < paper.steps && weighted.factor_rms < paper.factor_rms, "{weighted:?} {paper:?}");
+        assert!(paper.factor_rms < none.factor_rms && none.steps == 0);
+        assert!(weighted.largest < paper.largest && weighted.factor_rms <= weighted.largest);
+    }
+}
+
+#[test]
+fn input_out_of_range_is_refused() {
+    let known = Known::of_case(2).unwrap();
+    let analyze = |factors: &[f64]| -> Result<ModalModel, Error> { known.model.analyze(factors, &known.test, None) };
+    let run = |first: &[f64], ranges: &[Option<Range>], weights: &Weights, settings: &WeightedSettings| {
+        gauss_newton(analyze, first, ranges, weights, settings).err()
+    };
+    let (ones, free, usual) = ([1.0; 15], [None; 15], WeightedSettings::default());
+    let vague = WeightedSettings { prior_deviation: f64::INFINITY, ..usual.clone() };
+    assert!(matches!(run(&ones, &free, &weights(9), &vague), Some(Error::Setting { name: "prior_deviation", .. })));
+    let idle = WeightedSettings { tolerance: 0.0, ..usual.clone() };
+    assert!(matches!(run(&ones, &free, &weights(9), &idle), Some(Error::Setting { name: "tolerance", .. })));
+    assert!(matches!(run(&ones, &free[1..], &weights(9), &usual), Some(Error::WrongShape { .. })));
+    assert!(matches!(run(&ones, &free, &weights(8), &usual), Some(Error::WrongShape { .. })));
+    assert!(matches!(run(&[0.0; 15], &free, &weights(9), &usual), Some(Error::NotPositive { .. })));
+    let upside_down = [Some(Range { lower: 2.0, upper: 1.0 }); 15];
+    assert!(matches!(run(&ones, &upside_down, &weights(9), &usual), Some(Error::Limits { .. })));
+    assert!(matches!(Weights::uniform(Noise::NONE, 9), Err(Error::Setting { .. })));
+    assert!(matches!(identifiability(&DMatrix::zeros(0, 3), 1.0), Err(Error::Empty { .. })));
+    let few = WeightedSettings { trials: 1, ..usual };
+    let stopped = gauss_newton(analyze, &ones, &free, &weights(9), &few).unwrap();
+    assert_eq!((stopped.stop, stopped.analyses), (WeightedStop::Trials, 2));
+}
