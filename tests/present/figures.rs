@@ -148,7 +148,10 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                 assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
                 for i in 0..9 {
                     let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
+                    let partner =
+                        check.pairing.analysis_mode.iter().position(|&mode| mode == i).expect("all are paired");
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
+                    let weighted = check.pairing.sign[partner] * weighted;
                     assert!((cross[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
                     let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
                     assert!((assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);

@@ -96,26 +96,51 @@ impl Frame {
         self.nodes.iter().map(at).collect()
     }
 
-    /// Where the displacement along an axis vanishes on the panels, linear on triangles about the middle of each.
+    /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.
     pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
         let mut lines = Vec::new();
         for panel in &self.panels {
-            let corners: Vec<_> = panel.iter().map(|&node| (self.nodes[node], moved[node].dot(along))).collect();
-            let share = 1.0 / corners.len() as f64;
-            let sum = corners.iter().fold((Vector3::zeros(), 0.0), |sum, corner| (sum.0 + corner.0, sum.1 + corner.1));
-            let middle = (share * sum.0, share * sum.1);
-            for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                let sides = [(a, b), (b, middle), (middle, a)].into_iter().filter(|(p, q)| p.1 * q.1 < 0.0);
-                let mut points: Vec<_> = sides.map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0)).collect();
-                // A corner that is held ends the line that comes from the other side.
-                let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
-                points.extend(ends.map(|corner| corner.0).take(usize::from(points.len() == 1)));
-                if let [from, to] = points[..] {
-                    lines.push([from, to]);
-                }
-            }
+            let corners: Vec<Corner> = panel.iter().map(|&node| (self.nodes[node], moved[node].dot(along))).collect();
+            cells(corners).iter().for_each(|cell| add_node_lines(cell, &mut lines));
         }
         lines
+    }
+}
+
+/// A place and its displacement.
+type Corner = (Vector3<f64>, f64);
+
+fn mean(corners: &[(f64, Corner)]) -> Corner {
+    corners
+        .iter()
+        .fold((Vector3::zeros(), 0.0), |sum, (part, corner)| (sum.0 + *part * corner.0, sum.1 + part * corner.1))
+}
+
+/// A panel of four corners in parts, by its bilinear map; any other whole.
+fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
+    const PARTS: usize = 12;
+    let [a, b, c, d] = corners[..] else { return vec![corners] };
+    let at = |i: usize, j: usize| {
+        let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
+        mean(&[((1.0 - s) * (1.0 - t), a), (s * (1.0 - t), b), (s * t, c), ((1.0 - s) * t, d)])
+    };
+    let places = (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j)));
+    places.map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]).collect()
+}
+
+/// Adds the zero lines of a displacement that is linear on triangles about the middle of a cell.
+fn add_node_lines(corners: &[Corner], lines: &mut Vec<Segment>) {
+    let share = 1.0 / corners.len() as f64;
+    let middle = mean(&corners.iter().map(|&corner| (share, corner)).collect::<Vec<_>>());
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let sides = [(a, b), (b, middle), (middle, a)].into_iter().filter(|(p, q)| p.1 * q.1 < 0.0);
+        let mut points: Vec<_> = sides.map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0)).collect();
+        // A corner that is held ends the line that comes from the other side.
+        let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
+        points.extend(ends.map(|corner| corner.0).take(usize::from(points.len() == 1)));
+        if let [from, to] = points[..] {
+            lines.push([from, to]);
+        }
     }
 }
 

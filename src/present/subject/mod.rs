@@ -190,13 +190,16 @@ impl Subject {
         std::iter::once(before.errors).chain(inner.map(|iteration| iteration.errors)).collect()
     }
 
-    /// How the modes of an exact solution agree with the test's: up to the highest that is paired.
+    /// How the modes of an exact solution, up to the highest that is paired, agree with the test's; paired ones are signed like them.
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
     pub fn agreement(&self, check: &Check) -> Result<Agreement, Error> {
         let highest = check.pairing.analysis_mode.iter().max().map_or(0, |mode| mode + 1);
-        let modes: ModeSet = check.modes.lowest(highest)?.into();
+        let mut modes: ModeSet = check.modes.lowest(highest)?.into();
+        for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
+            modes.shapes.column_mut(mode).scale_mut(sign);
+        }
         let orthogonality = |mass| cross_orthogonality(&modes.scaled_with(mass)?, &self.test.scaled_with(mass)?, mass);
         Ok(Agreement {
             assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,

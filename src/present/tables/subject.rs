@@ -31,7 +31,7 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
     let states = [("First", &subject.initial), ("Corrected", subject.corrected())];
     let weighted = subject.mass.is_some();
     for (name, _) in states {
-        table = table.column(name, "Hz").column(format!("{name} difference"), "%").column(format!("{name} MAC"), "");
+        table = table.column(name, "Hz").column(format!("{name} error"), "%").column(format!("{name} MAC"), "");
         table = table.columns(weighted.then(|| format!("{name} cross")), "");
         table = table.column(format!("{name} others"), "");
     }
