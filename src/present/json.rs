@@ -5,6 +5,7 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::error::PresentError;
+use super::subject::{Stage, Subject};
 use super::table::Table;
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{UnitShapes, not_read};
@@ -16,8 +17,6 @@ use crate::cases::torque_box::TEST_GAGE;
 use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::{Correlation, Pass};
 use crate::method::structure::DIRECTIONS;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
@@ -26,6 +25,7 @@ use crate::studies::noisy_modes::NoisyModes;
 use crate::studies::preflight::Finding;
 use crate::studies::preflight::rates::Rates;
 use crate::studies::whole_modes::WholeModes;
+use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 /// A document with its heading as pretty-printed JSON and a final newline.
@@ -44,18 +44,51 @@ pub fn document(content: Value) -> Result<String, PresentError> {
     Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
-/// Any correlation: its parameters by name, its test, and its whole history; `solver` did the finite element analyses.
-pub fn correlation(solver: &str, names: &[&str], test: &ModeSet, run: &Correlation) -> Value {
-    json!({
-        "solver": solver,
-        "converged": run.converged,
-        "verdict": run.verdict,
-        "verdict_in_words": run.verdict.in_words(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>()),
-        "parameters": names,
-        "test_frequencies_hz": test.frequencies_hz(),
-        "initial": check(&run.initial),
-        "passes": run.passes.iter().map(pass).collect::<Value>(),
-    })
+/// Any correlation: its parameters by name, its test, what it came to, and its whole history.
+///
+/// # Errors
+/// Those of [`Subject::agreement`].
+pub fn subject(subject: &Subject) -> Result<Value, PresentError> {
+    let (mut initial, corrected) = (check(&subject.initial), subject.corrected());
+    initial["agreement"] = agreement(subject, &subject.initial)?;
+    let at_bound = |(e, factor): (usize, &f64)| subject.is_at_bound(e, *factor);
+    let factors = subject.factors();
+    Ok(json!({
+        "name": subject.title,
+        "solver": subject.solver,
+        "converged": subject.converged,
+        "verdict": subject.verdict,
+        "verdict_in_words": subject.words,
+        "parameters": subject.parameters,
+        "ranges": subject.ranges,
+        "factors": factors,
+        "standard_deviations": subject.deviations,
+        "at_bound": factors.iter().enumerate().map(at_bound).collect::<Vec<_>>(),
+        "best_pass": subject.best.map(|best| best + 1),
+        "test_frequencies_hz": subject.test.frequencies_hz(),
+        "sensors": subject.sensors.iter().map(|sensor| &sensor.name).collect::<Vec<_>>(),
+        "initial": initial,
+        "corrected_agreement": agreement(subject, corrected)?,
+        "passes": subject.stages.iter().map(stage).collect::<Value>(),
+        "derivatives": subject.derivatives.as_ref().map(|at| json!({
+            "frequency_percent_per_percent": rows(&at.frequency),
+            "error_sum_per_percent": at.error_sum,
+        })),
+    }))
+}
+
+/// Modal assurance and cross-orthogonality, analysis modes by test modes, and which analysis mode is paired, from one.
+fn agreement(subject: &Subject, check: &Check) -> Result<Value, PresentError> {
+    let found = subject.agreement(check)?;
+    Ok(json!({
+        "paired_analysis_modes": check.pairing.analysis_mode.iter().map(|mode| mode + 1).collect::<Vec<_>>(),
+        "modal_assurance": rows(&found.assurance),
+        "cross_orthogonality": found.orthogonality.as_ref().map(rows),
+    }))
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Value {
+    matrix.row_iter().map(|row| row.iter().copied().collect::<Vec<_>>()).collect()
 }
 
 fn check(check: &Check) -> Value {
@@ -66,14 +99,15 @@ fn check(check: &Check) -> Value {
     })
 }
 
-fn pass(pass: &Pass) -> Value {
+fn stage(stage: &Stage) -> Value {
+    let inner = stage.inner.as_ref();
     json!({
-        "iterations": pass.inner.iterations.len(),
-        "stop": pass.inner.stop,
-        "unlimited_factors": pass.inner.first_unlimited_factors,
-        "factors": pass.factors,
-        "exact": check(&pass.check),
-        "history": pass.inner.iterations.iter().map(iteration).collect::<Value>(),
+        "iterations": inner.map_or(1, |inner| inner.iterations.len()),
+        "stop": inner.map_or_else(|| json!(stage.stop), |inner| json!(inner.stop)),
+        "unlimited_factors": inner.map(|inner| &inner.first_unlimited_factors),
+        "factors": stage.factors,
+        "exact": check(&stage.check),
+        "history": inner.iter().flat_map(|inner| &inner.iterations).map(iteration).collect::<Value>(),
     })
 }
 
@@ -99,14 +133,13 @@ pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> 
 }
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
-    let names: Vec<&str> = result.parameter_names.iter().map(String::as_str).collect();
     let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor, "ratio": a.ratio});
     Ok(json!({
         "case": result.case.number,
         "settings": result.case.settings,
         "outcome": outcome(result),
         "succeeded": result.succeeded(),
-        "correlation": correlation(result.solver, &names, &result.test, &result.correlation),
+        "correlation": subject(&Subject::of_case(result)?)?,
         "published_iterations": published_iterations(result)?,
         "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
         "test_gage_in": TEST_GAGE,
@@ -158,7 +191,6 @@ pub fn tables(tables: &[Table]) -> Result<String, PresentError> {
 /// # Errors
 /// Those of the wing's analyses and of [`document`].
 pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
-    let names: Vec<&str> = run.groups.iter().map(|found| found.group.name).collect();
     let group = |found: &Recovered| {
         json!({
             "name": found.group.name,
@@ -175,7 +207,7 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
         "frequencies_hz": wing.modes()?.modes.frequencies_hz(),
         "groups": run.groups.iter().map(group).collect::<Value>(),
         "test_modes": TEST_MODES,
-        "correlation": correlation(run.solver, &names, &run.test, &run.correlation),
+        "correlation": subject(&Subject::of_wing(wing, run)?)?,
     }))
 }
 

@@ -1,13 +1,14 @@
 //! What a reader sees: tables as data and as text, Markdown or CSV, JSON, figures, and the report as one page.
 //!
-//! [`tables`] and [`figures`] each have functions that know any correlation by its names, its test modes and its
-//! [`crate::method::outer_loop::Correlation`]; what the paper's cases and the studies add is built from these.
+//! A [`subject::Subject`] is any correlation with what a reader must know of it; [`tables::subject`], [`figures::subject`],
+//! [`json::subject`] and [`page::subject_page`] show it. The paper's cases and the delta wing are subjects with more beside them.
 
 pub mod error;
 pub mod figures;
 pub mod json;
 pub mod page;
 pub mod render;
+pub mod subject;
 pub mod table;
 pub mod tables;
 

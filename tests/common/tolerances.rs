@@ -106,8 +106,8 @@ pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
 /// Two update rules exact to 1e-13 in roots through the same two dozen iterations, each of which multiplies what
 /// differs; the same reason as `GOLDEN_RELATIVE`, on one machine.
 pub const SAME_HISTORY: f64 = 1e-6;
-/// A node line is a quadratic's zero carried through a bilinear map and back by Newton's iteration: some ten roundings of
-/// displacements whose largest is one, times the slope of the map.
+/// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
+/// which the smallest slope in the test passes from one corner to the next.
 pub const NODE_LINE: f64 = 1e-9;
 /// Logarithmic derivatives of frequencies by fourth-order central differences of 0.2 %: eigenvalues over a range of 1e5
 /// round at 1e-11, which 1.5 over the step makes 1e-8; truncation is the step's fourth power.

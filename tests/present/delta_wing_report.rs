@@ -36,7 +36,7 @@ fn wing_as_tables() {
             ("delta_wing_deflections_le", 9, 5),
             ("delta_wing_frequencies", 3, 5),
             ("delta_wing_groups", 21, 5),
-            ("delta_wing_test_modes", 12, 5),
+            ("delta_wing_modes", 12, 12),
             ("delta_wing_passes", 3, 4),
         ]
     );

@@ -5,15 +5,14 @@ use approx::assert_relative_eq;
 use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::cases::{CASES, Case, CaseResult, run_case};
 use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::present::figures::cases::{derivatives, gage_bars, mode_agreement};
 use corfem::present::figures::error_history::error_history;
-use corfem::present::figures::node_lines::node_lines;
-use corfem::present::figures::planform::Planform;
+use corfem::present::figures::mode_shapes::Modes;
+use corfem::present::figures::subject::{derivatives, mode_agreement};
 use corfem::present::figures::{Figure, case_figures, comparison_figures};
+use corfem::present::subject::Subject;
 use corfem::present::table::{Cell, Column, Table};
-use corfem::present::tables::cases::{factor_table, frequency_table, gage_table, iteration_table, unlimited_factors};
-use corfem::present::tables::correlation::{Judgment, last_check};
+use corfem::present::tables::cases::{frequency_table, iteration_table};
+use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
 use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::sync::OnceLock;
 
@@ -69,7 +68,7 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
 fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
     let counts = iteration_table(results()).expect("it reads");
     for result in &results()[..3] {
-        let data = error_history(&result.correlation, &result.case.settings);
+        let data = error_history(&Subject::of_case(result).expect("a subject"));
         let table = frequency_table(result).expect("it reads");
         let case = result.case.number.to_string();
         assert_eq!(data.len(), result.correlation.passes.len());
@@ -93,7 +92,7 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
             iterations += count as usize;
             assert_eq!(pass.inner.len(), count as usize + 1);
             assert_eq!(pass.to(), iterations);
-            assert_eq!(pass.tolerance, if number == 1 { 0.025 } else { 0.015 });
+            assert_eq!(pass.tolerance, Some(if number == 1 { 0.025 } else { 0.015 }));
             let steps = &result.correlation.passes[row].inner.iterations;
             for (errors, step) in pass.inner[1..].iter().zip(steps) {
                 assert_eq!(*errors, step.errors);
@@ -103,30 +102,31 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
 }
 
 #[test]
-fn node_lines_belong_to_the_modes_of_the_tables() {
+fn drawn_modes_are_those_of_the_tables() {
     for result in &results()[..3] {
-        let planform = Planform::of(&result.case.reconstruction);
-        let data = node_lines(planform, &result.test, &result.correlation).expect("nine points");
+        let subject = Subject::of_case(result).expect("a subject");
+        let modes = Modes::of(&subject).expect("nine points").expect("places");
         let table = frequency_table(result).expect("it reads");
         let last = format!("Pass {}", result.correlation.passes.len());
-        assert_eq!(data.modes.len(), 9);
-        for (mode, states) in data.modes.iter().enumerate() {
-            let row = (mode + 1).to_string();
-            for (state, column) in states.iter().zip(["GVT", "Initial", &last]) {
-                let hertz = cell(&table, &row, column, "Hz").0;
-                assert_relative_eq!(state.frequency_hz, hertz, max_relative = ROUND_OFF);
-                let largest = state.shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
-                assert_eq!(largest, 1.0);
-                assert_eq!(state.node_lines, data.planform.node_lines(&state.shape));
+        assert_eq!(modes.modes.len(), 9);
+        let normal = modes.normal().expect("a plane");
+        for mode in &modes.modes {
+            let row = mode.number.to_string();
+            for (hertz, column) in mode.hertz.iter().zip(["GVT", "Initial", &last]) {
+                assert_relative_eq!(*hertz, cell(&table, &row, column, "Hz").0, max_relative = ROUND_OFF);
             }
-            // Analysis shapes are signed like their test mode.
-            let test = &states[0].shape;
-            for state in &states[1..] {
-                let product: f64 = state.shape.iter().zip(test).map(|(a, b)| a * b).sum();
-                assert!(product > 0.0);
+            let up = |state: usize| mode.moved[state].iter().map(|motion| motion.z).collect::<Vec<_>>();
+            for state in 0..3 {
+                let largest = up(state).into_iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+                assert_eq!(largest, 1.0);
+                // Analysis shapes are signed like their test mode.
+                assert!(up(state).iter().zip(up(0)).map(|(a, b)| a * b).sum::<f64>() > 0.0);
             }
         }
-        assert!(data.modes[0][0].node_lines.is_empty(), "the first bending mode has none");
+        assert!(
+            modes.frame.node_lines(&normal, &modes.modes[0].moved[0]).is_empty(),
+            "the first bending mode has none"
+        );
     }
 }
 
@@ -134,10 +134,10 @@ fn node_lines_belong_to_the_modes_of_the_tables() {
 fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
     for result in &results()[..3] {
         let masses = &result.case.reconstruction.masses;
-        let checks = [&result.correlation.initial, last_check(&result.correlation)];
-        let mass = result.case.reconstruction.mass();
-        let maps = mode_agreement(checks, &result.test, &mass).expect("shapes fit");
-        let values = maps.each_ref().map(|map| map.values.map(|value| value.expect("a cell")));
+        let subject = Subject::of_case(result).expect("a subject");
+        let checks = [&result.correlation.initial, subject.corrected()];
+        let maps = mode_agreement(&subject).expect("shapes fit");
+        let values: Vec<_> = maps.iter().map(|map| map.values.map(|value| value.expect("a cell"))).collect();
         for (at, check) in checks.into_iter().enumerate() {
             let (cross, assurance) = (&values[at], &values[at + 2]);
             assert_eq!((cross.shape(), assurance.shape()), ((9, 9), (9, 9)));
@@ -148,7 +148,10 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                 assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
                 for i in 0..9 {
                     let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
+                    let partner =
+                        check.pairing.analysis_mode.iter().position(|&mode| mode == i).expect("all are paired");
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
+                    let weighted = check.pairing.sign[partner] * weighted;
                     assert!((cross[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
                     let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
                     assert!((assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
@@ -161,35 +164,9 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
 }
 
 #[test]
-fn gage_errors_are_those_of_the_tables() {
-    for result in &results()[..3] {
-        let figure = gage_bars(result).expect("it reads");
-        let data = &figure.charts[0];
-        let table = gage_table(result).expect("it reads");
-        let passes = result.correlation.passes.len();
-        assert_eq!((data.series.len(), data.groups.len()), (passes + 1, 15));
-        for (pass, series) in data.series.iter().enumerate() {
-            let name = if pass == 0 { "Initial".to_owned() } else { format!("Pass {pass}") };
-            assert_eq!(series.name, name.to_lowercase());
-            for (row, panel) in result.case.panels.iter().enumerate() {
-                let label = panel.label.to_string();
-                let (computed, published) = cell(&table, &label, &format!("{name} error"), "%");
-                // The start is the same in print by its definition, and not marked.
-                let marked = published.filter(|_| pass > 0);
-                assert_eq!(series.values[row], (computed, marked));
-                assert!(published.is_some());
-                let membrane = panel.kind == ElementKind::Membrane;
-                let kind = if membrane { "M" } else { "S" };
-                assert_eq!(data.groups[row], format!("{label} {kind}"));
-            }
-        }
-    }
-}
-
-#[test]
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
-        let maps = derivatives(result).expect("a model");
+        let maps = derivatives(&Subject::of_case(result).expect("a subject")).expect("they were taken");
         let values = maps.each_ref().map(|map| map.values.map(|value| value.expect("a cell")));
         let [frequency, error_sum] = &values;
         assert_eq!((frequency.shape(), error_sum.shape()), ((15, 9), (15, 1)));
@@ -233,7 +210,7 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                 _ => seen.sqrt(),
             };
             let factor = 1.0 - 0.8 * start.errors.sum() * error_sum[(e, 0)] / measure;
-            let printed = cell(&factor_table(result), &maps[0].rows.1[e], "Factor", "").0;
+            let printed = cell(&unlimited_table(result), &maps[0].rows.1[e], "Factor", "").0;
             assert_relative_eq!(factor, printed, max_relative = 1e3 * MATRIX_ROUND_OFF);
         }
     }
@@ -243,15 +220,17 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
 fn unlimited_factors_are_those_of_the_table_with_the_published_one() {
     let result = &results()[3];
     let factors = unlimited_factors(result);
-    let table = factor_table(result);
+    let table = unlimited_table(result);
     assert_eq!(factors.len(), 15);
     for factor in &factors {
-        let (computed, published) = cell(&table, &factor.parameter, "Factor", "");
-        assert_eq!((factor.computed, factor.published), (computed, published));
-        let is_faulty = factor.parameter == "8";
+        let (computed, published) = cell(&table, &factor.name, "Factor", "");
+        assert_eq!((factor.value, factor.published), (computed, published));
+        let is_faulty = factor.name == "8";
         assert_eq!(factor.published, is_faulty.then_some(60.0));
-        assert_eq!(factor.judgment == Judgment::Anomaly, is_faulty);
+        assert_eq!(factor.remark, is_faulty.then_some(ANOMALY));
+        let row = table.rows.iter().find(|row| row.label == factor.name).expect("the row");
         let is_within = (0.55..=1.50).contains(&computed);
-        assert_eq!(factor.judgment == Judgment::Within, is_within);
+        let verdict = if is_within { "within bounds" } else { factor.remark.unwrap_or("limited") };
+        assert_eq!(row.cells[1], Cell::text(verdict));
     }
 }

@@ -5,9 +5,8 @@ use crate::present::figures::results;
 use corfem::cases::Case;
 use corfem::present::figures::cover_gages::{cover_gages, draw};
 use corfem::present::figures::error_history::{self, PassHistory, error_history};
-use corfem::present::figures::factors;
-use corfem::present::tables::cases::unlimited_factors;
-use corfem::present::tables::correlation::JudgedFactor;
+use corfem::present::figures::factors::{Factor, Factors};
+use corfem::present::subject::Subject;
 
 /// The words of a drawing, in its order.
 fn words(svg: &str) -> Vec<String> {
@@ -27,7 +26,7 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
 #[test]
 fn error_axis_ends_at_the_ticks_around_the_errors() {
     let result = &results()[0];
-    let history = error_history(&result.correlation, &result.case.settings);
+    let history = error_history(&Subject::of_case(result).expect("a subject"));
     let ticks = |history: &[PassHistory]| -> Vec<f64> {
         let words = words(&error_history::draw("errors", "errors", history).expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
@@ -57,23 +56,24 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
-    let result = &results()[3];
-    let limits = result.case.settings.inner.factor_range;
-    let mut factors = unlimited_factors(result);
-    let lowest = |factors: &[JudgedFactor]| {
-        let drawn = factors::draw("factors", "factors", factors, limits, "published");
-        let words = words(&drawn.expect("drawn"));
-        let labels = words.iter().filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
-        // Labels of the axis are whole tens; a factor has a decimal.
-        labels.filter(|label| label % 10.0 == 0.0).fold(0.0, f64::min)
+    let limits = results()[3].case.settings.inner.factor_range;
+    let factor = |value: f64| Factor {
+        name: "web".to_owned(),
+        value,
+        deviation: None,
+        published: None,
+        bounds: None,
+        remark: None,
     };
-    for factor in &mut factors {
-        (factor.computed, factor.published) = (1.0, None);
+    for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0)] {
+        let rows = values.map(factor).to_vec();
+        let across = "factor".to_owned();
+        let drawn = Factors { rows, limits: Some(limits), across, decimals: 3, published: "" };
+        let words = words(&drawn.draw("factors", "factors").expect("drawn"));
+        let labels = words.iter().filter(|word| !word.contains('.') || word.len() < 5);
+        let labels = labels.filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
+        assert_eq!(labels.fold(0.0, f64::min), lowest, "{words:?}");
     }
-    factors[0].computed = -9.9;
-    assert_eq!(lowest(&factors), -20.0);
-    factors[0].computed = -5.0;
-    assert_eq!(lowest(&factors), -10.0);
 }
 
 /// What the legend shows is the color of the panels it speaks of.

@@ -6,25 +6,22 @@ use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::method::structure::ElementKind;
 use corfem::present::figures::box_elements::Layer;
-use corfem::present::figures::box_points::box_points;
 use corfem::present::figures::cover_gages::cover_gages;
+use corfem::present::subject::Subject;
 use nalgebra::DVector;
 
 #[test]
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let case = &results()[0].case;
-    let data = box_points(case).expect("a box");
-    let numbers: Vec<usize> = data.structural.iter().map(|point| point.label).collect();
-    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
-    for point in &data.structural {
-        assert_eq!(point.constrained, [point.label >= 13; 3]);
-        let position: [f64; 3] = point.position.into();
-        assert_eq!(position, case.reconstruction.grids[&point.label]);
-    }
-    assert_eq!(data.edges.len(), 28, "24 edges that rods run along, and four in the root");
-    assert!(data.edges.iter().all(|[from, to]| from < to));
-    // A rigid tilt of the structure moves each dynamic point as the plane through it says.
     let model = case.model().expect("a model");
+    let subject = Subject::of_case(&results()[0]).expect("a subject").on(model.structure());
+    let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
+    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
+    for (label, at) in &subject.grids {
+        assert_eq!(<[f64; 3]>::from(*at), case.reconstruction.grids[label]);
+        assert_eq!(subject.supports.contains(at), *label >= 13);
+    }
+    // A rigid tilt of the structure moves each dynamic point as the plane through it says.
     for (a, b, c) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)] {
         let motion = model.structure().free_dof().iter().map(|dof| {
             let [x, y, z] = case.reconstruction.grids[&dof.grid];
@@ -32,9 +29,10 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
         });
         let structural = DVector::from_iterator(36, motion);
         let dynamic = model.load_distribution().tr_mul(&structural);
-        assert_eq!((dynamic.len(), data.dynamic.len()), (9, 9));
-        for (moved, point) in dynamic.iter().zip(&data.dynamic) {
-            assert_eq!(point.z, 0.0);
+        assert_eq!((dynamic.len(), subject.sensors.len()), (9, 9));
+        for (moved, sensor) in dynamic.iter().zip(&subject.sensors) {
+            let point = sensor.place.expect("a place");
+            assert_eq!((point.z, sensor.direction), (0.0, nalgebra::Vector3::z()));
             let plane = a * point.y - b * point.x + c;
             assert!((moved - plane).abs() < MATRIX_ROUND_OFF * 40.0, "{moved} for {plane}");
         }
@@ -84,8 +82,8 @@ fn cover_gages_are_those_of_table_2() {
                 _ => ElementKind::Membrane,
             };
             assert_eq!(cover.kind, Some(kind));
-            let [x, y, _] = cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
-            assert_eq!(cover.corners[0], [x, y]);
+            let place = cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
+            assert_eq!(<[f64; 3]>::from(cover.corners[0]), place);
         }
     }
     assert!(cover_gages(&[]).is_empty());

@@ -1,6 +1,5 @@
 //! The box taken apart, its elements numbered (Figure 3).
 
-use super::box_points::axes;
 use super::canvas::*;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
@@ -46,7 +45,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
     svg("box_elements", title, 690.0, |area| {
         let corners: Vec<Vector3<f64>> = elements.iter().flat_map(|(_, corners)| corners).copied().collect();
         // All three layers at the scale at which the webs, the highest, fill the width.
-        let fitted = View::fitted(&corners, DEPTH_DRAWN, [20.0, 0.0, 720.0, 460.0]);
+        let fitted = View::isometric(DEPTH_DRAWN).fitted(&corners, [20.0, 0.0, 720.0, 460.0]);
         for (layer, name, top) in [
             (Layer::Upper, "Upper covers and caps", 30.0),
             (Layer::Webs, "Spars, ribs and posts", 228.0),
@@ -57,14 +56,15 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
         }
         write(area, "Large numbers: panels. Small ones: rods.", (452.0, 646.0), START)?;
         write(area, &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."), (452.0, 666.0), START)?;
-        axes(area, (60.0, 82.0))
+        write(area, &fitted.axes(), (14.0, 20.0), START)
     })
 }
 
 /// One layer with its name, its highest point at `top`.
 fn draw_layer(area: &Area, fitted: View, mut elements: Vec<&Placed>, (layer, name, top): (Layer, &str, f64)) -> Drawn {
     // Covers lie flat.
-    let mut view = View { heights: if layer == Layer::Webs { DEPTH_DRAWN } else { 0.0 }, ..fitted };
+    let mut view = fitted;
+    view.down.z *= f64::from(layer == Layer::Webs);
     let places = elements.iter().flat_map(|(_, corners)| corners).map(|&corner| view.place(corner));
     let highest = places.clone().map(|at| at.1).fold(f64::INFINITY, f64::min);
     let leftmost = places.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));

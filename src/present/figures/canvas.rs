@@ -3,6 +3,7 @@
 //! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
+pub(super) use super::colors::{BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on};
 use crate::present::PresentError;
 use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
@@ -19,17 +20,6 @@ pub(super) const WIDTH: f64 = 760.0;
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
 const LETTER_SCALE: f64 = 1.24;
-
-// The colors of Okabe and Ito, which people with any common color blindness tell apart. Figures never rely on color
-// alone: lines differ in dashes, marks in form, cells carry their numbers.
-pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-pub(super) const GRAY: RGBColor = RGBColor(0x8a, 0x8a, 0x8a);
-pub(super) const SILVER: RGBColor = RGBColor(0xb4, 0xb4, 0xb4);
-pub(super) const PALE: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
-pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xb2);
-pub(super) const SKY: RGBColor = RGBColor(0x56, 0xb4, 0xe9);
-pub(super) const ORANGE: RGBColor = RGBColor(0xe6, 0x9f, 0x00);
-pub(super) const VERMILION: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(super) type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
@@ -266,8 +256,15 @@ pub(super) fn placed(
     (f64::from(x) / UNITS, f64::from(y) / UNITS)
 }
 
-/// A color between two, the second's share from 0 to 1.
-pub(super) fn between(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
-    let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
-    RGBColor(mix(one.0, other.0), mix(one.1, other.1), mix(one.2, other.2))
+/// Room for names that end beside an axis: as much as the longest asks for, px.
+pub(super) fn name_room(names: &[String], least: f64) -> f64 {
+    let longest = names.iter().map(|name| shortened(name).chars().count()).max().unwrap_or(0);
+    least.max(34.0 + 6.8 * longest as f64)
+}
+
+/// A name as long as a figure has room for.
+pub(super) fn shortened(name: &str) -> String {
+    const MOST: usize = 40;
+    let cut = || name.chars().take(MOST - 1).chain(['…']).collect();
+    if name.chars().count() > MOST { cut() } else { name.to_owned() }
 }

@@ -1,9 +1,8 @@
 //! The figures of what is compared with the cases: fewer modes, and corrections of matrices.
 
-use super::Figure;
 use super::bars::{BarFigure, Bars, Series};
-use super::cases::numbers;
 use super::matrices::{HeatMap, draw_by_twos};
+use super::{Figure, numbers};
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
 use crate::present::tables::fewer_modes::costs;
@@ -17,49 +16,34 @@ pub fn comparison_figures(
     comparison: &MatrixComparison,
 ) -> Result<Vec<Figure>, PresentError> {
     let (corrected, given) = (comparison.case, comparison.test_modes);
-    let truncated = draw_by_twos(
-        "truncation",
-        &format!("Case {case}: errors with fewer modes"),
-        &truncation(runs),
-        &["RMS error in percent after one pass, by exact solution; each matrix has a scale of its own."],
-    )?;
-    let stiffness = draw_by_twos(
-        "matrices_stiffness",
-        &format!("Case {corrected}: change of the dynamic stiffness, entry by entry"),
-        &stiffness_changes(comparison),
-        &[
-            "Percent of the root of the two diagonal entries before; an empty cell rounds to zero.",
-            "Blue is positive, red negative.",
-        ],
-    )?;
+    let title = format!("Case {case}: errors with fewer modes");
+    let note = "RMS error in percent after one pass, by exact solution; each matrix has a scale of its own.";
+    let truncated = draw_by_twos("truncation", &title, &truncation(runs), &[note])?;
+    let title = format!("Case {corrected}: change of the dynamic stiffness, entry by entry");
+    let notes = [
+        "Percent of the root of the two diagonal entries before; an empty cell rounds to zero.",
+        "Blue is positive, red negative.",
+    ];
+    let stiffness = draw_by_twos("matrices_stiffness", &title, &stiffness_changes(comparison), &notes)?;
     let title = format!("Case {corrected}: frequency errors of the corrected models");
     let frequencies = predictions(comparison).draw("matrices_frequencies", &title)?;
-    let lead = format!("Case {corrected} corrected with {given} test modes:");
+    let truncation_caption = format!(
+        "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of \
+        analysis modes."
+    );
+    let corrections = format!("Case {corrected} corrected with {given} test modes");
+    let stiffness_caption = format!(
+        "{corrections}: change of the dynamic stiffness entry by entry, the right one, by element factors, and by closed forms \
+        on the matrices."
+    );
+    let frequency_caption = format!(
+        "{corrections}: frequency errors of the box as tested and with every cover thicker, a set of gages that no correction \
+        was fitted to."
+    );
     Ok(vec![
-        Figure::new(
-            "truncation",
-            format!(
-                "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of \
-                test modes and of analysis modes."
-            ),
-            truncated,
-        ),
-        Figure::new(
-            "matrices_stiffness",
-            format!(
-                "{lead} change of the dynamic stiffness entry by entry, the right one, by element factors, and by \
-                closed forms on the matrices."
-            ),
-            stiffness,
-        ),
-        Figure::new(
-            "matrices_frequencies",
-            format!(
-                "{lead} frequency errors of the box as tested and with every cover thicker, a set of gages that no \
-                correction was fitted to."
-            ),
-            frequencies,
-        ),
+        Figure::new("truncation", truncation_caption, truncated),
+        Figure::new("matrices_stiffness", stiffness_caption, stiffness),
+        Figure::new("matrices_frequencies", frequency_caption, frequencies),
     ])
 }
 

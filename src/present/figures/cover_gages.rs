@@ -1,12 +1,12 @@
 //! Gages of the covers in the test configuration and at each case's start (Figure 4).
 
 use super::canvas::*;
-use super::planform::PlanPoint;
-use super::view::Plan;
+use super::view::View;
 use crate::cases::Case;
 use crate::cases::torque_box::{Panel, TEST_GAGE};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
+use nalgebra::Vector3;
 use plotters::style::{RGBColor, WHITE};
 
 /// A cover panel of one configuration.
@@ -20,8 +20,8 @@ pub struct Cover {
     pub gage: f64,
     /// Whether it is on the upper side.
     pub upper: bool,
-    /// Its corners in plan, in.
-    pub corners: Vec<PlanPoint>,
+    /// Its corners, in.
+    pub corners: Vec<Vector3<f64>>,
 }
 
 /// A configuration, `Case 1` or `GVT` for the test's, with its six covers.
@@ -32,15 +32,15 @@ pub fn cover_gages(cases: &[Case]) -> Vec<Configuration> {
     let covers = |case: &Case, test: bool| -> Vec<Cover> {
         let cover = |panel: &Panel| {
             let grids = &case.reconstruction.grids;
-            let corners: Vec<[f64; 3]> = panel.grids.iter().filter_map(|grid| grids.get(grid).copied()).collect();
-            let upper = corners.iter().all(|[_, _, z]| *z > 0.0);
-            let lower = corners.iter().all(|[_, _, z]| *z < 0.0);
-            (upper || lower).then(|| Cover {
+            let corners = panel.grids.iter().filter_map(|grid| grids.get(grid)).map(|&at| at.into());
+            let corners: Vec<Vector3<f64>> = corners.collect();
+            let [upper, lower] = [1.0, -1.0].map(|side| corners.iter().all(|corner| side * corner.z > 0.0));
+            (upper || lower).then_some(Cover {
                 label: panel.label,
                 kind: (!test).then_some(panel.kind),
                 gage: if test { TEST_GAGE } else { panel.gage },
                 upper,
-                corners: corners.iter().map(|&[x, y, _]| [x, y]).collect(),
+                corners,
             })
         };
         case.panels.iter().filter_map(cover).collect()
@@ -67,10 +67,10 @@ fn on(area: &Area, configurations: &[Configuration]) -> Drawn {
     let mut top = HEAD;
     for (name, covers) in configurations {
         write(area, name, (14.0, top + 0.5 * ROW), START.bold())?;
-        let corners: Vec<PlanPoint> = covers.iter().flat_map(|c| c.corners.clone()).collect();
+        let corners: Vec<Vector3<f64>> = covers.iter().flat_map(|c| c.corners.clone()).collect();
         for cover in covers {
             let left = if cover.upper { 88.0 } else { 424.0 };
-            let plan = Plan::fitted(&corners, [left, top + 4.0, 322.0, ROW - 14.0]);
+            let plan = View::plan(&corners).fitted(&corners, [left, top + 4.0, 322.0, ROW - 14.0]);
             draw_cover(area, cover, &plan)?;
         }
         top += ROW;
@@ -89,7 +89,7 @@ fn on(area: &Area, configurations: &[Configuration]) -> Drawn {
     Ok(())
 }
 
-fn draw_cover(area: &Area, cover: &Cover, plan: &Plan) -> Drawn {
+fn draw_cover(area: &Area, cover: &Cover, plan: &View) -> Drawn {
     let corners: Vec<Place> = cover.corners.iter().map(|&corner| plan.place(corner)).collect();
     polygon(area, &corners, Some(shade(cover.gage)), Pen::solid(INK, 1.0))?;
     let middle = |of: fn(&Place) -> f64| corners.iter().map(of).sum::<f64>() / corners.len() as f64;

@@ -2,40 +2,42 @@
 
 use super::canvas::*;
 use crate::method::error_sum::Errors;
-use crate::method::outer_loop::{Correlation, Pass, Settings};
 use crate::present::PresentError;
+use crate::present::subject::{Stage, Subject};
 use plotters::prelude::{BindKeyPoints, IntoLogRange, RGBColor, WHITE};
 
-/// The SRSS errors of one pass, fractions.
+/// The SRSS errors of one stage, fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassHistory {
-    /// Accepted iterations before it.
+    /// Iterations before it.
     pub from: usize,
     /// Errors of the exact solution it starts from, then after every iteration by perturbation.
     pub inner: Vec<Errors>,
     /// Errors of the exact check at its end.
     pub check: Errors,
-    /// Its tolerance on the error sum, a fraction.
-    pub tolerance: f64,
+    /// Tolerance of its inner loop on the error sum, a fraction, if known.
+    pub tolerance: Option<f64>,
+    /// Whether it has an inner loop; without one it is one iteration.
+    pub is_inner: bool,
 }
 
-/// The history of a correlation with its settings.
-pub fn error_history(correlation: &Correlation, settings: &Settings) -> Vec<PassHistory> {
+/// The history of a correlation.
+pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
     let mut from = 0;
-    let history = |(row, pass): (usize, &Pass)| {
-        let steps = pass.inner.iterations.iter().map(|step| step.errors);
-        let inner: Vec<Errors> = std::iter::once(pass.inner.start).chain(steps).collect();
-        let tolerance = if row == 0 { settings.inner.tolerance } else { settings.later_inner_tolerance };
-        from += inner.len() - 1;
-        PassHistory { from: from + 1 - inner.len(), inner, check: pass.check.errors, tolerance }
+    let history = |(row, stage): (usize, &Stage)| {
+        let (tolerance, is_inner) = (subject.tolerances.map(|all| all[row.min(1)]), stage.inner.is_some());
+        let pass =
+            PassHistory { from, inner: subject.inner_errors(row), check: stage.check.errors, tolerance, is_inner };
+        from = pass.to();
+        pass
     };
-    correlation.passes.iter().enumerate().map(history).collect()
+    subject.stages.iter().enumerate().map(history).collect()
 }
 
 impl PassHistory {
-    /// Accepted iterations at its end.
+    /// Iterations at its end.
     pub fn to(&self) -> usize {
-        self.from + self.inner.len() - 1
+        self.from + if self.is_inner { self.inner.len() - 1 } else { 1 }
     }
 }
 
@@ -49,8 +51,10 @@ const SERIES: [Series; 3] = [
 
 /// Most labels of the iterations: more would touch one another.
 const MOST_LABELS: usize = 32;
-/// Ticks of the error axis, percent.
-const TICKS: [f64; 10] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+/// Powers of ten that the error axis begins and ends with at most, percent.
+const DECADES: (i32, i32) = (-6, 4);
+/// Decades up to which an axis has ticks at two and five times their powers of ten.
+const FEW_DECADES: f64 = 3.1;
 /// Margins of the plot: left, right, top, bottom, px.
 const MARGINS: [f64; 4] = [72.0, 16.0, 88.0, 48.0];
 const HEIGHT: f64 = 450.0;
@@ -60,50 +64,72 @@ pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, P
     svg(name, title, HEIGHT, |area| on(area, passes))
 }
 
-/// The ticks that just hold every error, percent.
-fn bounds(passes: &[PassHistory]) -> (f64, f64) {
+/// An error as it is drawn, percent: zero is on no logarithmic scale.
+fn percent(error: f64) -> f64 {
+    (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
+}
+
+/// Ends of the axis that just hold every error, and its ticks, percent.
+fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let errors = passes.iter().flat_map(|pass| pass.inner.iter().chain([&pass.check]));
-    let values = errors.flat_map(|errors| SERIES.map(|(_, value, ..)| 100.0 * value(errors)));
+    let values = errors.flat_map(|errors| SERIES.map(|(_, value, ..)| percent(value(errors))));
     let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
-    let below = TICKS.iter().rev().find(|tick| **tick < 0.9 * least);
-    let above = TICKS.iter().find(|tick| **tick > 1.1 * most);
-    (*below.unwrap_or(&TICKS[0]), *above.unwrap_or(&TICKS[9]))
+    // As a decimal fraction is read, which a product of powers of ten need not be.
+    let tick = |part: u8, decade| Some((part, format!("{part}e{decade}").parse::<f64>().ok()?));
+    let decades = (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
+    let all: Vec<(u8, f64)> = decades.flatten().collect();
+    let low = all.iter().rposition(|(_, tick)| *tick < 0.9 * least).unwrap_or(0);
+    let high = all.iter().position(|(_, tick)| *tick > 1.1 * most).unwrap_or(all.len() - 1).max(low + 1);
+    let (low, high) = (all[low].1, all[high].1);
+    let few = (high / low).log10() < FEW_DECADES;
+    let shown = all.into_iter().filter(|(part, tick)| (low..=high).contains(tick) && (few || *part == 1));
+    (low, high, shown.map(|(_, tick)| tick).collect())
 }
 
 fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
-    let (low, high) = bounds(passes);
-    let ticks = TICKS.iter().copied().filter(|tick| (low..=high).contains(tick));
-    let range = (low..high).log_scale().with_key_points(ticks.collect());
+    let (low, high, ticks) = ticks(passes);
+    let range = (low..high).log_scale().with_key_points(ticks);
     let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
         .disable_x_mesh()
         .x_labels((last + 2).min(MOST_LABELS))
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_label_formatter(&|y| format!("{y}"))
-        .x_desc("accepted iterations of the inner loop")
+        .x_desc(if passes.iter().any(|pass| pass.is_inner) {
+            "accepted iterations of the inner loop"
+        } else {
+            "iterations"
+        })
         .draw()?;
     let place = |iteration: usize, percent: f64| placed(&chart, iteration as f64, percent);
     for (row, pass) in passes.iter().enumerate() {
-        let (from, to, tolerance, number) = (pass.from, pass.to(), 100.0 * pass.tolerance, row + 1);
+        if !pass.is_inner {
+            continue;
+        }
+        let (from, to, number) = (pass.from, pass.to(), row + 1);
         let (begin, end) = (place(from, high), place(to, high));
-        let name = match end.0 - begin.0 {
-            wide if wide > 180.0 => format!("pass {number} (tolerance {tolerance:.1} %)"),
-            wide if wide > 50.0 => format!("pass {number}"),
+        let name = match (end.0 - begin.0, pass.tolerance) {
+            (wide, Some(most)) if wide > 180.0 => format!("pass {number} (tolerance {:.1} %)", 100.0 * most),
+            (wide, _) if wide > 50.0 => format!("pass {number}"),
             _ => number.to_string(),
         };
         write(area, &name, (0.5 * (begin.0 + end.0), begin.1 - 11.0), MIDDLE)?;
         line(area, &[place(to, low), end], Pen::dashed(GRAY, 1.0))?;
-        line(area, &[place(from, tolerance), place(to, tolerance)], Pen::solid(GRAY, 1.4))?;
+        if let Some(most) = pass.tolerance.map(|most| percent(most).clamp(low, high)) {
+            line(area, &[place(from, most), place(to, most)], Pen::solid(GRAY, 1.4))?;
+        }
     }
     name_upright(area, "SRSS error, percent (log scale)", 0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]))?;
     // Lines first, so that no line crosses the open marks of exact solutions.
     for (_, value, color, form, dash) in SERIES {
-        let at = |iteration: usize, errors: &Errors| place(iteration, 100.0 * value(errors));
+        let at = |iteration: usize, errors: &Errors| place(iteration, percent(value(errors)));
         for pass in passes {
-            let points: Vec<Place> = (pass.from..).zip(&pass.inner).map(|(row, errors)| at(row, errors)).collect();
+            let exact = (!pass.is_inner).then_some(&pass.check);
+            let points = (pass.from..).zip(pass.inner.iter().chain(exact)).map(|(row, errors)| at(row, errors));
+            let points: Vec<Place> = points.collect();
             line(area, &points, Pen(color, 1.8, dash))?;
-            for &point in &points[1..] {
+            for &point in &points[1..pass.inner.len()] {
                 mark(area, point, Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)))?;
             }
         }
@@ -112,10 +138,10 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
             mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
         }
     }
-    legend(area)
+    legend(area, passes.iter().any(|pass| pass.tolerance.is_some()))
 }
 
-fn legend(area: &Area) -> Drawn {
+fn legend(area: &Area, has_tolerance: bool) -> Drawn {
     let (left, mut x) = (MARGINS[0], MARGINS[0]);
     for (name, _, color, form, dash) in SERIES {
         line(area, &[(x, 18.0), (x + 34.0, 18.0)], Pen(color, 1.8, dash))?;
@@ -125,6 +151,9 @@ fn legend(area: &Area) -> Drawn {
     }
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
     marked(area, (x + 8.0, 18.0), open, "large, open: exact solution")?;
+    if !has_tolerance {
+        return Ok(());
+    }
     line(area, &[(left, 42.0), (left + 34.0, 42.0)], Pen::solid(GRAY, 1.4))?;
     write(area, "tolerance of the pass on the sum", (left + 41.0, 42.0), START)
 }

@@ -1,82 +1,150 @@
-//! Unlimited stiffness change factors of a first iteration with the limits drawn.
+//! Factors of parameters as marks on a common axis, with their limits, published values and uncertainties.
 
 use super::canvas::*;
 use crate::method::model::Range;
 use crate::present::PresentError;
 use crate::present::table::Digits;
-use crate::present::tables::correlation::{JudgedFactor, Judgment};
 use plotters::style::WHITE;
 
-/// Margins of the plot: left, right, top, bottom, px.
+/// Margins of the plot: left at least, right, top, bottom, px.
 const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];
 const ROW: f64 = 24.0;
+/// Most steps of the axis.
+const STEPS: f64 = 7.0;
 
-/// The factors as SVG; `published` says what the published ones are.
-pub fn draw(
-    name: &str,
-    title: &str,
-    factors: &[JudgedFactor],
-    limits: Range,
-    published: &str,
-) -> Result<String, PresentError> {
-    let height = MARGINS[2] + MARGINS[3] + ROW * factors.len() as f64;
-    svg(name, title, height, |area| on(area, factors, limits, published))
+/// A parameter's factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// Name of the parameter.
+    pub name: String,
+    /// Its factor.
+    pub value: f64,
+    /// Standard deviation of it.
+    pub deviation: Option<f64>,
+    /// What is printed for it elsewhere.
+    pub published: Option<f64>,
+    /// Bounds of its own.
+    pub bounds: Option<Range>,
+    /// What makes it stand out, if anything does.
+    pub remark: Option<&'static str>,
 }
 
-/// Tens that hold every factor with room for its number.
-fn bounds(factors: &[JudgedFactor], limits: Range) -> (f64, f64) {
-    let each = |factor: &JudgedFactor| [Some(factor.computed), factor.published];
-    let values = || factors.iter().flat_map(each).flatten();
-    let least = values().fold(0.0, f64::min);
-    let most = values().fold(limits.upper, f64::max);
-    (10.0 * (least / 10.0 - 0.4).floor(), 10.0 * (most / 10.0 + 0.4).ceil())
+/// Factors with what stands around them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factors {
+    /// Rows.
+    pub rows: Vec<Factor>,
+    /// Limits of all of them.
+    pub limits: Option<Range>,
+    /// Name of the horizontal axis.
+    pub across: String,
+    /// Decimals of the numbers.
+    pub decimals: usize,
+    /// What the published ones are.
+    pub published: &'static str,
 }
 
-fn on(area: &Area, factors: &[JudgedFactor], limits: Range, published: &str) -> Drawn {
-    let (low, high) = bounds(factors, limits);
-    let count = factors.len() as f64;
-    let mut chart = chart(area, MARGINS).build_cartesian_2d(low..high, count..0.0)?;
-    axes(&mut chart)
-        .disable_y_mesh()
-        .x_labels(((high - low) / 10.0) as usize + 2)
-        .y_labels(0)
-        .x_label_formatter(&|x| signed(format!("{x:.0}")))
-        .x_desc("unlimited stiffness change factor, first iteration")
-        .draw()?;
-    let place = |factor: f64, row: f64| placed(&chart, factor, row);
-    name_upright(area, "panel", MARGINS[2] + 0.5 * ROW * count)?;
-    let (upper, lower) = (place(limits.lower, 0.0), place(limits.upper, count));
-    rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
-    let text = format!("limits {:.2} to {:.2}", limits.lower, limits.upper);
-    let at = (0.5 * (upper.0 + lower.0), upper.1 - 13.0);
-    write(area, &text, at, MIDDLE.color(BLUE))?;
-    let diamond = Mark(Form::Diamond, 5.0, Some(ORANGE), Pen::solid(INK, 0.9));
-    for (row, factor) in factors.iter().enumerate() {
-        let row = row as f64 + 0.5;
-        let (x, y) = place(low, row);
-        write(area, &factor.parameter, (x - 8.0, y), END)?;
-        let is_anomaly = factor.judgment == Judgment::Anomaly;
-        let color = if is_anomaly { VERMILION } else { INK };
-        let tip = place(factor.computed, row);
-        line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
-        if let Some(published) = factor.published {
-            mark(area, place(published, row), diamond)?;
-        }
-        mark(area, tip, Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)))?;
-        // The number stands beside its mark, away from the limits; an anomaly is named.
-        let number = signed(Digits::Fixed(1).write(factor.computed));
-        let (text, at, letters) = if is_anomaly {
-            (format!("anomaly: {number}"), (tip.0 - 10.0, tip.1 - 11.0), END)
-        } else if factor.computed < 1.0 {
-            (number, (tip.0 - 10.0, tip.1), END)
-        } else {
-            (number, (tip.0.max(lower.0) + 10.0, tip.1), START)
+impl Factors {
+    /// The factors as SVG.
+    pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
+        let height = MARGINS[2] + MARGINS[3] + ROW * self.rows.len() as f64;
+        svg(name, title, height, |area| self.on(area))
+    }
+
+    /// Steps of one, two or five times a power of ten that hold everything with room for its number: lower end, upper end, step.
+    fn bounds(&self) -> [f64; 3] {
+        let each = |row: &Factor| {
+            let deviation = row.deviation.unwrap_or(0.0);
+            [row.value - deviation, row.value + deviation, row.published.unwrap_or(row.value)]
         };
-        write(area, &text, at, letters.color(color))?;
+        let values = || self.rows.iter().flat_map(each).filter(|value| value.is_finite());
+        let least = values().fold(if self.limits.is_some() { 0.0 } else { 1.0 }, f64::min);
+        let most = values().fold(self.limits.map_or(1.0, |limits| limits.upper), f64::max);
+        let rough = (most - least).max(0.02) / STEPS;
+        // A remark stands behind its number.
+        let has_remark = self.limits.is_none() && self.rows.iter().any(|row| row.remark.is_some());
+        let room = if has_remark { 1.4 } else { 0.4 };
+        let ten = 10f64.powf(rough.log10().floor());
+        let step = [1.0, 2.0, 5.0].into_iter().map(|part| part * ten).find(|step| *step >= rough).unwrap_or(10.0 * ten);
+        [step * (least / step - room).floor(), step * (most / step + room).ceil(), step]
     }
-    if factors.iter().any(|factor| factor.published.is_some()) {
-        let (x, y) = (place(high, 0.0).0 - 230.0, upper.1 - 13.0);
-        marked(area, (x, y), diamond, published)?;
+
+    fn on(&self, area: &Area) -> Drawn {
+        let [low, high, step] = self.bounds();
+        let count = self.rows.len() as f64;
+        let names: Vec<String> = self.rows.iter().map(|row| row.name.clone()).collect();
+        let [_, right, top, bottom] = MARGINS;
+        let margins = [name_room(&names, MARGINS[0]), right, top, bottom];
+        let mut chart = chart(area, margins).build_cartesian_2d(low..high, count..0.0)?;
+        let decimals = (-step.log10().floor()).max(0.0) as usize;
+        axes(&mut chart)
+            .disable_y_mesh()
+            .x_labels(((high - low) / step).round() as usize + 2)
+            .y_labels(0)
+            .x_label_formatter(&|x| signed(format!("{x:.decimals$}")))
+            .x_desc(&self.across)
+            .draw()?;
+        let place = |factor: f64, row: f64| placed(&chart, factor, row);
+        name_upright(area, "parameter", top + 0.5 * ROW * count)?;
+        let mut beyond = place(1.0, 0.0).0;
+        if let Some(limits) = self.limits {
+            let (upper, lower) = (place(limits.lower, 0.0), place(limits.upper, count));
+            rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
+            let text = format!("limits {:.2} to {:.2}", limits.lower, limits.upper);
+            let at = (0.5 * (upper.0 + lower.0), upper.1 - 13.0);
+            write(area, &text, at, MIDDLE.color(BLUE))?;
+            beyond = lower.0;
+        } else {
+            line(area, &[place(1.0, 0.0), place(1.0, count)], Pen::solid(GRAY, 1.0))?;
+        }
+        let diamond = Mark(Form::Diamond, 5.0, Some(ORANGE), Pen::solid(INK, 0.9));
+        for (row, factor) in self.rows.iter().enumerate() {
+            let row = row as f64 + 0.5;
+            let (x, y) = place(low, row);
+            write(area, &shortened(&factor.name), (x - 8.0, y), END)?;
+            if !factor.value.is_finite() {
+                continue;
+            }
+            let color = if factor.remark.is_some() { VERMILION } else { INK };
+            let tip = place(factor.value, row);
+            for end in factor.bounds.iter().flat_map(|range| [range.lower, range.upper]) {
+                let (x, y) = place(end.min(high), row);
+                line(area, &[(x, y - 7.0), (x, y + 7.0)], Pen::solid(BLUE, if end > high { 0.0 } else { 1.6 }))?;
+            }
+            line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
+            if let Some(published) = factor.published {
+                mark(area, place(published, row), diamond)?;
+            }
+            mark(area, tip, Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)))?;
+            let mut ends = [tip.0, tip.0];
+            if let Some(deviation) = factor.deviation.filter(|deviation| deviation.is_finite()) {
+                let bar = [-deviation, deviation].map(|part| place(factor.value + part, row));
+                ends = bar.map(|end| end.0);
+                line(area, &bar, Pen::solid(ORANGE, 2.4))?;
+                for (x, y) in bar {
+                    line(area, &[(x, y - 5.0), (x, y + 5.0)], Pen::solid(ORANGE, 2.0))?;
+                }
+            }
+            // The number stands beside its mark, away from the limits; what stands out is named.
+            let number = signed(Digits::Fixed(self.decimals).write(factor.value));
+            let (text, at, letters) = match factor.remark {
+                Some(remark) if self.limits.is_some() => {
+                    (format!("{remark}: {number}"), (tip.0 - 10.0, tip.1 - 11.0), END)
+                }
+                remark => {
+                    let text = format!("{number} {}", remark.unwrap_or_default()).trim_end().to_owned();
+                    match factor.value < 1.0 {
+                        true => (text, (ends[0] - 10.0, tip.1), END),
+                        false => (text, (ends[1].max(beyond) + 10.0, tip.1), START),
+                    }
+                }
+            };
+            write(area, &text, at, letters.color(color))?;
+        }
+        if self.rows.iter().any(|factor| factor.published.is_some()) {
+            let (x, y) = place(high, 0.0);
+            marked(area, (x - 230.0, y - 13.0), diamond, self.published)?;
+        }
+        Ok(())
     }
-    Ok(())
 }

@@ -47,11 +47,13 @@ pub fn draw_derivatives(
     [frequency, error_sum]: &[HeatMap; 2],
 ) -> Result<String, PresentError> {
     let down = 64.0 + 26.0 * frequency.values.nrows() as f64;
-    let wide = 450.0 / frequency.values.ncols().max(9) as f64;
+    let left = name_room(&frequency.rows.1, 66.0);
+    let wide = (516.0 - left) / frequency.values.ncols().max(9) as f64;
+    let error_sum = HeatMap { rows: (String::new(), Vec::new()), ..error_sum.clone() };
     svg(name, title, down + 42.0, |area| {
-        frequency.draw(area, (66.0, 64.0), (wide, 26.0))?;
+        frequency.draw(area, (left, 64.0), (wide, 26.0))?;
         error_sum.draw(area, (612.0, 64.0), (90.0, 26.0))?;
-        let note = "An empty cell rounds to zero. Red is negative: more of that panel lowers the error.";
+        let note = "An empty cell rounds to zero. Red is negative: more of that parameter lowers the error.";
         write(area, note, (66.0, down + 24.0), START)
     })
 }
@@ -69,27 +71,37 @@ impl HeatMap {
         let (rows, columns) = self.values.shape();
         let at = |i: f64, j: f64| (left + wide * j, top + high * i);
         let small = MIDDLE.small();
-        for (j, name) in self.columns.1.iter().enumerate() {
+        // Digits and labels stand where there is room for them.
+        let longest = self.values.iter().flatten().map(|value| self.write(*value).chars().count()).max().unwrap_or(0);
+        let fits = wide > 6.2 * longest as f64 && high > 10.0;
+        let every = |size: f64, room: f64| (room / size).ceil().max(1.0) as usize;
+        let names = self.rows.1.iter().map(|name| shortened(name).chars().count());
+        let beside = names.max().map_or(34.0, |longest| (12.0 + 6.6 * longest as f64).max(34.0));
+        let (down, across) = (every(high, 11.0), every(wide, 20.0));
+        for (j, name) in self.columns.1.iter().enumerate().step_by(across) {
             write(area, name, (at(0.0, j as f64 + 0.5).0, top - 9.0), small)?;
         }
-        for (i, name) in self.rows.1.iter().enumerate() {
-            write(area, name, (left - 6.0, at(i as f64 + 0.5, 0.0).1), END.small())?;
+        for (i, name) in self.rows.1.iter().enumerate().step_by(down) {
+            write(area, &shortened(name), (left - 6.0, at(i as f64 + 0.5, 0.0).1), END.small())?;
         }
         let middle = at(0.5 * rows as f64, 0.5 * columns as f64);
         write(area, &self.columns.0, (middle.0, top - 26.0), small)?;
-        write(area, &self.rows.0, (left - 34.0, middle.1), small.upward())?;
-        write(area, &self.title, (middle.0, top - 46.0), MIDDLE.bold())?;
+        write(area, &self.rows.0, (left - beside, middle.1), small.upward())?;
+        // A title longer than its matrix does not begin left of the figure.
+        let title = middle.0.max(left - 50.0 + 3.8 * self.title.chars().count() as f64);
+        write(area, &self.title, (title, top - 46.0), MIDDLE.bold())?;
         for i in 0..rows {
             for j in 0..columns {
                 let Some(value) = self.values[(i, j)] else {
                     continue;
                 };
                 let (row, column) = (i as f64, j as f64);
-                let strength = (value.abs() / self.full).min(1.0);
+                let strength = (value.abs() / self.full.max(f64::MIN_POSITIVE)).min(1.0);
                 let fill = between(WHITE, if value < 0.0 { VERMILION } else { BLUE }, strength);
                 rectangle(area, at(row, column), at(row + 1.0, column + 1.0), fill)?;
-                let ink = if strength > 0.6 { WHITE } else { INK };
-                write(area, &self.write(value), at(row + 0.5, column + 0.5), small.color(ink))?;
+                if fits {
+                    write(area, &self.write(value), at(row + 0.5, column + 0.5), small.color(legible_on(fill)))?;
+                }
             }
         }
         let frame = corners((left, top), at(rows as f64, columns as f64));

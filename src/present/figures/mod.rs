@@ -6,20 +6,23 @@
 
 pub mod bars;
 pub mod box_elements;
-pub mod box_points;
 mod canvas;
+mod colors;
 pub mod cases;
 pub mod comparisons;
 pub mod cover_gages;
 pub mod error_history;
 pub mod factors;
 pub mod matrices;
-pub mod node_lines;
-pub mod planform;
+pub mod frame;
+pub mod mode_shapes;
+pub mod structure;
+pub mod subject;
 mod view;
 
 pub use cases::case_figures;
 pub use comparisons::comparison_figures;
+pub use subject::subject_figures;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,4 +39,9 @@ impl Figure {
     fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
         Self { name: name.to_owned(), caption: caption.into(), svg }
     }
+}
+
+/// Numbers from one, as labels.
+fn numbers(count: usize) -> Vec<String> {
+    (1..=count).map(|number| number.to_string()).collect()
 }

@@ -1,72 +1,106 @@
-//! How the box falls on the paper: the quasi-isometric view and the plan, each scaled to the room it is given.
+//! How a structure falls on the paper: a quasi-isometric view or a plan, scaled to the room it is given.
 
 use super::canvas::Place;
-use super::planform::PlanPoint;
 use nalgebra::Vector3;
 
 /// How many times the box's depth is drawn, which is a twentieth of its span.
 pub(super) const DEPTH_DRAWN: f64 = 7.0;
 /// Rise of the two plan axes on the paper, degrees.
 const RISE: f64 = 27.0;
+/// Part of the largest extent that a depth is drawn as, if that is at most [`DEPTH_DRAWN`] times itself.
+const LEAST_DEPTH: f64 = 0.3;
+/// Extent along an axis, of the largest, below which all points lie in one plane.
+const FLAT: f64 = 1e-6;
 
 /// Room on the paper: left, top, width, height, px.
 pub(super) type Room = [f64; 4];
 
-/// The quasi-isometric view, its scale in px to an inch of plan.
+/// A linear view: what a unit along each axis goes right and down on the paper, and the scale in px to that unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
+    pub right: Vector3<f64>,
+    pub down: Vector3<f64>,
     pub origin: Place,
     pub scale: f64,
-    /// How many times heights are drawn.
-    pub heights: f64,
+}
+
+/// Extent of points along each axis.
+pub(super) fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
+    let zero = Vector3::repeat(0.0);
+    let ends = points.iter().fold(None, |ends: Option<(Vector3<f64>, Vector3<f64>)>, point| {
+        Some(ends.map_or((*point, *point), |(low, high)| (low.inf(point), high.sup(point))))
+    });
+    ends.map_or(zero, |(low, high)| high - low)
 }
 
 impl View {
-    /// The view that shows the given points as large as there is room, in its middle.
-    pub fn fitted(points: &[Vector3<f64>], heights: f64, room: Room) -> Self {
-        let unit = Self { origin: (0.0, 0.0), scale: 1.0, heights };
-        let places: Vec<Place> = points.iter().map(|&point| unit.place(point)).collect();
-        let (scale, origin) = fit(&places, room);
-        Self { origin, scale, heights }
+    fn unit(right: Vector3<f64>, down: Vector3<f64>) -> Self {
+        Self { right, down, origin: (0.0, 0.0), scale: 1.0 }
     }
 
-    /// Outboard goes right and up, aft right and down, up goes up.
-    pub fn place(&self, at: Vector3<f64>) -> Place {
+    /// y goes right and up, x right and down, z, drawn so many times as large, up.
+    pub fn isometric(heights: f64) -> Self {
         let (sin, cos) = RISE.to_radians().sin_cos();
-        let y = sin * (at.x - at.y) - self.heights * at.z;
-        (self.origin.0 + self.scale * cos * (at.y + at.x), self.origin.1 + self.scale * y)
-    }
-}
-
-/// The plan: the root at the left, the tip at the right, forward up.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plan {
-    origin: Place,
-    scale: f64,
-}
-
-impl Plan {
-    /// The plan that shows the given points as large as there is room, in its middle.
-    pub fn fitted(points: &[PlanPoint], room: Room) -> Self {
-        let places: Vec<Place> = points.iter().map(|&[x, y]| (y, x)).collect();
-        let (scale, origin) = fit(&places, room);
-        Self { origin, scale }
+        Self::unit(Vector3::new(cos, cos, 0.0), Vector3::new(sin, -sin, -heights))
     }
 
-    pub fn place(&self, [x, y]: PlanPoint) -> Place {
-        (self.origin.0 + self.scale * y, self.origin.1 + self.scale * x)
+    /// x and y in plan, the longer of them to the right.
+    pub fn plan(points: &[Vector3<f64>]) -> Self {
+        let extents = extents(points);
+        match extents.y > extents.x {
+            true => Self::unit(Vector3::y(), Vector3::x()),
+            false => Self::unit(Vector3::x(), -Vector3::y()),
+        }
     }
-}
 
-/// Scale and origin that bring places at unit scale into a room.
-fn fit(places: &[Place], [left, top, width, height]: Room) -> (f64, Place) {
-    let bounds = |coordinate: fn(&Place) -> f64| {
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        places.iter().map(coordinate).fold(ends, |(low, high), value| (value.min(low), value.max(high)))
-    };
-    let (x_low, x_high) = bounds(|place| place.0);
-    let (y_low, y_high) = bounds(|place| place.1);
-    let scale = (width / (x_high - x_low)).min(height / (y_high - y_low));
-    let origin = (left + 0.5 * (width - scale * (x_low + x_high)), top + 0.5 * (height - scale * (y_low + y_high)));
-    (scale, origin)
+    /// The isometric view of points, with how many times their depth is drawn.
+    pub fn solid(points: &[Vector3<f64>]) -> (Self, f64) {
+        let extents = extents(points);
+        let heights = (LEAST_DEPTH * extents.max() / extents.z).round().clamp(1.0, DEPTH_DRAWN);
+        let heights = if extents.z > FLAT * extents.max() { heights } else { 1.0 };
+        (Self::isometric(heights), heights)
+    }
+
+    /// The plane that all points lie in, by its normal axis, and the view of it; none when there is no such plane.
+    pub fn flat(points: &[Vector3<f64>]) -> Option<(Vector3<f64>, Self)> {
+        let extents = extents(points);
+        let is_flat = |axis: usize| extents[axis] <= FLAT * extents.max();
+        match [2, 1, 0].into_iter().find(|&axis| is_flat(axis))? {
+            2 => Some((Vector3::z(), Self::plan(points))),
+            1 => Some((Vector3::y(), Self::unit(Vector3::x(), -Vector3::z()))),
+            _ => Some((Vector3::x(), Self::unit(Vector3::y(), -Vector3::z()))),
+        }
+    }
+
+    /// The view scaled to show the given points as large as there is room, in its middle.
+    pub fn fitted(self, points: &[Vector3<f64>], [left, top, width, height]: Room) -> Self {
+        let unit = Self { origin: (0.0, 0.0), scale: 1.0, ..self };
+        let bounds = |coordinate: fn(Place) -> f64| {
+            let ends = (f64::INFINITY, f64::NEG_INFINITY);
+            let values = points.iter().map(|&point| coordinate(unit.place(point)));
+            values.fold(ends, |(low, high), value| (value.min(low), value.max(high)))
+        };
+        let ((x_low, x_high), (y_low, y_high)) = (bounds(|place| place.0), bounds(|place| place.1));
+        let scale = (width / (x_high - x_low)).min(height / (y_high - y_low));
+        // A single point has no extent.
+        let scale = if scale.is_finite() { scale } else { 1.0 };
+        let middle = |low: f64, high: f64| if low <= high { scale * (low + high) } else { 0.0 };
+        let origin = (left + 0.5 * (width - middle(x_low, x_high)), top + 0.5 * (height - middle(y_low, y_high)));
+        Self { origin, scale, ..self }
+    }
+
+    /// Where the axes go, in words.
+    pub fn axes(&self) -> String {
+        let ways = |axis: usize| {
+            let words = [(self.right[axis], "right", "left"), (self.down[axis], "down", "up")];
+            let ways = words.into_iter().filter(|way| way.0 != 0.0);
+            ways.map(|(length, one, other)| if length > 0.0 { one } else { other }).collect::<Vec<_>>().join(" and ")
+        };
+        let named = ["x", "y", "z"].into_iter().zip((0..3).map(ways)).filter(|(_, ways)| !ways.is_empty());
+        named.map(|(axis, ways)| format!("{axis} {ways}")).collect::<Vec<_>>().join(", ")
+    }
+
+    pub fn place(&self, at: Vector3<f64>) -> Place {
+        (self.origin.0 + self.scale * self.right.dot(&at), self.origin.1 + self.scale * self.down.dot(&at))
+    }
 }

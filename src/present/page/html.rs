@@ -23,12 +23,13 @@ fn scrolling(label: &str, body: &str) -> String {
 pub(super) fn figure(figure: &Figure) -> String {
     let Figure { name, caption, svg } = figure;
     let (drawing, caption) = (scrolling(caption, svg), escaped(caption));
+    let name = escaped(name);
     format!("<figure id=\"{name}\">\n{drawing}<figcaption>{caption}</figcaption>\n</figure>\n")
 }
 
 pub(super) fn table(table: &Table) -> String {
     let title = escaped(&table.title);
-    let mut body = format!("<table id=\"{}\">\n<caption>{title}</caption>\n", table.name);
+    let mut body = format!("<table id=\"{}\">\n<caption>{title}</caption>\n", escaped(&table.name));
     body += &format!("<thead><tr><th scope=\"col\">{}</th>", table.label_heading);
     for column in &table.columns {
         let unit = match column.unit {

@@ -5,9 +5,11 @@
 
 mod html;
 
-use super::figures::Figure;
+use super::figures::{Figure, subject_figures};
+use super::subject::Subject;
 use super::table::{Digits, Table};
 use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
+use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, matrices, paper_tables, preflight};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
@@ -43,48 +45,96 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let mut parts = vec![
-        ("summary-section".to_owned(), "Summary".to_owned(), "Summary".to_owned(), summary_section(contents)?),
-        ("box".to_owned(), "The box".to_owned(), "The box".to_owned(), box_section(contents)),
+        named("summary-section", "Summary", "Summary", summary_section(contents)?),
+        named("box", "The box", "The box", box_section(contents)),
+        named("preflight", "Pre-flight", "Before the first step", preflight_section(contents)?),
     ];
-    let before = "Before the first step";
-    parts.push(("preflight".to_owned(), "Pre-flight".to_owned(), before.to_owned(), preflight_section(contents)?));
     for result in contents.results {
         let number = result.case.number;
         let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
         let heading = format!("Case {number}: {}", about(number));
-        parts.push((format!("case-{number}"), format!("Case {number}"), heading, body));
+        parts.push(named(&format!("case-{number}"), &format!("Case {number}"), &heading, body));
     }
     let differences = section_of(include_str!("../../../paper/results.md"), "");
     let why = "Where the results differ from the published ones, and why";
-    let others = [
-        ("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
-        ("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
-        (
-            "cost",
-            "Iterations",
-            "Iterations",
-            [iteration_table(contents.results)?, settings_table(contents.results)].iter().map(table).collect(),
-        ),
-        ("differences", "Differences", why, differences),
-        ("made", "How it was made", "How it was made", made_section(contents)),
-    ];
-    parts.extend(others.map(|(id, link, heading, body)| (id.to_owned(), link.to_owned(), heading.to_owned(), body)));
+    let cost = [iteration_table(contents.results)?, settings_table(contents.results)].iter().map(table).collect();
+    parts.extend([
+        named("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
+        named("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
+        named("cost", "Iterations", "Iterations", cost),
+        named("differences", "Differences", why, differences),
+        named("made", "How it was made", "How it was made", made_section(contents)),
+    ]);
+    let bodies = parts.iter().map(|(.., body)| body.as_str());
+    let tables = bodies.flat_map(|body| body.split("<table id=\"").skip(1)).filter_map(|rest| rest.split('"').next());
+    let lead = format!(
+        "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
+         those of a ground vibration test. Four cases of the published example, every number beside the published one. {}",
+        paper_tables(tables)
+    );
+    Ok(document(TITLE, &lead, &parts))
+}
+
+/// A section: its id, what a link to it says, its heading, its HTML.
+type Part = (String, String, String, String);
+
+fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
+    (id.to_owned(), link.to_owned(), heading.to_owned(), body)
+}
+
+/// A whole page of sections.
+fn document(title: &str, lead: &str, parts: &[Part]) -> String {
     let links: String = parts.iter().map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n")).collect();
     let sections: String = parts.iter().map(|(id, _, heading, body)| section(id, heading, body)).collect();
-    let tables = sections.split("<table id=\"").skip(1).filter_map(|rest| rest.split('"').next());
-    Ok(format!(
+    let title = escaped(title);
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {TITLE}</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{TITLE}</h1>\n<p>Element stiffnesses of a finite element \
-         model, corrected until its natural frequencies and mode shapes agree with those of a ground vibration test. \
-         Four cases of the published example, every number beside the published one. {}</p>\n</header>\n\
-         <nav aria-label=\"Contents\">\n{}</nav>\n<main>\n{}</main>\n</body>\n</html>\n",
+         <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {title}</title>\n\
+         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n</header>\n\
+         <nav aria-label=\"Contents\">\n{links}</nav>\n<main>\n{sections}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
-        paper_tables(tables),
-        links,
-        sections,
-    ))
+        escaped(lead),
+    )
+}
+
+/// The report on one correlation: what it came to, modes, factors, structure and history, with other tables at its end;
+/// `command` makes it again.
+///
+/// # Errors
+/// Those of [`subject_figures`] and [`Subject::agreement`].
+pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result<String, PresentError> {
+    let figures = subject_figures(subject)?;
+    let drawn = |whats: &[&str]| -> String {
+        let is_of =
+            |figure: &&Figure| whats.iter().any(|what| figure.name.contains(&format!("{}_{what}", subject.name)));
+        figures.iter().filter(is_of).map(figure).collect()
+    };
+    let class = if subject.converged { "note" } else { "finding" };
+    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words));
+    let summary = words + &table(&paired_table(subject)?);
+    let derivatives = derivative_table(subject).as_ref().map(table).unwrap_or_default();
+    let others: String = extra.iter().map(table).collect();
+    let made = format!(
+        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units are the model's own; frequency in hertz. \
+         The same command gives the same page.</p>\n",
+        escaped(command)
+    );
+    let parts = [
+        ("summary", "Summary", summary),
+        ("factors", "Factors", table(&factor_table(subject)) + &drawn(&["factors"])),
+        ("structure", "Structure", drawn(&["structure"])),
+        ("modes", "Mode shapes", drawn(&["mode_shapes", "node_lines", "agreement"])),
+        ("history", "History", table(&history_table(subject)) + &drawn(&["errors"])),
+        ("derivatives", "Derivatives", derivatives + &drawn(&["derivatives"])),
+        ("others", "Further results", others),
+        ("made", "How it was made", made),
+    ];
+    let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
+    let parts = parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
+    let lead =
+        "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
+    Ok(document(&subject.title, lead, &parts.collect::<Vec<_>>()))
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.

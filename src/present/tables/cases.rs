@@ -1,15 +1,17 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
 
-use super::correlation::{self, JudgedFactor, checks, frequencies, judged_factors, solver_note};
 use super::readings::{case_readings, detection_table};
-use super::stages::{Stages, stage_title};
+use super::stages::Stages;
+use super::subject::solver_note;
+use super::unlimited::unlimited_table;
 use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
-use crate::cases::torque_box::{TEST_GAGE, gage_rms};
+use crate::cases::torque_box::gage_rms;
 use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
+use crate::method::model::Check;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
@@ -39,10 +41,18 @@ fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label:
 /// [`PresentError::Case`] if the published table were damaged, as for all tables of this module.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let paper = published([3, 5, 7], result)?;
-    let test = result.test.frequencies_hz();
-    let table = named(result, paper.as_ref(), "frequencies", "Mode");
-    let checks = checks(&result.correlation);
-    let mut table = frequencies(table, &test, &checks, |stages| stages.paper = paper.as_ref());
+    let (test, run) = (result.test.frequencies_hz(), &result.correlation);
+    let passes = run.passes.iter().enumerate().map(|(row, pass)| (format!("pass_{}", row + 1), &pass.check));
+    let checks: Vec<(String, &Check)> = std::iter::once(("initial".to_owned(), &run.initial)).chain(passes).collect();
+    let found = checks.iter().map(|(name, check)| (name.clone(), &check.frequencies_hz[..]));
+    let mut stages = Stages::of_modes(test.len(), &test, found.collect());
+    stages.paper = paper.as_ref();
+    let mut table = stages.fill(named(result, paper.as_ref(), "frequencies", "Mode"));
+    for (label, rms) in
+        [("frequency RMS", Errors::frequency_rms as fn(&Errors) -> f64), ("shape RMS", Errors::shape_rms)]
+    {
+        stages.add_errors(&mut table, label, RMS_PERCENT, checks.iter().map(|(_, check)| Some(rms(&check.errors))));
+    }
     table.notes.extend(solver_note(result.solver, "", ", of the test configuration too;"));
     table.notes.extend(remarks(paper.as_ref()));
     Ok(table)
@@ -53,23 +63,6 @@ fn gage_stages(result: &CaseResult) -> Vec<(String, Vec<f64>)> {
     let passes = result.pass_gages.iter().enumerate();
     let pass = passes.map(|(row, gages)| (format!("pass_{}", row + 1), gages.clone()));
     std::iter::once(("initial".to_owned(), result.case.first_gages())).chain(pass).collect()
-}
-
-/// Gage errors of one stage: its name, and for every panel the percent computed and the one published, if any.
-pub type GageStage = (String, Vec<(f64, Option<f64>)>);
-
-/// Gage errors of a case at the start and after every pass.
-pub fn gage_errors(result: &CaseResult) -> Result<Vec<GageStage>, PresentError> {
-    let paper = published([4, 6, 8], result)?;
-    let stage = |(stage, gages): (String, Vec<f64>)| {
-        let heading = format!("{stage}_percent");
-        let panels = gages.iter().zip(&result.case.panels).map(|(gage, panel)| {
-            let printed = paper.as_ref().and_then(|paper| paper.value(&panel.label.to_string(), &heading));
-            (100.0 * (gage / TEST_GAGE - 1.0), printed)
-        });
-        (stage_title(&stage), panels.collect())
-    };
-    Ok(gage_stages(result).into_iter().map(stage).collect())
 }
 
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
@@ -89,29 +82,6 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     }
     table.notes.extend(remarks(paper.as_ref()));
     Ok(table)
-}
-
-/// What the first iteration of a case asks of every parameter, beside what the paper quotes.
-pub fn unlimited_factors(result: &CaseResult) -> Vec<JudgedFactor> {
-    let bounds = result.case.settings.inner.factor_range;
-    let mut factors = judged_factors(&result.parameter_names, result.unlimited_factors(), bounds);
-    // The paper quotes one factor: about 60, for the faulty cover of Case 4.
-    let faulty = factors.iter_mut().find(|factor| (result.case.number, &factor.parameter[..]) == (4, "8"));
-    faulty.into_iter().for_each(|factor| factor.published = Some(60.0));
-    factors
-}
-
-/// Unlimited stiffness change factors of the first iteration, and the elements they give away.
-pub fn factor_table(result: &CaseResult) -> Table {
-    let case = result.case.number;
-    let kind = if result.case.grouping == Grouping::Elements { "element" } else { "group" };
-    correlation::factor_table(
-        &format!("case_{case}_factors"),
-        &format!("Case {case}: unlimited stiffness change factors, first iteration"),
-        &unlimited_factors(result),
-        result.case.settings.inner.factor_range,
-        kind,
-    )
 }
 
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
@@ -202,7 +172,7 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
         }
         let cells = [
             Cell::count(run.passes.len()),
-            Cell::number(correlation::last_check(run).errors.sum(), Digits::Fixed(4)),
+            Cell::number(run.passes.last().map_or(&run.initial, |pass| &pass.check).errors.sum(), Digits::Fixed(4)),
             Cell::number(result.case.settings.error_sum_tolerance, Digits::Fixed(4)),
             Cell::text(outcome(result)),
         ];
@@ -228,7 +198,7 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
 pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     if result.case.number == CASES[3] {
-        tables.push(factor_table(result));
+        tables.push(unlimited_table(result));
     }
     // The print has neither grouped runs nor other programs' elements, and nothing is beside the library's own reading.
     let is_papers = result.case.grouping == Grouping::Elements && result.solver == BUILT_IN;
@@ -256,7 +226,7 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
         let last = format!("pass_{}", result.correlation.passes.len());
         let ends = [
             ("initial", &result.correlation.initial.errors),
-            (&last, &correlation::last_check(&result.correlation).errors),
+            (&last, &result.correlation.passes.last().map_or(&result.correlation.initial, |pass| &pass.check).errors),
         ];
         let rms = |row: &str, value: fn(&Errors) -> f64| {
             ends.map(|(stage, errors)| {

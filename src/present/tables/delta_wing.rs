@@ -1,9 +1,10 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
-use super::correlation::{frequencies, last_check, pass_table, solver_note};
+use super::subject::{history_table, paired_table};
 use super::{PERCENT, RMS_PERCENT};
 use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
+use crate::present::subject::Subject;
 use crate::present::table::{Cell, Digits, Table};
 use crate::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
@@ -20,15 +21,16 @@ const SMALL_PERCENT: Digits = Digits::Fixed(5);
 /// # Errors
 /// Those of the wing's analyses; [`PresentError::Case`] if what others found were damaged.
 pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, PresentError> {
-    let passes = "Delta wing with wrong gages: passes";
-    let names: Vec<String> = run.groups.iter().map(|found| found.group.name.to_owned()).collect();
+    let subject = Subject::of_wing(wing, run)?;
+    let mut paired = paired_table(&subject)?;
+    paired.rows.iter_mut().zip(TEST_MODES).for_each(|(row, mode)| row.label = mode.to_string());
     Ok(vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
         frequency_table(wing)?,
         group_table(run),
-        test_mode_table(run),
-        pass_table("delta_wing_passes", passes, &run.correlation).note(run.correlation.verdict.in_words(&names)),
+        paired,
+        history_table(&subject),
     ])
 }
 
@@ -105,18 +107,5 @@ fn group_table(run: &WingCorrelation) -> Table {
         let [last, share] = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));
         table.row(group.group.name, [Cell::percent(group.first_error(), PERCENT), truth, found, last, share]);
     }
-    table
-}
-
-fn test_mode_table(run: &WingCorrelation) -> Table {
-    let title = "Delta wing with wrong gages: frequencies and errors";
-    let checks = vec![("start".to_owned(), &run.correlation.initial), ("end".to_owned(), last_check(&run.correlation))];
-    let test = run.test.frequencies_hz();
-    let mut table = frequencies(Table::new("delta_wing_test_modes", title, "Mode"), &test, &checks, |stages| {
-        stages.target = "Test";
-        stages.labels = TEST_MODES.iter().map(|mode| mode.to_string()).collect();
-        (stages.digits, stages.error_digits) = (Digits::Significant(5), RMS_PERCENT);
-    });
-    table.notes.extend(solver_note(run.solver, " of the model with wrong gages", "; test modes and"));
     table
 }

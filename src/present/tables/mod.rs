@@ -1,7 +1,6 @@
-//! What is computed, as tables: of any correlation ([`correlation`]), of the paper's cases, and of the studies.
+//! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of the studies.
 
 pub mod cases;
-pub mod correlation;
 pub mod deck;
 pub mod delta_wing;
 pub mod fewer_modes;
@@ -11,7 +10,9 @@ pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;
+pub mod subject;
 pub mod table_1;
+pub mod unlimited;
 
 use super::table::Digits;
 use crate::cases::published::PublishedTable;

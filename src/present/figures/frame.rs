@@ -1,0 +1,162 @@
+//! A structure as its sensors see it: places, lines between them, and how they move in a mode.
+
+use super::view::extents;
+use crate::present::subject::Subject;
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// A line from one place to another.
+pub type Segment = [Vector3<f64>; 2];
+
+/// Sensors of one place: rows of the shapes with their directions.
+type Sensors = Vec<(usize, Vector3<f64>)>;
+
+/// Places of a subject, what joins them, and which of them are known to move or not to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Every place, once.
+    pub nodes: Vec<Vector3<f64>>,
+    /// Polylines that pass every line and every edge of a panel once.
+    pub lines: Vec<Vec<usize>>,
+    /// Panels of three and more corners.
+    pub panels: Vec<Vec<usize>>,
+    /// Places with sensors, and supports, which have none.
+    pub known: BTreeMap<usize, Sensors>,
+}
+
+impl Frame {
+    /// The frame of a subject; what is not finite is left out.
+    ///
+    /// Sensors of a structure in one line that all measure along it are drawn across it, upward.
+    pub fn of(subject: &Subject) -> Self {
+        let (mut nodes, mut row_of) = (Vec::new(), HashMap::new());
+        let mut node = |at: &Vector3<f64>| {
+            // Zero has one sign.
+            *row_of.entry([at.x, at.y, at.z].map(|component| (component + 0.0).to_bits())).or_insert_with(|| {
+                nodes.push(*at);
+                nodes.len() - 1
+            })
+        };
+        let is_finite = |at: &Vector3<f64>| at.iter().all(|component| component.is_finite());
+        let pieces = subject.frame.iter().filter(|corners| corners.iter().all(is_finite));
+        let pieces: Vec<Vec<usize>> = pieces.map(|corners| corners.iter().map(&mut node).collect()).collect();
+        let mut known: BTreeMap<usize, Sensors> = BTreeMap::new();
+        for at in subject.supports.iter().filter(|at| is_finite(at)) {
+            known.entry(node(at)).or_default();
+        }
+        for (row, sensor) in subject.sensors.iter().enumerate() {
+            if let Some(at) = sensor.place.as_ref().filter(|at| is_finite(at)) {
+                let place = node(at);
+                if sensor.direction != Vector3::zeros() {
+                    known.entry(place).or_default().push((row, sensor.direction));
+                }
+            }
+        }
+        let extent = extents(&nodes);
+        let axis = Vector3::from_fn(|axis, _| f64::from(axis == extent.imax()));
+        let across = if axis.z == 1.0 { Vector3::x() } else { Vector3::z() };
+        let mut sensors = known.values_mut().flatten().collect::<Vec<_>>();
+        if extent.sum() == extent.max() && sensors.iter().all(|(_, along)| along.cross(&axis) == Vector3::zeros()) {
+            sensors.iter_mut().for_each(|(_, along)| *along = along.dot(&axis) * across);
+        }
+        let mut joined = vec![BTreeSet::new(); nodes.len()];
+        for piece in &pieces {
+            for (&a, &b) in piece.iter().zip(piece.iter().cycle().skip(1)).filter(|(a, b)| a != b) {
+                joined[a].insert(b);
+                joined[b].insert(a);
+            }
+        }
+        let panels = pieces.into_iter().filter(|piece| piece.len() > 2).collect();
+        Self { lines: chained(joined), nodes, panels, known }
+    }
+
+    /// Displacements of all places in a shape whose largest component is one.
+    ///
+    /// A place with sensors moves as they say, a support not at all, and any other as the mean of those, weighted with
+    /// $1/r^4$ for a distance of $r$ (Shepard, *Proc. 23rd ACM National Conference* (1968), 517).
+    pub fn moved(&self, shape: &[f64]) -> Vec<Vector3<f64>> {
+        let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
+        let motion = |sensors: &Sensors| -> Vector3<f64> {
+            sensors.iter().filter_map(|(row, along)| Some(*shape.get(*row)? / largest * along)).sum()
+        };
+        let known: Vec<_> = self.known.iter().map(|(&node, sensors)| (self.nodes[node], motion(sensors))).collect();
+        let size = extents(&self.nodes).norm();
+        let at = |place: &Vector3<f64>| {
+            let (mut sum, mut total) = (Vector3::zeros(), 0.0);
+            for (other, motion) in &known {
+                let distance = (place - other).norm() / size;
+                if place == other {
+                    return *motion;
+                }
+                let weight = distance.powi(-4).min(1e100);
+                (sum, total) = (sum + weight * motion, total + weight);
+            }
+            if total > 0.0 { sum / total } else { sum }
+        };
+        self.nodes.iter().map(at).collect()
+    }
+
+    /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.
+    pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
+        let mut lines = Vec::new();
+        for panel in &self.panels {
+            let corners: Vec<Corner> = panel.iter().map(|&node| (self.nodes[node], moved[node].dot(along))).collect();
+            cells(corners).iter().for_each(|cell| add_node_lines(cell, &mut lines));
+        }
+        lines
+    }
+}
+
+/// A place and its displacement.
+type Corner = (Vector3<f64>, f64);
+
+fn mean(corners: &[(f64, Corner)]) -> Corner {
+    corners
+        .iter()
+        .fold((Vector3::zeros(), 0.0), |sum, (part, corner)| (sum.0 + *part * corner.0, sum.1 + part * corner.1))
+}
+
+/// A panel of four corners in parts, by its bilinear map; any other whole.
+fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
+    const PARTS: usize = 12;
+    let [a, b, c, d] = corners[..] else { return vec![corners] };
+    let at = |i: usize, j: usize| {
+        let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
+        mean(&[((1.0 - s) * (1.0 - t), a), (s * (1.0 - t), b), (s * t, c), ((1.0 - s) * t, d)])
+    };
+    let places = (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j)));
+    places.map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]).collect()
+}
+
+/// Adds the zero lines of a displacement that is linear on triangles about the middle of a cell.
+fn add_node_lines(corners: &[Corner], lines: &mut Vec<Segment>) {
+    let share = 1.0 / corners.len() as f64;
+    let middle = mean(&corners.iter().map(|&corner| (share, corner)).collect::<Vec<_>>());
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let sides = [(a, b), (b, middle), (middle, a)].into_iter().filter(|(p, q)| p.1 * q.1 < 0.0);
+        let mut points: Vec<_> = sides.map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0)).collect();
+        // A corner that is held ends the line that comes from the other side.
+        let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
+        points.extend(ends.map(|corner| corner.0).take(usize::from(points.len() == 1)));
+        if let [from, to] = points[..] {
+            lines.push([from, to]);
+        }
+    }
+}
+
+/// Polylines along all lines, each once.
+fn chained(mut joined: Vec<BTreeSet<usize>>) -> Vec<Vec<usize>> {
+    let mut chains = Vec::new();
+    for start in 0..joined.len() {
+        while !joined[start].is_empty() {
+            let (mut chain, mut last) = (vec![start], start);
+            while let Some(next) = joined[last].pop_first() {
+                joined[next].remove(&last);
+                chain.push(next);
+                last = next;
+            }
+            chains.push(chain);
+        }
+    }
+    chains
+}

@@ -1,0 +1,173 @@
+//! Mode shapes and node lines of the test, the first and the corrected model over each other (Figure 6).
+
+use super::canvas::*;
+use super::frame::Frame;
+use super::view::{Room, View, extents};
+use crate::method::linear_algebra::check_shape;
+use crate::method::pairing;
+use crate::present::PresentError;
+use crate::present::subject::Subject;
+use crate::present::table::Digits;
+use nalgebra::Vector3;
+use plotters::style::WHITE;
+
+/// Lines so wide that each is seen where all three lie on each other.
+fn pens() -> [(&'static str, Pen); 3] {
+    [
+        ("test", Pen::solid(between(WHITE, ORANGE, 0.6), 5.5)),
+        ("first", Pen::solid(SKY, 2.6)),
+        ("corrected", Pen::solid(INK, 0.9)),
+    ]
+}
+
+/// Modes of one figure, and side by side in it.
+const MOST_MODES: usize = 12;
+const ACROSS: usize = 3;
+const CELL: (f64, f64) = (WIDTH / ACROSS as f64, 178.0);
+const HEAD: f64 = 62.0;
+
+/// A test mode and its partners as drawn: of test, first and corrected model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnMode {
+    /// From one.
+    pub number: usize,
+    /// Frequencies, Hz.
+    pub hertz: [f64; 3],
+    /// Displacements of the frame's nodes.
+    pub moved: [Vec<Vector3<f64>>; 3],
+}
+
+/// Modes as drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// The structure.
+    pub frame: Frame,
+    /// Its modes.
+    pub modes: Vec<DrawnMode>,
+}
+
+impl Modes {
+    /// All modes of a subject, in the order and with the signs of the test modes; none when no sensor has a place and a direction.
+    ///
+    /// # Errors
+    /// [`WrongShape`](crate::method::error::Error::WrongShape) unless every row of the shapes has a sensor.
+    pub fn of(subject: &Subject) -> Result<Option<Self>, PresentError> {
+        let frame = Frame::of(subject);
+        if frame.known.values().all(Vec::is_empty) {
+            return Ok(None);
+        }
+        let test = &subject.test;
+        check_shape("mode shapes", &test.shapes, subject.sensors.len(), test.len())?;
+        let checks = [&subject.initial, subject.corrected()];
+        let [first, corrected] = checks.map(|check| pairing::paired(&check.modes, &check.pairing));
+        let states = [test.clone(), first?, corrected?];
+        let mode = |mode: usize| DrawnMode {
+            number: mode + 1,
+            hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
+            moved: states.each_ref().map(|modes| frame.moved(modes.shapes.column(mode).as_slice())),
+        };
+        Ok(Some(Self { modes: (0..test.len()).map(mode).collect(), frame }))
+    }
+
+    /// The normal of the plane that all places lie in, if all move along it alone and there are panels for node lines.
+    pub fn normal(&self) -> Option<Vector3<f64>> {
+        let (normal, _) = View::flat(&self.frame.nodes)?;
+        let is_normal = self.motions().all(|motion| motion.cross(&normal) == Vector3::zeros());
+        (is_normal && !self.frame.panels.is_empty()).then_some(normal)
+    }
+
+    fn motions(&self) -> impl Iterator<Item = &Vector3<f64>> {
+        self.modes.iter().flat_map(|mode| mode.moved.iter().flatten())
+    }
+
+    /// In as many figures as their number asks for, each with the words that its name and title end with.
+    pub fn parts(&self) -> Vec<(String, Self)> {
+        let part = |modes: &[_]| Self { frame: self.frame.clone(), modes: modes.to_vec() };
+        let parts = self.modes.chunks(MOST_MODES).map(part).enumerate();
+        let is_one = self.modes.len() <= MOST_MODES;
+        parts.map(|(row, modes)| (if is_one { String::new() } else { format!("_{}", row + 1) }, modes)).collect()
+    }
+
+    /// The shapes as SVG.
+    pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
+        let nodes = &self.frame.nodes;
+        // The largest displacement is drawn as long as a sixth of the structure.
+        let far = extents(nodes).max() / 6.0;
+        let in_plane = View::flat(nodes).filter(|(normal, _)| self.motions().all(|motion| motion.dot(normal) == 0.0));
+        let (view, heights) = in_plane.map_or_else(|| View::solid(nodes), |(_, view)| (view, 1.0));
+        // Depths are exaggerated, displacements are not.
+        let displaced =
+            |at: &Vector3<f64>, motion: &Vector3<f64>| at + far * Vector3::new(motion.x, motion.y, motion.z / heights);
+        self.each(name, title, "shapes:", |area, mode, room| {
+            let moved = mode
+                .moved
+                .each_ref()
+                .map(|motions| nodes.iter().zip(motions).map(|(at, motion)| displaced(at, motion)).collect::<Vec<_>>());
+            let view = view.fitted(&[&nodes[..], &moved[0], &moved[1], &moved[2]].concat(), room);
+            let still = (nodes, Pen::solid(PALE, 1.0));
+            let states = moved.iter().zip(pens()).map(|(nodes, (_, pen))| (nodes, pen));
+            for (nodes, pen) in std::iter::once(still).chain(states) {
+                for chain in &self.frame.lines {
+                    line(area, &chain.iter().map(|&node| view.place(nodes[node])).collect::<Vec<_>>(), pen)?;
+                }
+                for &node in self.frame.known.keys().filter(|_| self.frame.lines.is_empty()) {
+                    mark(area, view.place(nodes[node]), Mark(Form::Circle, 0.5 + pen.1, None, Pen(pen.0, 1.2, pen.2)))?;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// The node lines in plan as SVG, for displacements along a normal.
+    pub fn draw_node_lines(&self, name: &str, title: &str, normal: Vector3<f64>) -> Result<String, PresentError> {
+        let nodes = &self.frame.nodes;
+        let view = View::flat(nodes).map_or_else(|| View::plan(nodes), |(_, view)| view);
+        self.each(name, title, "node lines:", |area, mode, room| {
+            let view = view.fitted(nodes, room);
+            for chain in &self.frame.lines {
+                let points: Vec<Place> = chain.iter().map(|&node| view.place(nodes[node])).collect();
+                line(area, &points, Pen::solid(SILVER, 0.8))?;
+            }
+            for (moved, (_, pen)) in mode.moved.iter().zip(pens()) {
+                for segment in self.frame.node_lines(&normal, moved) {
+                    line(area, &segment.map(|at| view.place(at)), pen)?;
+                }
+            }
+            for &node in self.frame.known.keys() {
+                let up = mode.moved[0][node].dot(&normal);
+                let fill = if up > 0.0 { GRAY } else { WHITE };
+                let dot = Mark(Form::Circle, 1.5 + 3.0 * up.abs().sqrt(), Some(fill), Pen::solid(GRAY, 1.2));
+                mark(area, view.place(nodes[node]), dot)?;
+            }
+            Ok(())
+        })
+    }
+
+    fn each(
+        &self,
+        name: &str,
+        title: &str,
+        what: &str,
+        draw: impl Fn(&Area, &DrawnMode, Room) -> Drawn,
+    ) -> Result<String, PresentError> {
+        let height = HEAD + CELL.1 * self.modes.len().div_ceil(ACROSS) as f64;
+        svg(name, title, height, |area| {
+            write(area, what, (14.0, 20.0), START)?;
+            let mut x = 24.0 + 6.8 * what.len() as f64;
+            for (name, pen) in pens() {
+                line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
+                write(area, name, (x + 43.0, 20.0), START)?;
+                x += 72.0 + 6.8 * name.len() as f64;
+            }
+            write(area, "frequencies in Hz: test | first | corrected", (14.0, 44.0), START)?;
+            for (row, mode) in self.modes.iter().enumerate() {
+                let (x, y) = (CELL.0 * (row % ACROSS) as f64 + 14.0, HEAD + CELL.1 * (row / ACROSS) as f64);
+                write(area, &format!("Mode {}", mode.number), (x, y + 14.0), START.bold())?;
+                let hertz = mode.hertz.map(|hertz| Digits::Significant(4).write(hertz));
+                write(area, &hertz.join(" | "), (x + 62.0, y + 14.0), START.small())?;
+                draw(area, mode, [x, y + 30.0, CELL.0 - 34.0, CELL.1 - 48.0])?;
+            }
+            Ok(())
+        })
+    }
+}

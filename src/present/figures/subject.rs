@@ -1,0 +1,131 @@
+//! The figures of any correlation: its structure, its modes, its history, its factors, and how well they are known.
+
+use super::error_history::{self, error_history};
+use super::factors::{Factor, Factors};
+use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
+use super::mode_shapes::Modes;
+use super::structure::draw_structure;
+use super::{Figure, numbers};
+use crate::method::error::Error;
+use crate::present::PresentError;
+use crate::present::subject::Subject;
+use nalgebra::DMatrix;
+
+/// Every figure of a subject: structure, mode shapes and node lines where sensors have places, errors against iteration, factors,
+/// agreement of the modes before and after, and derivatives where there are any.
+///
+/// # Errors
+/// Those of [`Modes::of`] and [`Subject::agreement`]; [`PresentError::Drawing`].
+pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
+    let mut figures = Vec::new();
+    let mut add =
+        |what: &str, title: &str, caption: &str, draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
+            let name = format!("{}_{what}", subject.name);
+            let svg = draw(&name, &format!("{}: {title}", subject.title))?;
+            figures.push(Figure::new(&name, format!("{}: {caption}.", subject.title), svg));
+            Ok::<_, PresentError>(())
+        };
+    if subject.sensors.iter().any(|sensor| sensor.place.is_some()) {
+        let caption = "the structure with its sensors, grids and supports";
+        add("structure", "structure and sensors", caption, &|name, title| draw_structure(name, title, subject))?;
+    }
+    if let Some(modes) = Modes::of(subject)? {
+        for (part, modes) in modes.parts() {
+            let caption = "mode shapes of the test, of the first and of the corrected model, the largest displacement of each \
+                the same; what lies between sensors is interpolated from those near it";
+            add(&format!("mode_shapes{part}"), "mode shapes", caption, &|name, title| modes.draw(name, title))?;
+            if let Some(normal) = modes.normal() {
+                let caption = "node lines in plan, interpolated between the sensors; at these, gray is up in the test and larger \
+                    is farther";
+                let draw = |name: &str, title: &str| modes.draw_node_lines(name, title, normal);
+                add(&format!("node_lines{part}"), "node lines", caption, &draw)?;
+            }
+        }
+    }
+    if !subject.stages.is_empty() {
+        let history = error_history(subject);
+        let caption = "errors against iteration. Between exact solutions an inner loop steps by perturbation; the gap at the end \
+            of a pass is what freezing the transformation cost";
+        add("errors", "errors against iteration", caption, &|name, title| error_history::draw(name, title, &history))?;
+    }
+    let factors = factors(subject);
+    let bars = if subject.deviations.is_some() { "; bars are one standard deviation to either side" } else { "" };
+    let caption = format!("factors on the first model, with the bounds of each in blue{bars}");
+    add("factors", "factors", &caption, &|name, title| factors.draw(name, title))?;
+    let maps = mode_agreement(subject)?;
+    let cross = if subject.mass.is_some() { "cross-orthogonality and " } else { "" };
+    let caption = format!(
+        "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after"
+    );
+    add("agreement", "analysis against test modes before and after", &caption, &|name, title| {
+        let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
+        draw_by_twos(name, title, &maps, &[note, "The modal assurance criterion (MAC) is not mass-weighted."])
+    })?;
+    if let Some(maps) = derivatives(subject) {
+        let caption = "derivatives of the frequencies and of the error sum at the first model";
+        add("derivatives", "derivatives of the first model", caption, &|name, title| {
+            draw_derivatives(name, title, &maps)
+        })?;
+    }
+    Ok(figures)
+}
+
+/// Factors of the corrected model, with their uncertainties and bounds.
+fn factors(subject: &Subject) -> Factors {
+    let row = |(e, (name, value)): (usize, (&String, f64))| Factor {
+        name: name.clone(),
+        value,
+        deviation: subject.deviations.as_ref().and_then(|deviations| deviations.get(e).copied()),
+        published: None,
+        bounds: subject.ranges.get(e).copied().flatten(),
+        remark: subject.is_at_bound(e, value).then_some("at bound"),
+    };
+    Factors {
+        rows: subject.parameters.iter().zip(subject.factors()).enumerate().map(row).collect(),
+        limits: None,
+        across: "factor on the first model".to_owned(),
+        decimals: 3,
+        published: "",
+    }
+}
+
+/// Cross-orthogonality $V_F^t M V_G$ (4), where there is a mass, and modal assurance criterion of the exact solutions before and
+/// after, analysis modes by test modes.
+///
+/// # Errors
+/// Those of [`Subject::agreement`].
+pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
+    let map = |title: &str, values: DMatrix<f64>| {
+        let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
+        let columns = ("test mode".to_owned(), numbers(values.ncols()));
+        HeatMap { title: title.to_owned(), rows, columns, values: values.map(Some), full: 1.0, written: (100.0, 0) }
+    };
+    let [before, after] = [subject.agreement(&subject.initial)?, subject.agreement(subject.corrected())?];
+    let cross = [("before", before.orthogonality), ("after", after.orthogonality)];
+    let cross = cross.into_iter().filter_map(|(when, cross)| Some(map(&format!("Cross-orthogonality {when}"), cross?)));
+    let assurance = [("before", before.assurance), ("after", after.assurance)];
+    let assurance = assurance.map(|(when, assurance)| map(&format!("Modal assurance criterion {when}"), assurance));
+    Ok(cross.chain(assurance).collect())
+}
+
+/// Derivatives at the first model, parameters by test modes and by the error sum.
+pub fn derivatives(subject: &Subject) -> Option<[HeatMap; 2]> {
+    let derivatives = subject.derivatives.as_ref()?;
+    let map = |title: &str, rows: &str, columns: &str, labels, values: DMatrix<f64>| HeatMap {
+        title: title.to_owned(),
+        rows: (rows.to_owned(), subject.parameters.clone()),
+        columns: (columns.to_owned(), labels),
+        full: values.amax(),
+        values: values.map(Some),
+        written: (1.0, 2),
+    };
+    let (frequency, error_sum) = (derivatives.frequency.clone(), &derivatives.error_sum);
+    let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
+    let percent = "Percent of frequency for one percent of the parameter";
+    let modes = numbers(frequency.ncols());
+    let labels = vec!["one percent of it".to_owned()];
+    Some([
+        map(percent, "parameter", "test mode", modes, frequency),
+        map("Error sum", "", "percent points for", labels, error_sum),
+    ])
+}

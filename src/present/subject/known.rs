@@ -1,0 +1,77 @@
+//! The paper's cases and the delta wing as subjects.
+
+use super::{Derivatives, SensorPoint, Subject};
+use crate::cases::CaseResult;
+use crate::cases::torque_box::Reconstruction;
+use crate::present::PresentError;
+use crate::studies::delta_wing::DeltaWing;
+use crate::studies::delta_wing::correlation::{GROUPS, WingCorrelation, first_model, measured_grids};
+use nalgebra::Vector3;
+
+impl Subject {
+    /// A case of the paper: its nine dynamic points on the mid-plane of the box.
+    ///
+    /// # Errors
+    /// Those of the model and its analysis.
+    pub fn of_case(result: &CaseResult) -> Result<Self, PresentError> {
+        let (case, names, test) = (&result.case, &result.parameter_names, &result.test);
+        let model = case.model()?;
+        let first = model.analyze(&vec![1.0; names.len()], test, None)?;
+        let (points, root) = mid_plane(&case.reconstruction);
+        let rows: Vec<&[Vector3<f64>]> = points.chunks(3).chain([&root[..]]).collect();
+        let bays = rows.windows(2).flat_map(|pair| [[0, 1], [1, 2]].map(|[a, b]| (pair, a, b)));
+        let sensor = |(row, &at)| up(format!("D{}", row + 1), at);
+        Ok(Self {
+            title: format!("Case {}", case.number),
+            solver: result.solver.to_owned(),
+            ranges: model.factor_ranges()?,
+            sensors: points.iter().enumerate().map(sensor).collect(),
+            frame: bays.map(|(pair, a, b)| vec![pair[0][a], pair[0][b], pair[1][b], pair[1][a]]).collect(),
+            supports: root.to_vec(),
+            mass: Some(case.reconstruction.mass()),
+            tolerances: Some([case.settings.inner.tolerance, case.settings.later_inner_tolerance]),
+            derivatives: Some(Derivatives::of(&first)?),
+            ..Self::of(&format!("case_{}", case.number), names, test, &result.correlation)
+        })
+    }
+
+    /// The delta wing with wrong gages.
+    ///
+    /// # Errors
+    /// Those of its model.
+    pub fn of_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<Self, PresentError> {
+        let names = GROUPS.map(|group| group.name.to_owned());
+        let model = first_model(wing)?;
+        let structure = model.structure();
+        let place = |label| structure.grids().iter().find(|grid| grid.label == label).map(|grid| grid.position);
+        let sensor = |label| up(format!("{label} z"), place(label).unwrap_or_default());
+        let held = structure.grids().iter().filter(|grid| grid.constrained[2]);
+        let first = model.analyze(&[1.0; GROUPS.len()], &run.test, None)?;
+        Ok(Self {
+            title: "Delta wing with wrong gages".to_owned(),
+            solver: run.solver.to_owned(),
+            ranges: model.factor_ranges()?,
+            supports: held.map(|grid| grid.position).collect(),
+            sensors: measured_grids(structure).into_iter().map(sensor).collect(),
+            mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
+            derivatives: Some(Derivatives::of(&first)?),
+            ..Self::of("delta_wing", &names, &run.test, &run.correlation).on(structure)
+        })
+    }
+}
+
+/// A sensor that measures upward.
+fn up(name: String, place: Vector3<f64>) -> SensorPoint {
+    SensorPoint { name, place: Some(place), direction: Vector3::z() }
+}
+
+/// The nine dynamic points of the box at mid-depth, and three of its root: rear, mid and front of every rib from the tip in.
+fn mid_plane(reconstruction: &Reconstruction) -> (Vec<Vector3<f64>>, [Vector3<f64>; 3]) {
+    let end =
+        |grid: usize| reconstruction.grids.get(&grid).map_or_else(Vector3::zeros, |at| [at[0], at[1], 0.0].into());
+    let rib = |rib: usize| {
+        let (rear, front) = (end(4 * rib + 1), end(4 * rib + 3));
+        [rear, rear + reconstruction.mid_chord_fraction * (front - rear), front]
+    };
+    ((0..3).flat_map(rib).collect(), rib(3))
+}

@@ -1,0 +1,209 @@
+//! What a report needs to know of any correlation, whatever it is of.
+
+mod known;
+
+use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
+use crate::method::error::Error;
+use crate::method::error_sum::Errors;
+use crate::method::inner_loop::{InnerRun, Stop};
+use crate::method::model::{Check, ModalModel, Range, Share};
+use crate::method::modes::ModeSet;
+use crate::method::outer_loop::{Correlation, Pass};
+use crate::method::pairing::{cross_orthogonality, modal_assurance};
+use crate::method::state::ModalState;
+use crate::method::structure::Structure;
+use crate::method::verdict::Verdict;
+use nalgebra::{DMatrix, Vector3};
+
+/// A row of the shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensorPoint {
+    /// What it is called.
+    pub name: String,
+    /// Where it is, if that is known.
+    pub place: Option<Vector3<f64>>,
+    /// Unit vector along which it measures; zero for a rotation.
+    pub direction: Vector3<f64>,
+}
+
+/// A step from one exact solution to the next: a pass with an inner loop, or one iteration that has none.
+#[derive(Debug, Clone)]
+pub struct Stage {
+    /// Factor of each parameter on its first value, after it.
+    pub factors: Vec<f64>,
+    /// The exact solution there.
+    pub check: Check,
+    /// Its inner loop, if it has one.
+    pub inner: Option<InnerRun>,
+    /// Why it ended, in words.
+    pub stop: String,
+}
+
+/// Derivatives at the first model by the relative stiffness or mass of each parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derivatives {
+    /// $\partial \ln f_i/\partial \ln c_e$ of the mode paired with test mode $i$ (parameters × test modes).
+    pub frequency: DMatrix<f64>,
+    /// $\partial e_S/\partial \ln c_e$ of the error sum, by (12).
+    pub error_sum: Vec<f64>,
+}
+
+/// What a report needs to know of any correlation. Lengths are in the model's own unit.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Stem of the names of its tables, figures and files.
+    pub name: String,
+    /// What readers see.
+    pub title: String,
+    /// What did the finite element analyses.
+    pub solver: String,
+    /// Names of the parameters.
+    pub parameters: Vec<String>,
+    /// Bounds on their factors, if any.
+    pub ranges: Vec<Option<Range>>,
+    /// Standard deviation of every factor of the best stage, if known.
+    pub deviations: Option<Vec<f64>>,
+    /// Test modes, sensors × modes.
+    pub test: ModeSet,
+    /// Rows of the shapes; none where nothing is known of them.
+    pub sensors: Vec<SensorPoint>,
+    /// The structure, or the wire frame of its test: corners of panels, and ends of rods and lines.
+    pub frame: Vec<Vec<Vector3<f64>>>,
+    /// Numbered grids.
+    pub grids: Vec<(usize, Vector3<f64>)>,
+    /// Places that do not move.
+    pub supports: Vec<Vector3<f64>>,
+    /// Mass at the sensors, for cross-orthogonality.
+    pub mass: Option<DMatrix<f64>>,
+    /// The exact solution of the first model.
+    pub initial: Check,
+    /// Tolerances of the inner loops on the error sum, of the first pass and of later ones, where they are to be drawn.
+    pub tolerances: Option<[f64; 2]>,
+    /// What came after.
+    pub stages: Vec<Stage>,
+    /// The stage with the best factors, from zero; none when none is better than the first model.
+    pub best: Option<usize>,
+    /// Whether the best is within tolerance.
+    pub converged: bool,
+    /// What it came to, as data where there is such.
+    pub verdict: Option<Verdict>,
+    /// The same in words.
+    pub words: String,
+    /// Derivatives, where they were taken.
+    pub derivatives: Option<Derivatives>,
+}
+
+/// How analysis modes (rows) and test modes (columns) agree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Agreement {
+    /// Modal assurance criterion, which knows no mass.
+    pub assurance: DMatrix<f64>,
+    /// Cross-orthogonality (4) of shapes of unit generalized mass, where the mass at the sensors is known.
+    pub orthogonality: Option<DMatrix<f64>>,
+}
+
+impl Derivatives {
+    /// Derivatives at a model: $V_i^t K_e V_i/2\omega_i^2$, or $-V_i^t M_e V_i/2$ of a mass.
+    ///
+    /// # Errors
+    /// Those of [`by_definition`].
+    pub fn of(first: &ModalModel) -> Result<Self, Error> {
+        let changes = by_definition(first, &ModalState::start(first))?;
+        let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
+            let i = first.exact.pairing.analysis_mode[j];
+            match &first.shares[e] {
+                Share::Stiffness(share) => share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i]),
+                Share::Mass(share) => -0.5 * share[(i, i)],
+            }
+        });
+        Ok(Self { frequency, error_sum: changes.iter().map(|change| change / DERIVATIVE_STEP).collect() })
+    }
+}
+
+impl Subject {
+    /// A correlation by the outer loop; what its history does not tell (title, sensors, frame, mass, deviations, derivatives) is
+    /// left empty, to be filled in.
+    pub fn of(name: &str, parameters: &[String], test: &ModeSet, run: &Correlation) -> Self {
+        let stage = |pass: &Pass| {
+            let stop = match pass.inner.stop {
+                Stop::Tolerance => "tolerance",
+                Stop::LocalMinimum => "local minimum",
+                Stop::Iterations => "iterations",
+            };
+            let (factors, check, inner) = (pass.factors.clone(), pass.check.clone(), pass.inner.clone());
+            Stage { factors, check, inner: Some(inner), stop: stop.to_owned() }
+        };
+        Self {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            solver: crate::cases::BUILT_IN.to_owned(),
+            parameters: parameters.to_vec(),
+            ranges: vec![None; parameters.len()],
+            deviations: None,
+            test: test.clone(),
+            sensors: Vec::new(),
+            frame: Vec::new(),
+            grids: Vec::new(),
+            supports: Vec::new(),
+            mass: None,
+            initial: run.initial.clone(),
+            stages: run.passes.iter().map(stage).collect(),
+            tolerances: None,
+            best: run.best,
+            converged: run.converged,
+            words: run.verdict.in_words(parameters),
+            verdict: Some(run.verdict.clone()),
+            derivatives: None,
+        }
+    }
+
+    /// The same with the panels, rods, grids and supports of a structure.
+    pub fn on(mut self, structure: &Structure) -> Self {
+        self.frame = structure.elements().iter().map(|element| structure.corners(element)).collect();
+        self.grids = structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
+        let fixed = structure.grids().iter().filter(|grid| grid.constrained == [true; 3]);
+        self.supports = fixed.map(|grid| grid.position).collect();
+        self
+    }
+
+    /// The exact solution of the best stage.
+    pub fn corrected(&self) -> &Check {
+        self.best.and_then(|stage| self.stages.get(stage)).map_or(&self.initial, |stage| &stage.check)
+    }
+
+    /// The factors of the best stage, all one without any.
+    pub fn factors(&self) -> Vec<f64> {
+        let best = self.best.and_then(|stage| self.stages.get(stage));
+        best.map_or_else(|| vec![1.0; self.parameters.len()], |stage| stage.factors.clone())
+    }
+
+    /// Whether the factor of a parameter is at an end of its range: one part in a million of it from there.
+    pub fn is_at_bound(&self, parameter: usize, factor: f64) -> bool {
+        let near = |end: f64| (factor / end - 1.0).abs() < 1e-6;
+        self.ranges.get(parameter).copied().flatten().is_some_and(|range| near(range.lower) || near(range.upper))
+    }
+
+    /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
+    pub fn inner_errors(&self, stage: usize) -> Vec<Errors> {
+        let before = stage.checked_sub(1).map_or(&self.initial, |before| &self.stages[before].check);
+        let inner = self.stages[stage].inner.iter().flat_map(|inner| &inner.iterations);
+        std::iter::once(before.errors).chain(inner.map(|iteration| iteration.errors)).collect()
+    }
+
+    /// How the modes of an exact solution, up to the highest that is paired, agree with the test's; paired ones are signed like them.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
+    pub fn agreement(&self, check: &Check) -> Result<Agreement, Error> {
+        let highest = check.pairing.analysis_mode.iter().max().map_or(0, |mode| mode + 1);
+        let mut modes: ModeSet = check.modes.lowest(highest)?.into();
+        for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
+            modes.shapes.column_mut(mode).scale_mut(sign);
+        }
+        let orthogonality = |mass| cross_orthogonality(&modes.scaled_with(mass)?, &self.test.scaled_with(mass)?, mass);
+        Ok(Agreement {
+            assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,
+            orthogonality: self.mass.as_ref().map(orthogonality).transpose()?,
+        })
+    }
+}

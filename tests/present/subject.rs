@@ -1,0 +1,321 @@
+//! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
+
+use crate::common::drawings::{size, written};
+use crate::common::tolerances::NODE_LINE;
+use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, Range, Share};
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::present::figures::frame::Frame;
+use corfem::present::figures::{Figure, subject_figures};
+use corfem::present::json;
+use corfem::present::page::subject_page;
+use corfem::present::render::{WIDTH, csv, text};
+use corfem::present::subject::{Derivatives, SensorPoint, Subject};
+use corfem::present::table::Cell;
+use corfem::present::tables::subject::{derivative_table, factor_table, history_table, paired_table, subject_tables};
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::correlate_wing;
+use nalgebra::{DMatrix, Vector3};
+use proptest::prelude::*;
+use std::sync::LazyLock;
+
+/// A chain of masses whose springs are wrong by these factors, correlated: sensors along it, or anywhere else.
+fn chain(name: &str, wrong: &[f64], places: impl Fn(usize) -> (Vector3<f64>, Vector3<f64>)) -> Subject {
+    let count = wrong.len();
+    let shares: Vec<DMatrix<f64>> =
+        (0..count).map(|spring| spring_stiffness(count, spring, 4e4 * wrong[spring])).collect();
+    let right = (0..count).fold(DMatrix::zeros(count, count), |sum, spring| sum + spring_stiffness(count, spring, 4e4));
+    let mass = DMatrix::from_diagonal_element(count, count, 0.5);
+    let test: ModeSet = corfem::method::modes::solve(&right, &mass, count.min(3)).expect("solved").into();
+    let model = |factors: &[f64]| {
+        let shares: Vec<Share> = shares.iter().zip(factors).map(|(share, f)| Share::Stiffness(share * *f)).collect();
+        let stiffness = shares.iter().fold(DMatrix::zeros(count, count), |sum, share| sum + share.matrix());
+        DynamicModel { stiffness, mass: mass.clone(), shares }.analyze(&test, None)
+    };
+    let ranges = vec![Some(Range { lower: 0.8, upper: 1.4 }); count];
+    let (names, run_settings): (Vec<String>, _) =
+        ((0..count).map(|e| format!("{name} {e}")).collect(), Settings::default());
+    let run = correlate::<Error>(&model, &ranges, &run_settings, |_, _| {}).expect("it runs");
+    let sensor = |row: usize| {
+        let (place, direction) = places(row);
+        SensorPoint { name: format!("{name} s{row}"), place: Some(place), direction }
+    };
+    let sensors: Vec<SensorPoint> = (0..count).map(sensor).collect();
+    let frame = sensors.windows(2).map(|pair| pair.iter().filter_map(|sensor| sensor.place).collect()).collect();
+    Subject {
+        title: name.to_owned(),
+        ranges,
+        deviations: Some((0..count).map(|e| 0.01 * e as f64).collect()),
+        sensors,
+        frame,
+        mass: Some(mass.clone()),
+        derivatives: Some(Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken")),
+        ..Subject::of("chain", &names, &test, &run)
+    }
+}
+
+fn along(row: usize) -> (Vector3<f64>, Vector3<f64>) {
+    (Vector3::new(row as f64, 0.0, 0.0), Vector3::x())
+}
+
+static WING: LazyLock<Subject> = LazyLock::new(|| {
+    let wing = DeltaWing::embedded().expect("the wing");
+    let run = correlate_wing(&wing, |_, _| {}).expect("it runs");
+    Subject::of_wing(&wing, &run).expect("a subject")
+});
+
+/// Whether every tag of a document is closed in its order and every `&` begins an entity.
+fn is_well_formed(xml: &str) -> bool {
+    let mut open: Vec<&str> = Vec::new();
+    for tag in xml.split('<').skip(1) {
+        let Some((tag, words)) = tag.split_once('>') else { return false };
+        let name = tag.split([' ', '\n', '/']).find(|part| !part.is_empty()).unwrap_or_default();
+        if tag.starts_with('/') {
+            if open.pop() != Some(name) {
+                return false;
+            }
+        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br"].contains(&name) {
+            open.push(name);
+        }
+        let is_entity = |after: &str| after.chars().take(7).any(|letter| letter == ';');
+        let entities = [tag, words].map(|part| part.split('&').skip(1).all(is_entity));
+        if entities != [true; 2] || tag.matches('"').count() % 2 == 1 {
+            return false;
+        }
+    }
+    open.is_empty()
+}
+
+fn escaped(name: &str) -> String {
+    let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    name.replace('"', "&quot;").replace('\'', "&apos;")
+}
+
+/// What must be true of the figures of any subject.
+fn check_figures(subject: &Subject, figures: &[Figure]) {
+    let all: String = figures.iter().map(|figure| figure.svg.as_str()).collect();
+    for figure in figures {
+        assert!(is_well_formed(&figure.svg), "{}", figure.name);
+        assert!(!figure.svg.contains("NaN") && !figure.svg.contains("inf"), "{}", figure.name);
+        assert!(figure.svg.contains("<title>") && figure.caption.starts_with(&subject.title), "{}", figure.name);
+        let (width, height) = size(&figure.svg);
+        for word in written(&figure.svg) {
+            let [left, top, right, bottom] = word.bounds;
+            let is_on = left > -1.0 && top > -1.0 && right < width + 1.0 && bottom < height + 1.0;
+            assert!(is_on, "{}: {word:?}", figure.name);
+        }
+    }
+    for name in subject.parameters.iter().chain(subject.sensors.iter().map(|sensor| &sensor.name)) {
+        assert!(all.contains(&escaped(name)), "{name}");
+    }
+}
+
+fn names(figures: &[Figure]) -> Vec<&str> {
+    figures.iter().map(|figure| figure.name.as_str()).collect()
+}
+
+#[test]
+fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
+    let subject = chain("rod <\"&'> x", &[0.9, 1.1, 0.95, 1.0], along);
+    let figures = subject_figures(&subject).expect("drawn");
+    check_figures(&subject, &figures);
+    assert_eq!(
+        names(&figures),
+        ["structure", "mode_shapes", "errors", "factors", "agreement", "derivatives"]
+            .map(|what| format!("chain_{what}"))
+    );
+    let page = subject_page(&subject, &[], "corfem correlate <job>").expect("a page");
+    assert!(is_well_formed(&page));
+    for parameter in &subject.parameters {
+        assert!(page.contains(&escaped(parameter).replace("&apos;", "'")), "{parameter}");
+    }
+    assert!(page.contains("<code>corfem correlate &lt;job&gt;</code>") && page.contains("<h1>rod &lt;&quot;&amp;"));
+}
+
+#[test]
+fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
+    let figures = subject_figures(&WING).expect("drawn");
+    check_figures(&WING, &figures);
+    assert!(!names(&figures).iter().any(|name| name.contains("node_lines")), "it lies in no plane");
+    let words: Vec<String> = written(&figures[0].svg).into_iter().map(|word| word.text).collect();
+    for (label, _) in &WING.grids {
+        assert!(words.contains(&label.to_string()), "{label}");
+    }
+    assert!(words.iter().any(|word| word.contains("depth drawn")));
+    let page = subject_page(&WING, &[], "corfem").expect("a page");
+    assert!(is_well_formed(&page) && page.contains("MAC is not mass-weighted"));
+}
+
+#[test]
+fn tables_hold_every_mode_and_factor_and_fit_a_page() {
+    for subject in [&*WING, &chain("rod", &[0.9, 1.1, 0.95, 1.0], along)] {
+        let mut tables = subject_tables(subject).expect("tables");
+        tables.extend(derivative_table(subject));
+        for line in text(&tables).lines() {
+            assert!(line.chars().count() <= WIDTH, "{line}");
+        }
+        assert_eq!(tables[0].rows.len(), subject.test.len() + 2);
+        assert_eq!(tables[1].rows.len(), subject.parameters.len());
+        assert_eq!(tables[2].rows.len(), subject.stages.len());
+        assert!(tables.iter().all(|table| table.rows.iter().all(|row| row.cells.len() == table.columns.len())));
+        let json = json::subject(subject).expect("a value");
+        assert_eq!(json["factors"].as_array().map(Vec::len), Some(subject.parameters.len()));
+        assert_eq!(
+            json["initial"]["agreement"]["modal_assurance"][0].as_array().map(Vec::len),
+            Some(subject.test.len())
+        );
+        assert!(csv(&tables).lines().count() > subject.parameters.len());
+    }
+}
+
+/// The mark of every row of the paired table.
+fn marks(subject: &Subject) -> Vec<String> {
+    let table = paired_table(subject).expect("a table");
+    table.rows.iter().filter_map(|row| row.cells.last()).map(Cell::computed).take(subject.test.len()).collect()
+}
+
+#[test]
+fn pairs_are_marked_by_the_usual_limits_of_cross_orthogonality() {
+    let mut subject = chain("rod", &[1.0, 1.0, 1.0, 1.0], along);
+    assert_eq!(marks(&subject), ["good"; 3]);
+    let (first, second) = (subject.test.shapes.column(0).clone_owned(), subject.test.shapes.column(1).clone_owned());
+    // A mode turned by an angle toward the next has its cosine as cross-orthogonality, and its sine as another.
+    for (sine, mark) in [(0.04_f64, "good"), (0.09, "acceptable"), (0.2, "poor")] {
+        subject.test.shapes.set_column(0, &((1.0 - sine * sine).sqrt() * &first + sine * &second));
+        assert_eq!(marks(&subject)[0], mark, "{sine}");
+    }
+    subject.mass = None;
+    assert!(paired_table(&subject).expect("a table").columns.iter().all(|column| !column.name.contains("cross")));
+}
+
+#[test]
+fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
+    let subject = chain("rod", &[0.5, 1.0, 1.0, 1.0], along);
+    let table = factor_table(&subject);
+    let remark = |row: usize| table.rows[row].cells[4].computed();
+    assert_eq!((remark(0).as_str(), subject.factors()[0]), ("at bound", 1.4));
+    for (e, factor) in subject.factors().into_iter().enumerate().skip(1) {
+        assert_eq!(remark(e).contains("at bound"), subject.is_at_bound(e, factor));
+    }
+    assert_eq!(table.rows[2].cells[1].computed(), "0.020");
+    assert_eq!(table.columns.len(), 5);
+    let without = Subject { deviations: None, ..subject };
+    assert_eq!(factor_table(&without).columns.len(), 4);
+}
+
+#[test]
+fn stages_without_an_inner_loop_are_one_iteration_each() {
+    let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    subject.stages.iter_mut().for_each(|stage| stage.inner = None);
+    let table = history_table(&subject);
+    assert!(table.rows.iter().all(|row| row.cells[0] == Cell::count(1) && row.cells[2] == Cell::Blank));
+    let figures = subject_figures(&subject).expect("drawn");
+    check_figures(&subject, &figures);
+    let errors = figures.iter().find(|figure| figure.name == "chain_errors").expect("drawn");
+    assert!(!errors.svg.contains("tolerance of the pass"));
+}
+
+#[test]
+fn more_than_twelve_modes_are_drawn_in_several_figures() {
+    let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| (Vector3::new(row as f64, 0.0, 0.0), Vector3::z()));
+    let places: Vec<usize> = (0..14).map(|mode| mode % 3).collect();
+    let select = |modes: &ModeSet| ModeSet {
+        omega_squared: modes.omega_squared.select_rows(&places),
+        shapes: modes.shapes.select_columns(&places),
+    };
+    subject.test = select(&subject.test);
+    for check in [&mut subject.initial].into_iter().chain(subject.stages.iter_mut().map(|stage| &mut stage.check)) {
+        check.pairing.analysis_mode = places.iter().map(|&mode| check.pairing.analysis_mode[mode]).collect();
+        check.pairing.sign = places.iter().map(|&mode| check.pairing.sign[mode]).collect();
+        check.frequencies_hz = places.iter().map(|&mode| check.frequencies_hz[mode]).collect();
+    }
+    let figures = subject_figures(&Subject { derivatives: None, ..subject }).expect("drawn");
+    assert!(names(&figures).contains(&"chain_mode_shapes_1") && names(&figures).contains(&"chain_mode_shapes_2"));
+}
+
+proptest! {
+    #![proptest_config(crate::common::costly_config())]
+
+    /// Names, places and directions as a user's file may have them.
+    #[test]
+    fn any_subject_has_sound_figures_tables_and_page(
+        wrong in prop::collection::vec(0.8..1.25_f64, 2..6),
+        name in "[ -~äß°]{1,30}",
+        places in prop::array::uniform32(-1e3..1e3_f64),
+        flat in prop::array::uniform3(any::<bool>()),
+        is_rotation in any::<bool>(),
+    ) {
+        let place = |row: usize| Vector3::from_fn(|axis, _| if flat[axis] { 0.0 } else { places[3 * row + axis] });
+        let direction = |row: usize| if is_rotation { Vector3::zeros() } else { Vector3::ith(row % 3, 1.0) };
+        let subject = chain(name.trim(), &wrong, |row| (place(row), direction(row)));
+        let figures = subject_figures(&subject).expect("drawn");
+        check_figures(&subject, &figures);
+        prop_assert_eq!(names(&figures).contains(&"chain_mode_shapes"), !is_rotation);
+        prop_assert!(is_well_formed(&subject_page(&subject, &[], &name).expect("a page")));
+        prop_assert!(text(&subject_tables(&subject).expect("tables")).lines().all(|line| line.chars().count() <= WIDTH));
+    }
+
+    /// Interpolation passes through what is measured and stays between the least and the most of it.
+    #[test]
+    fn a_frame_moves_as_its_sensors_say_and_between_them_within_their_range(
+        places in prop::array::uniform12(-10.0..10.0_f64),
+        shape in prop::array::uniform3(-1.0..1.0_f64),
+    ) {
+        prop_assume!(shape.iter().any(|component| component.abs() > 0.01));
+        let mut subject = chain("rod", &[1.0, 1.1, 0.9], |row| {
+            (Vector3::new(places[3 * row], places[3 * row + 1], places[3 * row + 2]), Vector3::z())
+        });
+        let other = Vector3::new(places[9], places[10], places[11]);
+        subject.frame.push(vec![subject.sensors[0].place.expect("a place"), other]);
+        let frame = Frame::of(&subject);
+        let moved = frame.moved(&shape);
+        let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
+        let unit = shape.map(|component| component / largest);
+        for (at, motion) in frame.nodes.iter().zip(&moved) {
+            match subject.sensors.iter().position(|sensor| sensor.place == Some(*at)) {
+                Some(row) => prop_assert_eq!(motion.z, unit[row]),
+                None => {
+                    let (low, high) = unit.iter().fold((f64::MAX, f64::MIN), |(l, h), &u| (l.min(u), h.max(u)));
+                    prop_assert!((low - NODE_LINE..=high + NODE_LINE).contains(&motion.z));
+                }
+            }
+        }
+    }
+
+    /// A plane that rises along a line of panels has its node line where it passes zero, and a held edge ends one.
+    #[test]
+    fn node_lines_lie_where_the_displacement_vanishes(zero in 0.1..2.9_f64, tilt in -0.05..0.05_f64) {
+        let mut subject = chain("rod", &[1.0; 8], |row| (Vector3::new((row / 2) as f64, (row % 2) as f64, 0.0), Vector3::z()));
+        let at = |x: f64, y: f64| Vector3::new(x, y, 0.0);
+        subject.frame = (0..3).map(|bay| f64::from(bay)).map(|x| vec![at(x, 0.0), at(x, 1.0), at(x + 1.0, 1.0), at(x + 1.0, 0.0)]).collect();
+        let frame = Frame::of(&subject);
+        let plane = |x: f64, y: f64| x - zero + tilt * (y - 0.5);
+        let shape: Vec<f64> = (0..8).map(|row| plane((row / 2) as f64, (row % 2) as f64)).collect();
+        prop_assume!(shape.iter().all(|w| w.abs() > 1e-6));
+        let lines = frame.node_lines(&Vector3::z(), &frame.moved(&shape));
+        prop_assert!(!lines.is_empty());
+        let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
+        prop_assert!((long - (1.0 + tilt * tilt).sqrt()).abs() < NODE_LINE, "{long}");
+        for end in lines.as_flattened() {
+            prop_assert!(plane(end.x, end.y).abs() < NODE_LINE);
+        }
+    }
+}
+
+#[test]
+fn zz_temporary_dump() {
+    let put = |name: &str, text: &str| {
+        std::fs::create_dir_all("/tmp/pres_out").expect("a folder");
+        std::fs::write(format!("/tmp/pres_out/{name}"), text).expect("written");
+    };
+    put("wing.html", &subject_page(&WING, &[], "corfem correlate wing.toml").expect("a page"));
+    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    put("chain.html", &subject_page(&subject, &[], "corfem correlate chain.toml").expect("a page"));
+    put("wing.txt", &text(&subject_tables(&WING).expect("tables")));
+    put("chain.txt", &text(&subject_tables(&subject).expect("tables")));
+    for figure in crate::present::figures::figures() {
+        put(&format!("{}.svg", figure.name), &figure.svg);
+    }
+}
