@@ -123,6 +123,9 @@ pub enum FileError {
         /// What it says.
         found: String,
     },
+    /// A request to stop a correlation.
+    #[error("correlation: expected to go on, found a request to stop")]
+    Interrupted,
     /// NASTRAN-95 is not in the given folder.
     #[error(
         "NASTRAN-95: expected its folder with bin/nastrn and rf/, found none at {path}; \

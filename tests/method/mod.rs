@@ -28,7 +28,6 @@ pub mod groups;
 pub mod mass_parameters;
 pub mod mass_parameters_bad_input;
 pub mod modal;
-pub mod condensation;
 pub mod model;
 pub mod model_refusals;
 

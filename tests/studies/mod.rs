@@ -14,6 +14,7 @@ pub mod complex_modes;
 pub mod expansion;
 pub mod metrics;
 
+pub mod condensation;
 pub mod free_modes;
 pub mod noisy_modes;
 

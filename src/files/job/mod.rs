@@ -5,10 +5,12 @@
 
 mod model;
 mod prepare;
+mod run;
 mod sensors;
 
 pub use model::{Geometry, ModelSource};
 pub use prepare::Prepared;
+pub use run::{Finished, History, run};
 
 pub use sensors::PlacedSensor;
 
@@ -19,6 +21,9 @@ use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
 pub const TEMPLATE: &str = include_str!("template.toml");
+
+/// A test as a table that explains itself.
+pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
 /// What a job file says.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

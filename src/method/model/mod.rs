@@ -1,12 +1,10 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
 
 mod analysis;
-mod condensation;
 mod modal;
 mod parameters;
 
 pub use analysis::CondensedModel;
-pub use condensation::{CondensationError, LARGEST_CONDENSATION_ERROR};
 pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
 pub use parameters::{Parameter, Range, Scaled};
 

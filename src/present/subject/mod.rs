@@ -1,5 +1,6 @@
 //! What a report needs to know of any correlation, whatever it is of.
 
+mod job;
 mod known;
 
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
@@ -134,6 +135,18 @@ impl Subject {
             Stage { factors, check, inner: Some(inner), stop: stop.to_owned() }
         };
         Self {
+            stages: run.passes.iter().map(stage).collect(),
+            best: run.best,
+            converged: run.converged,
+            words: run.verdict.in_words(parameters),
+            verdict: Some(run.verdict.clone()),
+            ..Self::untouched(name, parameters, test, &run.initial)
+        }
+    }
+
+    /// A first model before any step, with the same left empty.
+    pub fn untouched(name: &str, parameters: &[String], test: &ModeSet, initial: &Check) -> Self {
+        Self {
             name: name.to_owned(),
             title: name.to_owned(),
             solver: crate::cases::BUILT_IN.to_owned(),
@@ -146,13 +159,13 @@ impl Subject {
             grids: Vec::new(),
             supports: Vec::new(),
             mass: None,
-            initial: run.initial.clone(),
-            stages: run.passes.iter().map(stage).collect(),
+            initial: initial.clone(),
+            stages: Vec::new(),
             tolerances: None,
-            best: run.best,
-            converged: run.converged,
-            words: run.verdict.in_words(parameters),
-            verdict: Some(run.verdict.clone()),
+            best: None,
+            converged: false,
+            words: String::new(),
+            verdict: None,
             derivatives: None,
         }
     }

@@ -4,6 +4,7 @@ pub mod cases;
 pub mod deck;
 pub mod delta_wing;
 pub mod fewer_modes;
+pub mod job;
 pub mod matrices;
 pub mod noisy_modes;
 pub mod preflight;

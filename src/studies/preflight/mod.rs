@@ -25,10 +25,11 @@ pub use specimen::Specimen;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::model::{CondensationError, DynamicModel, FiniteElementModel, LARGEST_CONDENSATION_ERROR, Range};
+use crate::method::model::{DynamicModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
+use crate::studies::whole_model::{CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{Look, changed, mend, paired_values, reordered};
@@ -113,9 +114,14 @@ pub enum Finding {
 /// [`LARGEST_CONDENSATION_ERROR`]: what a correlation would take for an error of the elements.
 ///
 /// # Errors
-/// Those of [`FiniteElementModel::condensation_errors`].
-pub fn coarse_condensation(model: &FiniteElementModel, factors: &[f64], count: usize) -> Result<Vec<Finding>, Error> {
-    let errors = model.condensation_errors(factors, count)?.into_iter().enumerate();
+/// Those of [`WholeModel::condensation_errors`].
+pub fn coarse_condensation(
+    model: &WholeModel,
+    factors: &[f64],
+    sensors: &SparseMatrix,
+    count: usize,
+) -> Result<Vec<Finding>, Error> {
+    let errors = model.condensation_errors(factors, sensors, count)?.into_iter().enumerate();
     let coarse = errors.filter(|(_, error)| error.frequency > LARGEST_CONDENSATION_ERROR);
     Ok(coarse.map(|(mode, error)| Finding::CoarseCondensation { mode, error }).collect())
 }

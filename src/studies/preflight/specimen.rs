@@ -9,6 +9,7 @@ use crate::method::model::{DynamicModel, Range};
 use crate::method::modes::{ModeSet, solve};
 use crate::method::outer_loop::Settings;
 use crate::studies::delta_wing::{DeltaWing, correlation};
+use crate::studies::whole_model::WholeModel;
 use nalgebra::{DMatrix, DVector};
 
 /// Stiffness of the first model's springs over the true one.
@@ -59,9 +60,10 @@ impl Specimen {
     pub fn delta_wing() -> Result<Self, CaseError> {
         let wing = DeltaWing::embedded()?;
         let model = correlation::first_model(&wing)?;
+        let (whole, sensors) = WholeModel::of(&model)?;
         let highest = correlation::TEST_MODES.into_iter().max().unwrap_or(1);
         Ok(Self {
-            condensation: coarse_condensation(&model, &vec![1.0; model.parameters().len()], highest)?,
+            condensation: coarse_condensation(&whole, &vec![1.0; model.parameters().len()], &sensors, highest)?,
             name: "Delta wing".to_owned(),
             model: model.matrices(&vec![1.0; model.parameters().len()])?,
             test: correlation::test_modes(&wing)?,

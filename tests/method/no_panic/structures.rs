@@ -10,6 +10,7 @@ use corfem::method::elements::shear::{corner_forces, energy_coefficient};
 use corfem::method::elements::{mass, membrane, rod, shear, triangle, unit_stiffness};
 use corfem::method::model::{FiniteElementModel, Range};
 use corfem::method::structure::{ElementKind, Material, Structure};
+use corfem::studies::whole_model::WholeModel;
 
 pub const STRUCTURES: &[Entry] = &[
     ("rod::rod", |d| {
@@ -176,19 +177,22 @@ pub const STRUCTURES: &[Entry] = &[
         let (model, factors) = d.finite_element()?;
         model.modes(&factors).map(|found| modes(&found))
     }),
-    ("FiniteElementModel::whole_modes", |d| {
+    ("WholeModel::seen_modes", |d| {
         let (model, factors) = d.finite_element()?;
-        model.whole_modes(&factors, d.size()).map(|found| modes(&found))
+        let (whole, sensors) = WholeModel::of(&model)?;
+        whole.seen_modes(&factors, &sensors, d.size()).map(|found| modes(&found))
     }),
-    ("FiniteElementModel::condensation_errors", |d| {
+    ("WholeModel::condensation_errors", |d| {
         let (model, factors) = d.finite_element()?;
-        let found = model.condensation_errors(&factors, d.size())?;
+        let (whole, sensors) = WholeModel::of(&model)?;
+        let found = whole.condensation_errors(&factors, &sensors, d.size())?;
         Ok(found.iter().flat_map(|error| [error.whole_hz, error.frequency, error.shape]).collect())
     }),
-    ("FiniteElementModel::limits_allowing_for_condensation", |d| {
+    ("WholeModel::limits_allowing_for_condensation", |d| {
         let (model, factors) = d.finite_element()?;
+        let (whole, sensors) = WholeModel::of(&model)?;
         let limits = MovementLimits::default();
-        let found = model.limits_allowing_for_condensation(&factors, d.size(), &limits)?;
+        let found = whole.limits_allowing_for_condensation(&factors, &sensors, d.size(), &limits)?;
         Ok(vec![found.balance, found.frequency, found.shape])
     }),
 ];

@@ -5,9 +5,10 @@ use crate::common::vibrations::modes_by_nalgebra;
 use corfem::method::appendix_b::{MovementLimits, Supports, examine};
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, LARGEST_CONDENSATION_ERROR, Parameter};
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::studies::preflight::coarse_condensation;
+use corfem::studies::whole_model::{LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -36,6 +37,11 @@ fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
     FiniteElementModel::new(structure, t, none, parameters).expect("a model")
 }
 
+/// The same without condensation, and what reads the measured joints.
+fn whole(model: &FiniteElementModel) -> (WholeModel, SparseMatrix) {
+    WholeModel::of(model).expect("a whole model")
+}
+
 const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
 const ONES: [f64; RODS] = [1.0; RODS];
 
@@ -52,7 +58,8 @@ proptest! {
             element.dof.iter().zip(&element.unit_mass).for_each(|(&row, unit)| lumped[row] += area * unit);
         }
         let (omega_squared, shapes) = modes_by_nalgebra(&stiffness, &DMatrix::from_diagonal(&lumped));
-        let found = model.whole_modes(&ONES, 5).expect("modes");
+        let (whole, joints) = whole(&model);
+        let found = whole.seen_modes(&ONES, &joints, 5).expect("modes");
         for mode in 0..5 {
             prop_assert!((found.omega_squared[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
             let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
@@ -67,7 +74,8 @@ proptest! {
         // Mode by mode none lies below the whole structure's.
         let model = bar(&areas, &FIVE);
         let condensed = model.modes(&ONES).expect("modes").frequencies_hz();
-        let whole = model.whole_modes(&ONES, 5).expect("modes").frequencies_hz();
+        let (whole, joints) = whole(&model);
+        let whole = whole.seen_modes(&ONES, &joints, 5).expect("modes").frequencies_hz();
         for (condensed, whole) in condensed.iter().zip(whole) {
             prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
         }
@@ -76,7 +84,8 @@ proptest! {
     #[test]
     fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         let all: Vec<usize> = (1..=RODS).collect();
-        for error in bar(&areas, &all).condensation_errors(&ONES, RODS).expect("errors") {
+        let (whole, joints) = whole(&bar(&areas, &all));
+        for error in whole.condensation_errors(&ONES, &joints, RODS).expect("errors") {
             prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
         }
     }
@@ -84,33 +93,37 @@ proptest! {
 
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
-    let errors = bar(&[1.0; RODS], &FIVE).condensation_errors(&ONES, 5).expect("errors");
+    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    let errors = model.condensation_errors(&ONES, &joints, 5).expect("errors");
     // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
     assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
     assert!(errors[4].frequency > 0.03, "{errors:?}");
     let refused = errors.iter().filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR).count();
     assert!((1..=4).contains(&refused), "{errors:?}");
     // The pre-flight says so, mode by mode, and says nothing where every joint is measured.
-    let findings = coarse_condensation(&bar(&[1.0; RODS], &FIVE), &ONES, 5).expect("findings");
+    let findings = coarse_condensation(&model, &ONES, &joints, 5).expect("findings");
     assert_eq!(findings.len(), refused);
     assert!(findings[0].to_string().starts_with("Condensation to the measured points raises mode "), "{}", findings[0]);
     let all: Vec<usize> = (1..=RODS).collect();
-    assert_eq!(coarse_condensation(&bar(&[1.0; RODS], &all), &ONES, RODS).expect("findings"), []);
+    let (model, joints) = whole(&bar(&[1.0; RODS], &all));
+    assert_eq!(coarse_condensation(&model, &ONES, &joints, RODS).expect("findings"), []);
 }
 
 #[test]
 fn a_perfect_test_is_not_blamed_for_condensation() {
     let model = bar(&[1.0, 0.3, 1.0, 2.5, 1.0, 0.5, 3.0, 1.0, 0.4, 1.2], &FIVE);
-    let perfect = model.whole_modes(&ONES, 5).expect("modes");
+    let (whole, joints) = whole(&model);
+    let perfect = whole.seen_modes(&ONES, &joints, 5).expect("modes");
     let mass = model.condense(&ONES).expect("condensed").mass;
     // A limit that the model's own modes exceed twofold, because they are not orthogonal with the condensed mass.
-    let by_default = model.limits_allowing_for_condensation(&ONES, 5, &MovementLimits::default()).expect("limits");
+    let by_default =
+        whole.limits_allowing_for_condensation(&ONES, &joints, 5, &MovementLimits::default()).expect("limits");
     let own = by_default.shape - MovementLimits::default().shape;
     assert!(own > 0.01, "{own}");
     let usual = MovementLimits { shape: 0.5 * own, ..MovementLimits::default() };
     let blamed = examine(&perfect, &mass, Supports::Held, &usual).expect("examined");
     assert!(blamed.kept.len() < 5, "{:?}", blamed.reports);
-    let allowing = model.limits_allowing_for_condensation(&ONES, 5, &usual).expect("limits");
+    let allowing = whole.limits_allowing_for_condensation(&ONES, &joints, 5, &usual).expect("limits");
     assert!(allowing.shape > usual.shape && allowing.balance == usual.balance);
     let fair = examine(&perfect, &mass, Supports::Held, &allowing).expect("examined");
     assert_eq!(fair.kept, [0, 1, 2, 3, 4]);
@@ -123,8 +136,8 @@ fn a_perfect_test_is_not_blamed_for_condensation() {
 
 #[test]
 fn more_modes_than_there_are_is_an_error() {
-    let model = bar(&[1.0; RODS], &FIVE);
-    assert!(matches!(model.whole_modes(&ONES, 11), Err(Error::TooMany { available: 10, requested: 11, .. })));
-    assert!(matches!(model.whole_modes(&ONES, 0), Err(Error::Empty { .. })));
-    assert!(matches!(model.condensation_errors(&ONES, 6), Err(Error::TooMany { .. })));
+    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    assert!(matches!(model.seen_modes(&ONES, &joints, 11), Err(Error::TooMany { available: 10, requested: 11, .. })));
+    assert!(matches!(model.seen_modes(&ONES, &joints, 0), Err(Error::Empty { .. })));
+    assert!(matches!(model.condensation_errors(&ONES, &joints, 6), Err(Error::TooMany { .. })));
 }

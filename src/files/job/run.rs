@@ -1,0 +1,191 @@
+//! A prepared job is run: the factors found, what they are worth, and the deck that has them.
+
+use super::{Method, Prepared};
+use crate::files::deck::rewrite;
+use crate::files::error::FileError;
+use crate::method::error_sum::mode_errors;
+use crate::method::model::ModalModel;
+use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
+use crate::method::structure::{Element, Material};
+use crate::method::verdict::{Outcome, Verdict};
+use crate::studies::noisy_modes::Noise;
+use crate::studies::weighted::gauss_newton::{
+    WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts,
+};
+use crate::studies::weighted::identifiability::{Identifiability, identifiability};
+use crate::studies::weighted::residuals::{Weights, jacobian, residuals};
+use crate::studies::whole_model::WholeShare;
+
+/// Standard deviations where neither test nor job has any: what resonance frequencies of repeated tests scatter by, and shapes
+/// measured with accelerometers relative to their largest component.
+pub const USUAL: Noise = Noise { frequency: 0.005, shape: 0.02 };
+
+/// How the factors were found.
+#[derive(Debug, Clone)]
+pub enum History {
+    /// By the paper's loops.
+    Paper(Correlation),
+    /// By Gauss–Newton steps, and how many of the starts reach the best; none when it was stopped by request.
+    GaussNewton(Option<(WeightedCorrelation, usize)>),
+}
+
+/// What a job came to.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// How.
+    pub history: History,
+    /// The best factors.
+    pub factors: Vec<f64>,
+    /// The first model.
+    pub first: ModalModel,
+    /// The model at the best factors.
+    pub last: ModalModel,
+    /// What it came to.
+    pub verdict: Verdict,
+    /// What the test sees of the parameters, at the first model and at the best factors.
+    pub seen: [Identifiability; 2],
+    /// Whether it was stopped by request.
+    pub is_interrupted: bool,
+}
+
+impl Prepared {
+    /// The weight of every test mode: one over its standard deviation, times the job's weight.
+    ///
+    /// # Errors
+    /// [`FileError::Job`] for weights that are not one a test mode; those of [`Weights::new`].
+    pub fn weights(&self) -> Result<Weights, FileError> {
+        let compare = &self.job.compare;
+        let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
+        let list = |what: &str, weights: &Option<Vec<f64>>| match weights {
+            Some(weights) if weights.len() != named => {
+                let expected = format!("{named} {what}, one a test mode of the job");
+                Err(FileError::job(&self.path, expected, weights.len().to_string()))
+            }
+            Some(weights) => Ok(weights.clone()),
+            None => Ok(vec![1.0; named]),
+        };
+        let numbers = self.job.test.modes.clone().unwrap_or_else(|| (1..=named).collect());
+        let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64, weights: &[f64]| {
+            let weight = |&mode: &usize| {
+                let deviation = own.as_ref().and_then(|own| own.get(mode).copied()).or(given).unwrap_or(usual);
+                let place = numbers.iter().position(|number| *number == mode + 1).unwrap_or(mode);
+                weights[place] / deviation
+            };
+            self.modes.iter().map(weight).collect::<Vec<f64>>()
+        };
+        let (frequency, shape) =
+            (list("frequency_weights", &compare.frequency_weights)?, list("shape_weights", &compare.shape_weights)?);
+        let frequency = of(&self.data.frequency_deviation, compare.frequency_deviation, USUAL.frequency, &frequency);
+        let shape = of(&self.data.shape_deviation, compare.shape_deviation, USUAL.shape, &shape);
+        Ok(Weights { frequency, shape })
+    }
+}
+
+impl Prepared {
+    /// The deck with the elements that `factors` leave, every other byte as it was; none for a model of matrices.
+    ///
+    /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
+    ///
+    /// # Errors
+    /// Those of [`rewrite`]; [`FileError::Job`] for factors of point masses, which are not rewritten.
+    pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
+        let Some((bytes, deck)) = &self.source.deck else { return Ok(None) };
+        let mut elements = deck.model.elements.clone();
+        for ((parameter, members), &factor) in
+            self.source.whole.parameters().iter().zip(&self.source.members).zip(factors)
+        {
+            if members.is_empty() && factor != 1.0 {
+                let expected =
+                    format!("parameters of elements for a corrected deck; {} is one of point masses", parameter.name);
+                return Err(FileError::job(&self.path, expected, format!("a factor of {factor}")));
+            }
+            for element in elements.iter_mut().filter(|element| members.binary_search(&element.label).is_ok()) {
+                let Element { size, material: Material { density, .. }, .. } = element;
+                match parameter.share {
+                    WholeShare::Stiffness(_) => (*size, *density) = (*size * factor, *density / factor),
+                    WholeShare::Mass(_) => *density *= factor,
+                }
+            }
+        }
+        let name = self.job.model.deck.as_ref().map_or_else(String::new, |path| path.display().to_string());
+        rewrite(&name, bytes, &elements).map(Some)
+    }
+}
+
+/// Runs a job. `progress` is told of every pass or analysis in words; `go_on` is asked after each whether to.
+///
+/// # Errors
+/// Those of the analyses and of the loops; [`FileError::Job`] for weights without Gauss–Newton steps, which alone know them.
+pub fn run(
+    prepared: &Prepared,
+    mut progress: impl FnMut(&str),
+    go_on: impl Fn() -> bool,
+) -> Result<Finished, FileError> {
+    let (compare, settings) = (&prepared.job.compare, &prepared.job.correlation);
+    let (weights, ranges) = (prepared.weights()?, prepared.source.whole.ranges());
+    let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());
+    let first = prepared.analyze(&ones)?;
+    let is_interrupted = std::cell::Cell::new(false);
+    let may_go_on = || {
+        is_interrupted.set(is_interrupted.get() || !go_on());
+        !is_interrupted.get()
+    };
+    let (history, factors) = match compare.method {
+        Method::Paper if compare.frequency_weights.is_some() || compare.shape_weights.is_some() => {
+            let expected = "compare.method = \"gauss_newton\" with weights";
+            return Err(FileError::job(&prepared.path, expected, "the paper's, whose error sum has none"));
+        }
+        Method::Paper => {
+            let told = |number: usize, pass: &Pass| {
+                let errors = &pass.check.errors;
+                let (frequency, shape) = (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
+                progress(&format!("pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"));
+                may_go_on()
+            };
+            let run = correlate_while(|factors| prepared.analyze(factors), &ranges, settings, told)?;
+            let factors = run.best_factors();
+            (History::Paper(run), factors)
+        }
+        Method::GaussNewton => {
+            let starts = compare.starts.unwrap_or(1);
+            let mut best: Option<(f64, Vec<f64>)> = None;
+            let analyze = |factors: &[f64]| {
+                let model = prepared.analyze(factors)?;
+                let objective = residuals(&model, &weights)?.norm_squared();
+                if best.as_ref().is_none_or(|(least, _)| objective < *least) {
+                    best = Some((objective, factors.to_vec()));
+                    progress(&format!("sum of squares {objective:.4e}"));
+                }
+                if may_go_on() { Ok(model) } else { Err(FileError::Interrupted) }
+            };
+            match from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed) {
+                Ok((run, reached)) => {
+                    let factors = run.factors.clone();
+                    (History::GaussNewton(Some((run, reached))), factors)
+                }
+                Err(FileError::Interrupted) => (History::GaussNewton(None), best.map_or(ones, |(_, factors)| factors)),
+                Err(error) => return Err(error),
+            }
+        }
+    };
+    let last = prepared.analyze(&factors)?;
+    let verdict = match &history {
+        History::Paper(run) => run.verdict.clone(),
+        History::GaussNewton(run) => {
+            let is_within = meets(&last.exact.errors, settings);
+            let outcome = match run.as_ref().map(|(run, _)| (run.stop, run.iterations.is_empty())) {
+                Some((_, true)) if !is_within => Outcome::Nothing,
+                None | Some((WeightedStop::Trials, _)) if !is_within => Outcome::Cap,
+                _ if is_within => Outcome::Tolerance,
+                _ => Outcome::LocalMinimum,
+            };
+            let errors = mode_errors(&last.exact.modes, &last.exact.pairing, &last.test)?;
+            let seen: Vec<f64> = first.test_shares.iter().map(|share| share.diagonal().amax()).collect();
+            let sum = last.exact.errors.sum();
+            Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
+        }
+    };
+    let sees = |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
+    let seen = [sees(&first)?, sees(&last)?];
+    Ok(Finished { history, factors, verdict, seen, first, last, is_interrupted: is_interrupted.get() })
+}

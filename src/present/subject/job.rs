@@ -1,0 +1,75 @@
+//! The user's own structure as a subject of the report.
+
+use super::{Derivatives, SensorPoint, Stage, Subject};
+use crate::files::job::{Finished, History, PlacedSensor, Prepared};
+use crate::method::model::ModalModel;
+use crate::present::PresentError;
+use crate::studies::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
+use nalgebra::Vector3;
+
+impl Subject {
+    /// A job, before its first step or finished.
+    ///
+    /// # Errors
+    /// Those of the first analysis.
+    pub fn of_job(prepared: &Prepared, finished: Option<&Finished>) -> Result<Self, PresentError> {
+        let whole = &prepared.source.whole;
+        let names: Vec<String> = whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
+        let ones = vec![1.0; names.len()];
+        let first = finished.map_or_else(|| prepared.analyze(&ones), |finished| Ok(finished.first.clone()))?;
+        let stem = prepared.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let geometry = &prepared.source.geometry;
+        let corners = |grids: &Vec<usize>| grids.iter().filter_map(|grid| geometry.places.get(grid).copied()).collect();
+        let mut frame: Vec<Vec<Vector3<f64>>> = geometry.elements.iter().map(corners).collect();
+        frame.extend(
+            prepared.data.lines.iter().filter(|_| geometry.elements.is_empty()).map(|line| corners(&line.to_vec())),
+        );
+        frame.retain(|corners| corners.len() > 1);
+        let still = |grid: &&usize| (0..3).all(|direction| !prepared.source.motions.contains_key(&(**grid, direction)));
+        let base = match finished.map(|finished| &finished.history) {
+            Some(History::Paper(run)) => Self::of(&stem, &names, &first.test, run),
+            Some(History::GaussNewton(Some((run, _)))) => Self::of_weighted(&stem, &names, &first, run),
+            _ => Self::untouched(&stem, &names, &first.test, &first.exact),
+        };
+        let mass = whole.condensed(&ones, &prepared.sensors).ok().map(|(_, mass)| mass);
+        Ok(Self {
+            title: prepared.title.clone(),
+            ranges: whole.ranges(),
+            deviations: finished.map(|finished| finished.seen[1].deviations.clone()),
+            sensors: prepared.placed.iter().map(sensor_point).collect(),
+            frame,
+            grids: geometry.places.iter().map(|(grid, place)| (*grid, *place)).collect(),
+            supports: geometry.places.keys().filter(still).map(|grid| geometry.places[grid]).collect(),
+            mass,
+            converged: finished.is_some_and(|finished| finished.verdict.is_within),
+            words: finished.map_or_else(String::new, |finished| finished.verdict.in_words(&names)),
+            verdict: finished.map(|finished| finished.verdict.clone()),
+            derivatives: Some(Derivatives::of(&first)?),
+            ..base
+        })
+    }
+
+    /// Gauss–Newton steps, each a stage of its own.
+    fn of_weighted(name: &str, names: &[String], first: &ModalModel, run: &WeightedCorrelation) -> Self {
+        let stop = match run.stop {
+            WeightedStop::Gradient => "gradient",
+            WeightedStop::Step => "step",
+            WeightedStop::Trials => "trials",
+        };
+        let last = run.iterations.len().saturating_sub(1);
+        let stages = run.iterations.iter().enumerate().map(|(number, iteration)| Stage {
+            factors: iteration.factors.clone(),
+            check: iteration.check.clone(),
+            inner: None,
+            stop: if number == last { stop.to_owned() } else { String::new() },
+        });
+        let stages: Vec<Stage> = stages.collect();
+        Self { best: stages.len().checked_sub(1), stages, ..Self::untouched(name, names, &first.test, &first.exact) }
+    }
+}
+
+fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {
+    let mut direction = Vector3::zeros();
+    direction.iter_mut().skip(sensor.direction).take(1).for_each(|component| *component = 1.0);
+    SensorPoint { name: sensor.name.clone(), place: sensor.place, direction }
+}
