@@ -34,7 +34,7 @@ pub fn check_folder(folder: &Path) -> std::result::Result<(), PresentError> {
 }
 
 /// Writes the files, by name and text, into a folder, made if it is new: all of them or none.
-pub fn put_all(folder: &Path, files: &[(String, String)]) -> std::result::Result<(), PresentError> {
+pub fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> std::result::Result<(), PresentError> {
     let failed = |path: &Path| FileError::of_file(path, "write");
     let made = fs::create_dir(folder).is_ok();
     // Two runs into one folder take turns, where the file system can lock; the lock ends with this run.
@@ -55,7 +55,7 @@ pub fn put_all(folder: &Path, files: &[(String, String)]) -> std::result::Result
 }
 
 /// Writes the new files where nobody looks; `says` is told of each before it is looked at.
-fn stage(folder: &Path, files: &[(String, String)], mut says: impl FnMut(&Path)) -> Result<()> {
+fn stage(folder: &Path, files: &[(String, Vec<u8>)], mut says: impl FnMut(&Path)) -> Result<()> {
     let stage = folder.join(STAGE);
     fs::create_dir(&stage)?;
     fs::create_dir(stage.join(OLD))?;
@@ -69,7 +69,7 @@ fn stage(folder: &Path, files: &[(String, String)], mut says: impl FnMut(&Path))
         let old = old_file(&path)?;
         let new = stage.join(NEW).join(name);
         let mut file = File::create(&new)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(text)?;
         // Another's file becomes one's own where it cannot stay the other's.
         let _ = old.map(|old| as_old(&file, &old));
         sync(&file)?;
@@ -78,7 +78,7 @@ fn stage(folder: &Path, files: &[(String, String)], mut says: impl FnMut(&Path))
 }
 
 /// Turns a folder from its old files to those staged.
-fn switch(folder: &Path, files: &[(String, String)]) -> Result<()> {
+fn switch(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
     let stage = folder.join(STAGE);
     let (current, next) = (stage.join(CURRENT), stage.join("next"));
     if link(OLD, &current).is_err() {

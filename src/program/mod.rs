@@ -3,6 +3,7 @@
 mod cases;
 mod deck;
 mod folder;
+mod job;
 mod output;
 mod pictures;
 mod place;
@@ -16,6 +17,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
+use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::{OutputArguments, say};
 use pictures::FolderArguments;
 use place::put;
@@ -66,8 +68,12 @@ enum Command {
     Matrices(MatricesArguments),
     /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
     Noise(OutputArguments),
-    /// Look at models and tests before the first step, and count how often mistakes made on purpose are named
-    Check(OutputArguments),
+    /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
+    Correlate(CorrelateArguments),
+    /// Write a job file, or the table of a test, that explains its entries
+    Init(InitArguments),
+    /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
+    Check(CheckArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -104,7 +110,9 @@ pub fn run() -> ExitCode {
         Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
-        Some(Command::Check(arguments)) => studies::check(&arguments).map(|()| true),
+        Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
+        Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
+        Some(Command::Check(arguments)) => job::check_job(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),

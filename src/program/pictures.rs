@@ -49,10 +49,10 @@ pub fn pictures(
             figures: &figures,
             command: &format!("corfem report --output {}", out.display()),
         })?;
-        put_all(out, &[("report.html".to_owned(), html)])?;
+        put_all(out, &[("report.html".to_owned(), html.into_bytes())])?;
         say(out.join("report.html").display().to_string());
     } else {
-        let files: Vec<_> = figures.into_iter().map(|figure| (figure.name + ".svg", figure.svg)).collect();
+        let files: Vec<_> = figures.into_iter().map(|figure| (figure.name + ".svg", figure.svg.into_bytes())).collect();
         put_all(out, &files)?;
         say(format!("{} files in {}", files.len(), out.display()));
     }

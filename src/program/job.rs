@@ -1,0 +1,113 @@
+//! `corfem correlate`, `corfem check JOB` and `corfem init`: the user's own structure.
+
+use super::folder::{check_folder, put_all};
+use super::output::{OutputArguments, say};
+use super::place::{check, put};
+use super::signals;
+use clap::Args;
+use corfem::files::error::FileError;
+use corfem::files::job::{Prepared, TEMPLATE, TEST_TEMPLATE, run};
+use corfem::present::page::subject_page;
+use corfem::present::subject::Subject;
+use corfem::present::tables::deck::not_read;
+use corfem::present::tables::job::{doubts_table, places_table, seen_table};
+use corfem::present::tables::subject::{factor_table, paired_table, subject_tables};
+use corfem::present::{PresentError, json, render};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+#[derive(Debug, Args)]
+pub struct InitArguments {
+    /// Write the example of a test's table instead of a job
+    #[arg(long)]
+    test: bool,
+    /// Write it to this file, which must not be there, instead of standard output
+    #[arg(value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct CorrelateArguments {
+    /// The job: corfem init explains its entries
+    #[arg(value_name = "JOB")]
+    job: PathBuf,
+    /// Also write report.html, factors.csv, correlation.json and the corrected deck into this folder, made if it is new
+    #[arg(long, value_name = "DIR")]
+    folder: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// The job
+    #[arg(value_name = "JOB")]
+    job: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Writes a job, or a test's table, that explains itself.
+pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
+    if let Some(path) = arguments.output.as_deref().filter(|path| path.exists()) {
+        let found = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
+        return Err(FileError::of_file(path, "write")(found).into());
+    }
+    check(arguments.output.as_deref())?;
+    put(arguments.output.as_deref(), if arguments.test { TEST_TEMPLATE } else { TEMPLATE })
+}
+
+/// Says everything doubtful of a job, without a step.
+pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), PresentError> {
+    let Some(path) = job else { return super::studies::check(output) };
+    output.check()?;
+    let prepared = Prepared::new(path)?;
+    let subject = Subject::of_job(&prepared, None)?;
+    let tables = [doubts_table(&prepared)?, places_table(&prepared), paired_table(&subject)?];
+    output.write(&tables, || json::tables(&tables))
+}
+
+/// Corrects the model of a job and writes the report; whether it is within tolerance.
+pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
+    arguments.output.check()?;
+    arguments.folder.as_deref().map_or(Ok(()), check_folder)?;
+    let prepared = Prepared::new(&arguments.job)?;
+    for card in prepared.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
+        say(format_args!("corfem: {}: {}", prepared.title, not_read(card)));
+    }
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    bar.set_style(
+        ProgressStyle::with_template("{spinner} {elapsed} {msg}").unwrap_or_else(|_| ProgressStyle::default_spinner()),
+    );
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let stop = Arc::new(AtomicBool::new(false));
+    signals::tell(&stop);
+    // Held until the report is written, so that a request to stop ends the program with the best so far.
+    let _held = signals::hold();
+    let go_on = || !stop.load(Ordering::SeqCst);
+    let finished = run(&prepared, |words| bar.set_message(words.to_owned()), go_on);
+    bar.finish_and_clear();
+    let finished = finished?;
+    let subject = Subject::of_job(&prepared, Some(&finished))?;
+    let mut tables = subject_tables(&subject)?;
+    tables.push(seen_table(&prepared, &finished)?);
+    arguments.output.write(&tables, || json::document(json::subject(&subject)?))?;
+    if let Some(folder) = &arguments.folder {
+        let extra = [seen_table(&prepared, &finished)?, places_table(&prepared), doubts_table(&prepared)?];
+        let command = format!("corfem correlate {}", arguments.job.display());
+        let mut files = vec![
+            ("report.html".to_owned(), subject_page(&subject, &extra, &command)?.into_bytes()),
+            ("factors.csv".to_owned(), render::csv(&[factor_table(&subject)]).into_bytes()),
+            ("correlation.json".to_owned(), json::document(json::subject(&subject)?)?.into_bytes()),
+        ];
+        files.extend(prepared.corrected_deck(&finished.factors)?.map(|deck| ("corrected.bdf".to_owned(), deck)));
+        put_all(folder, &files)?;
+    }
+    if finished.is_interrupted {
+        say("corfem: stopped by request; the best factors so far are given");
+    }
+    Ok(finished.verdict.is_within && !finished.is_interrupted)
+}
