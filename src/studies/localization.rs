@@ -50,7 +50,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
     Ok(ranked(factors.iter().enumerate().map(suspect).collect()))
 }
 
-/// By how far each parameter alone can lower $\frac12 \sum r^2$ of the weighted residuals, the farthest first.
+/// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
 ///
 /// The modes at a factor are an eigensolution in the modal coordinates of the one exact analysis there is. Factors are tried from
 /// $10^{-3}$ to $10^3$, then near the best. A fall is the logarithm of a likelihood ratio: of this one error against none.

@@ -9,7 +9,7 @@ use crate::studies::noisy_modes::split_mix_64;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-/// Objectives this near count as the same: a $\chi^2$ of two thousandths, which no test can tell.
+/// Objectives this near count as the same: a chi-squared of two thousandths, which no test can tell.
 pub const SAME_OBJECTIVE: f64 = 1e-3;
 
 /// Damping of the first step, relative to the curvature of each parameter.
@@ -107,7 +107,7 @@ struct Place {
     curvature: DMatrix<f64>,
 }
 
-/// Lowers $\frac12 \sum r^2 + \frac12 \sum (\ln c_e)^2/\tau^2$ over the factors $c_e$ within their bounds, from `first`.
+/// Lowers $\frac{1}{2} \sum r^2 + \frac{1}{2} \sum (\ln c_e)^2/\tau^2$ over the factors $c_e$ within their bounds, from `first`.
 ///
 /// The unknowns are logarithms: factors stay positive, and twice and half as stiff are equally far. With the
 /// [`jacobian`] $J$, $A = J^t J + I/\tau^2$ and the gradient $g$, a step solves
@@ -115,8 +115,8 @@ struct Place {
 /// $$ (A + \mu \mathrm{diag} A) h = -g $$
 ///
 /// for the parameters that the gradient does not press against a bound. Those it takes beyond one stop there and the
-/// others are solved for anew. It is taken if the exact objective falls. With $\varrho$, the fall over the one that the
-/// quadratic model promised, $\mu$ is multiplied by $\max(\frac13, 1 - (2\varrho - 1)^3)$ then, and by 2, 4, 8, ... in
+/// others are solved for anew. It is taken if the exact objective falls. With $\rho$, the fall over the one that the
+/// quadratic model promised, $\mu$ is multiplied by $\max(\frac{1}{3}, 1 - (2\rho - 1)^3)$ then, and by 2, 4, 8, ... in
 /// rejections on end. Test modes are paired anew at every place.
 ///
 /// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`].

@@ -53,7 +53,6 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     }
     let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
     singular_values.resize(count, 0.0);
-    singular_values.sort_by(|a, b| b.total_cmp(a));
     let smallest = singular_values[count - 1];
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
     let longest = lengths.iter().fold(0.0_f64, |a, &b| a.max(b));
@@ -80,25 +79,22 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
 /// Columns in the order in which each is the longest after the ones before are projected out, while longer than `least`.
 fn subset(mut left: DMatrix<f64>, least: f64) -> Vec<usize> {
     let mut chosen = Vec::new();
-    while chosen.len() < left.ncols().min(left.nrows()) {
-        let lengths: Vec<f64> = left.column_iter().map(|column| column.norm()).collect();
-        let longest = (0..lengths.len()).fold(0, |best, e| if lengths[e] > lengths[best] { e } else { best });
-        if chosen.contains(&longest) || lengths[longest] <= least {
-            break;
-        }
-        let unit = left.column(longest) / lengths[longest];
+    loop {
+        let lengths = left.column_iter().map(|column| column.norm()).enumerate();
+        let longest = lengths.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, length)| *length > least);
+        let Some((e, length)) = longest else { return chosen };
+        let unit = left.column(e) / length;
         left -= &unit * unit.tr_mul(&left);
-        left.column_mut(longest).fill(0.0);
-        chosen.push(longest);
+        left.column_mut(e).fill(0.0);
+        chosen.push(e);
     }
-    chosen
 }
 
 impl Identifiability {
     /// 95 % intervals about the factors, $c e^{\pm 1.96 s}$.
     ///
-    /// Of a parameter with `learned` near one they hold the true factor in 95 of 100 tests, if the model is right but for
-    /// its factors and nearly linear within them. Of another they say as much of the prior. They know nothing of bounds.
+    /// Where `learned` is near one they hold the true factor in 95 of 100 tests, if the model is right but for its factors and
+    /// nearly linear within them. Elsewhere they say as much of the prior. They know nothing of bounds.
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter.

@@ -1,5 +1,5 @@
 //! A weighted correlation beside the paper's step: bounded Gauss–Newton steps on residuals in units of their standard
-//! deviations. Their sum of squares is the test's $\chi^2$ and its curvature says how sure the factors are, of which the
+//! deviations. Their sum of squares is the test's chi-squared and its curvature says how sure the factors are, of which the
 //! paper's error sum, where every mode and sensor counts alike, says nothing.
 
 pub mod comparison;

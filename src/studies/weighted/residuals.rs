@@ -68,8 +68,7 @@ pub(crate) fn residuals_of(modes: &ModeSet, pairing: &Pairing, test: &ModeSet, w
     let rows = 1 + test.shapes.nrows();
     let mut residuals = DVector::zeros(rows * test.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
-        let ratio = (modes.omega_squared[i] / test.omega_squared[j]).sqrt();
-        residuals[rows * j] = weights.frequency[j] * (ratio - 1.0);
+        residuals[rows * j] = weights.frequency[j] * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
         let (_, apart) = scaled(modes, i, test, j);
         residuals.rows_mut(rows * j + 1, rows - 1).copy_from(&(weights.shape[j] * apart));
     }
