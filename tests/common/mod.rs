@@ -13,6 +13,7 @@ pub mod fake_solver;
 pub mod golden;
 pub mod ground_tests;
 pub mod hostile;
+pub mod jobs;
 pub mod loops;
 pub mod matrices;
 pub mod measured;

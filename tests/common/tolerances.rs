@@ -220,3 +220,9 @@ pub const LEAST_PARAMETER_COVERAGE: f64 = 0.92;
 pub const FEW_COVERAGE: f64 = 0.88;
 /// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.
 pub const SINGLE_FIT_FACTOR: f64 = 0.01;
+/// Results of a worked job, relative and in percent points: the steps of a correlation magnify another machine's last digit.
+pub const JOB_RESULTS: f64 = 1e-4;
+/// Groups of the delta wing that its ten lowest modes find without noise, with the step's own prior.
+pub const JOB_WING: f64 = 0.05;
+/// Squared logarithms of the box's gages that are left of what was wrong, from noisy modes.
+pub const JOB_BOX: f64 = 0.25;

@@ -26,3 +26,5 @@ pub mod nastran95_outer_loop;
 pub mod nastran95_output5;
 pub mod nastran95_process;
 pub mod nastran95_program;
+
+pub mod jobs;

@@ -1,0 +1,140 @@
+//! The worked jobs of `tests/jobs`, made anew: what they were made of is known here, and only here.
+
+use corfem::cases::Case;
+use corfem::cases::torque_box::{TEST_GAGE, dynamic_points};
+use corfem::files::deck::{self, BulkData, Task};
+use corfem::files::matrices::write_matrix_market;
+use corfem::files::test_data::{Sensor, TestData, write_csv, write_universal};
+use corfem::method::modes::ModeSet;
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
+use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::whole_model::WholeShare;
+use nalgebra::Vector3;
+
+use super::whole_models::{sensors_at, shear_building};
+
+/// Stiffness of every story of the real building over that of the model, from the ground up.
+pub const STORIES: [f64; 10] = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
+/// Stiffness of a story of the model, lbf/in, and the mass of a floor, lbf·s²/in.
+const STORY: f64 = 1.0e5;
+const FLOOR: f64 = 60.0;
+/// Seed of the noise on the box's modes.
+const SEED: u64 = 4;
+
+/// Names and texts of the files of a job.
+pub type Files = Vec<(String, String)>;
+
+fn task() -> Task {
+    Task::Modes { count: 9, range_hz: [1.0, 10_000.0] }
+}
+
+fn test_data(modes: &ModeSet, sensors: Vec<Sensor>) -> TestData {
+    let mut shapes = modes.shapes.clone();
+    // As a test has them: of unit largest component.
+    shapes.column_iter_mut().for_each(|mut shape| shape /= shape.amax());
+    TestData { frequencies_hz: modes.frequencies_hz(), sensors, shapes, ..TestData::default() }
+}
+
+fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64>>) -> Sensor {
+    Sensor { name, grid: Some(grid), direction, place }
+}
+
+/// The paper's box of Case 2 from its deck, its nine modes with noise, and Appendix B on them.
+pub fn torque_box() -> Files {
+    let case = Case::new(2).expect("Case 2");
+    let model = case.model().expect("a model");
+    let points = dynamic_points(&case.reconstruction).expect("points");
+    let ones = vec![1.0; model.parameters().len()];
+    let bulk = BulkData::of(&model, &ones, &points).expect("a deck");
+    let grids: Vec<usize> = bulk.ties.iter().map(|tie| tie.dependent.grid).collect();
+    let noisy = with_noise(&case.test_modes().expect("modes"), Noise::USUAL, SEED).expect("noise");
+    let sensors = grids
+        .iter()
+        .zip(&points)
+        .enumerate()
+        .map(|(row, (&grid, &place))| sensor(format!("D{}", row + 1), grid, 2, Some(place)));
+    let mut data = test_data(&noisy, sensors.collect());
+    data.frequency_deviation = Some(vec![Noise::USUAL.frequency; noisy.len()]);
+    data.shape_deviation = Some(vec![Noise::USUAL.shape; noisy.len()]);
+    let ranges = model.factor_ranges().expect("ranges");
+    let mut job = "title = \"torque box\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.csv\"\n\
+                   # Appendix B: orthogonalized, and without the modes that move too much by it.\northogonalize = true\n\n\
+                   [compare]\nmethod = \"gauss_newton\"\n"
+        .to_owned();
+    for (parameter, range) in model.parameters().iter().zip(ranges) {
+        let range =
+            range.map_or_else(String::new, |range| format!("lower = {}\nupper = {}\n", range.lower, range.upper));
+        job += &format!("\n[[parameter]]\nname = \"panel {0}\"\nelements = [{0}]\n{range}", parameter.name);
+    }
+    let deck = deck::write(&bulk, "torque box", &task()).expect("a deck");
+    vec![("job.toml".to_owned(), job), ("model.bdf".to_owned(), deck), ("test.csv".to_owned(), write_csv(&data))]
+}
+
+/// True gages of the box over those of its deck, panel by panel.
+pub fn torque_box_truth() -> Vec<f64> {
+    Case::new(2).expect("Case 2").first_gages().iter().map(|gage| TEST_GAGE / gage).collect()
+}
+
+/// Ten stories as Matrix Market files, five of them with a sensor.
+pub fn building() -> Files {
+    let model = shear_building(&[STORY; 10], FLOOR, None);
+    let real = shear_building(&STORIES.map(|factor| factor * STORY), FLOOR, None);
+    let measured = [1, 3, 5, 7, 9];
+    let sensors = sensors_at(&measured, 10);
+    let modes = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let seen = ModeSet { shapes: sensors.times(&modes.shapes).expect("it fits"), ..modes };
+    let places = measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
+    let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\
+                   rows = \"rows.csv\"\n\n[test]\nfile = \"test.csv\"\n\n[compare]\nanalysis_modes = 10\n\n\
+                   [correlation]\nerror_sum_tolerance = 0.001\nlater_inner_tolerance = 0.0005\nmost_passes = 30\n\n\
+                   [correlation.inner]\ntolerance = 0.0005\n"
+        .to_owned();
+    let (stiffness, mass) = model.at(&[1.0; 10]).expect("matrices");
+    let rows = (0..10).map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z)).collect::<String>();
+    let mut files = vec![
+        ("stiffness.mtx".to_owned(), write_matrix_market(&stiffness)),
+        ("mass.mtx".to_owned(), write_matrix_market(&mass)),
+        ("rows.csv".to_owned(), format!("grid,direction,x,y,z\n{rows}")),
+        ("test.csv".to_owned(), write_csv(&test_data(&seen, places.to_vec()))),
+    ];
+    for (number, parameter) in (1..).zip(model.parameters()) {
+        let file = format!("story_{number}.mtx");
+        job += &format!("\n[[parameter]]\nname = \"{}\"\nmatrix = \"{file}\"\n", parameter.name);
+        let WholeShare::Stiffness(share) = &parameter.share else { unreachable!("stories are stiffness") };
+        files.push((file, write_matrix_market(share)));
+    }
+    files.push(("job.toml".to_owned(), job));
+    files
+}
+
+/// Where a floor of the building is: ten feet above the one below.
+fn floor(row: usize) -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, 120.0 * (row + 1) as f64)
+}
+
+/// The delta wing with wrong gages, and the ten lowest modes of its right half as a Universal File.
+pub fn delta_wing() -> Files {
+    let wing = DeltaWing::embedded().expect("a wing");
+    let model = first_model(&wing).expect("a model");
+    let whole = wing.modes().expect("modes");
+    let lowest = whole.modes.lowest(10).expect("ten modes");
+    let grids = measured_grids(model.structure());
+    let row = |grid: &usize| whole.dof.iter().position(|dof| dof.grid == *grid && dof.direction == 2).expect("a row");
+    let rows: Vec<usize> = grids.iter().map(row).collect();
+    let modes = ModeSet { omega_squared: lowest.omega_squared.clone(), shapes: lowest.shapes.select_rows(&rows) };
+    let place = |grid: &usize| model.structure().grids().iter().find(|own| own.label == *grid).map(|own| own.position);
+    // The test counts its nodes in its own way; they are found by their places.
+    let sensors = grids.iter().zip(501..).map(|(grid, node)| sensor(format!("{node} z"), node, 2, place(grid)));
+    let data = test_data(&modes, sensors.collect());
+    let mut job = "title = \"delta wing\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.unv\"\n\n\
+                   [sensors]\nby = \"nearest\"\ndistance = 0.01\n\n[compare]\nanalysis_modes = 25\n\
+                   method = \"gauss_newton\"\nfrequency_deviation = 0.001\nshape_deviation = 0.005\n"
+        .to_owned();
+    for parameter in model.parameters() {
+        let list: Vec<String> = parameter.members.iter().map(usize::to_string).collect();
+        job += &format!("\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n", parameter.name, list.join(", "));
+    }
+    let deck = deck::write(&BulkData::of_structure(model.structure()), "delta wing", &task()).expect("a deck");
+    vec![("job.toml".to_owned(), job), ("model.bdf".to_owned(), deck), ("test.unv".to_owned(), write_universal(&data))]
+}
