@@ -2,7 +2,7 @@
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{cholesky, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{cholesky, symmetric_part};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -39,7 +39,7 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
-    solve_lower(&lower, &mut inverse_factor)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut inverse_factor);
     let stiffness = inverse_factor.tr_mul(&inverse_factor);
     Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }

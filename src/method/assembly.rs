@@ -1,17 +1,15 @@
 //! Assembly of the structural stiffness from unit element matrices, and its factorization.
 
-use crate::method::elements::mass::corner_volumes;
-use crate::method::elements::unit_stiffness;
+use crate::method::elements::{corner_volumes, unit_stiffness};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
     check_finite, check_length, check_shape, check_solution, cholesky, from_faer, to_faer,
 };
 use crate::method::structure::{DIRECTIONS, Element, StructuralDof, Structure, positive};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky};
+use faer::linalg::solvers::SolveCore;
+use faer::sparse::linalg::{LltError, solvers::Llt};
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, Mat, Par, Side, Spec};
+use faer::{Conj, Mat, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
@@ -87,55 +85,12 @@ fn entries(elements: &[ElementMatrix], sizes: &[f64]) -> impl Iterator<Item = (u
     })
 }
 
-/// The structural stiffness, factorized once and solved many times.
-///
-/// Held as $K_S = S^{-1} L L^t S^{-1}$ with a sparse Cholesky factor $L$, where the diagonal $S$ scales $K_S$ to unit
-/// diagonal.
+/// The structural stiffness, factorized once and solved many times: $K_S = S^{-1} L L^t S^{-1}$ with a sparse Cholesky factor
+/// $L$, where the diagonal $S$ scales $K_S$ to unit diagonal.
 #[derive(Debug)]
 pub struct FactorizedStiffness {
     scale: DVector<f64>,
-    factor: SparseFactor,
-}
-
-/// A sparse Cholesky factor, computed and applied in one thread whatever the library's global setting: the library's parallel
-/// kernels have open reports of wrong results on large matrices.
-#[derive(Debug)]
-struct SparseFactor {
-    symbolic: SymbolicCholesky<usize>,
-    values: Vec<f64>,
-}
-
-impl SparseFactor {
-    /// None for a matrix that is not positive definite to working precision.
-    fn new(matrix: &SparseColMat<usize, f64>) -> Result<Option<Self>, Error> {
-        let failed = Error::NoConvergence;
-        let what = "sparse Cholesky";
-        let amd = SymmetricOrdering::Amd;
-        let symbolic = factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, amd, Default::default());
-        let symbolic = symbolic.map_err(|_| failed(what))?;
-        let mut values = vec![0.0; symbolic.len_val()];
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| failed(what))?;
-        let (none, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
-        let matrix = matrix.as_ref();
-        let done =
-            symbolic.factorize_numeric_llt(&mut values, matrix, Side::Lower, none, Par::Seq, stack, Spec::default());
-        let is_definite = done.is_ok();
-        Ok(is_definite.then_some(Self { symbolic, values }))
-    }
-
-    /// Solves for every column in place.
-    fn solve(&self, columns: &mut Mat<f64>) {
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns.ncols(), Par::Seq);
-        let (factor, mut memory) = (LltRef::new(&self.symbolic, &self.values), MemBuffer::new(scratch));
-        factor.solve_in_place_with_conj(Conj::No, columns.as_mut(), Par::Seq, MemStack::new(&mut memory));
-    }
-
-    fn solved(&self, right: &DVector<f64>) -> DVector<f64> {
-        let mut column = Mat::from_fn(right.len(), 1, |i, _| right[i]);
-        self.solve(&mut column);
-        DVector::from_fn(right.len(), |i, _| column[(i, 0)])
-    }
+    factor: Llt<usize, f64>,
 }
 
 impl FactorizedStiffness {
@@ -170,34 +125,34 @@ impl FactorizedStiffness {
             return singular(dof, 0.0);
         }
         let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
-        let factorize = |shift: f64| {
-            let shifts = (0..count).map(|i| Triplet::new(i, i, shift));
-            let lower = entries(elements, sizes).filter(|(row, column, _)| row >= column);
-            let scaled =
-                lower.map(|(row, column, value)| Triplet::new(row, column, value * scale[row] * scale[column]));
-            SparseColMat::try_new_from_triplets(count, count, &shifts.chain(scaled).collect::<Vec<_>>())
-                .map_err(|_| Error::NoConvergence("sparse assembly"))
-                .and_then(|matrix| SparseFactor::new(&matrix))
-        };
+        let scaled =
+            || entries(elements, sizes).map(|(row, column, value)| (row, column, value * scale[row] * scale[column]));
         let times = |x: &DVector<f64>| {
             let mut product = DVector::zeros(count);
-            for (row, column, value) in entries(elements, sizes) {
-                product[row] += value * scale[row] * scale[column] * x[column];
-            }
+            scaled().for_each(|(row, column, value)| product[row] += value * x[column]);
             product
         };
+        let what = "structural stiffness";
         let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
         for shift in [0.0, SINGULAR_SHIFT] {
-            let Some(factor) = factorize(shift)? else { continue };
+            let lower = scaled().filter(|(row, column, _)| row >= column);
+            let shifted = (0..count).map(|i| (i, i, shift)).chain(lower);
+            let triplets: Vec<_> = shifted.map(|(row, column, value)| Triplet::new(row, column, value)).collect();
+            let matrix = SparseColMat::try_new_from_triplets(count, count, &triplets);
+            let matrix: SparseColMat<usize, f64> = matrix.map_err(|_| Error::NoConvergence("sparse assembly"))?;
+            let factor = match matrix.sp_cholesky(Side::Lower) {
+                Ok(factor) => factor,
+                Err(LltError::Numeric(_)) => continue,
+                Err(LltError::Generic(_)) => return Err(Error::NoConvergence("sparse Cholesky")),
+            };
             let (smallest, motion) = weakest_motion(&factor, count);
             if shift == 0.0 && smallest > round_off {
-                check_solution("structural stiffness", times, |right| factor.solved(right), &start_vector(count))?;
+                check_solution(what, times, |right| solved(&factor, right), &start_vector(count))?;
                 return Ok(Self { scale, factor });
             }
             return singular(motion.component_mul(&scale).iamax(), smallest - shift);
         }
-        let what = "structural stiffness";
         cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))
     }
 
@@ -212,17 +167,24 @@ impl FactorizedStiffness {
             matrix.column_iter_mut().for_each(|mut column| column.component_mul_assign(&self.scale));
             matrix
         };
-        let mut solved = to_faer(&scaled(loads.clone()));
-        self.factor.solve(&mut solved);
-        Ok(scaled(from_faer(solved.as_ref())))
+        let mut columns = to_faer(&scaled(loads.clone()));
+        self.factor.solve_in_place_with_conj(Conj::No, columns.as_mut());
+        Ok(scaled(from_faer(columns.as_ref())))
     }
 }
 
+/// The solution for one right side.
+fn solved(factor: &Llt<usize, f64>, right: &DVector<f64>) -> DVector<f64> {
+    let mut column = Mat::from_fn(right.len(), 1, |i, _| right[i]);
+    factor.solve_in_place_with_conj(Conj::No, column.as_mut());
+    DVector::from_fn(right.len(), |i, _| column[(i, 0)])
+}
+
 /// Smallest eigenvalue and its vector of a factorized matrix, by inverse iteration.
-fn weakest_motion(factor: &SparseFactor, size: usize) -> (f64, DVector<f64>) {
+fn weakest_motion(factor: &Llt<usize, f64>, size: usize) -> (f64, DVector<f64>) {
     let (mut motion, mut smallest) = (start_vector(size), 1.0);
     for _ in 0..INVERSE_ITERATIONS {
-        motion = factor.solved(&motion);
+        motion = solved(factor, &motion);
         smallest = 1.0 / motion.normalize_mut();
     }
     (smallest, motion)

@@ -1,9 +1,7 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
 use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, original, recursive_1, recursive_1_converged, recursive_2,
-};
+use corfem::method::appendix_c::{Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -54,6 +52,11 @@ pub const FORMULAE: [Rule; 7] = [
     },
 ];
 
+/// Those that the loops run on, with functions of their own for a change of stiffness alone.
+pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
+    FORMULAE.into_iter().filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
+}
+
 /// What they approach.
 pub const EIGENSOLUTION: Rule = Rule { name: "eigensolution", plain: exact, general: eigensolution };
 
@@ -62,10 +65,24 @@ pub fn rules() -> impl Iterator<Item = Rule> {
     FORMULAE.into_iter().chain([EIGENSOLUTION])
 }
 
+/// A change of stiffness alone.
+pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange<f64> {
+    ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
+}
+
 /// The eigensolution for a change of stiffness alone.
 pub fn exact(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    let no_mass = DMatrix::zeros(k.len(), k.len());
-    eigensolution(&ModalChange::of_vibrations(k, beta.clone(), no_mass))
+    eigensolution(&of_stiffness(k, beta))
+}
+
+/// Recursive 2 for a change of stiffness alone.
+pub fn recursive_2(k: &DVector<f64>, beta: &DMatrix<f64>, order: usize) -> Result<Perturbed, Error> {
+    general::recursive_2(&of_stiffness(k, beta), order)
+}
+
+/// The formulae of 1947 for a change of stiffness alone.
+pub fn original(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
+    general::original(&of_stiffness(k, beta))
 }
 
 /// Largest change of a root relative to itself.
@@ -108,38 +125,6 @@ pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalCh
 /// A change of two to six separate modes in which every rule converges.
 pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
     (2..=6_usize).prop_flat_map(separate_spectrum).prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
-}
-
-/// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
-#[derive(Debug, Clone)]
-pub struct Clustered {
-    pub change: ModalChange<f64>,
-    pub blocks: Vec<Vec<usize>>,
-}
-
-/// One to three clusters of one to three modes, cluster centers a factor 2 to 4 apart, modes within a cluster apart by
-/// at most 1e-3 of the center and down to nothing; changes of at most 2 % move roots by at most 4 %, so 10 % tells
-/// the clusters apart in every case.
-pub fn clustered() -> impl Strategy<Value = Clustered> {
-    let cluster = (
-        2.0..4.0_f64,
-        prop::collection::vec(prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))], 1..=3),
-    );
-    prop::collection::vec(cluster, 1..=3)
-        .prop_flat_map(|clusters| {
-            let mut k = Vec::new();
-            let mut blocks = Vec::new();
-            let mut center = 1.0;
-            for (ratio, splits) in clusters {
-                if splits.len() > 1 {
-                    blocks.push((k.len()..k.len() + splits.len()).collect());
-                }
-                k.extend(splits.iter().map(|split| center * (1.0 + split)));
-                center *= ratio;
-            }
-            (change_of(DVector::from_vec(k), LARGEST_CHANGE), Just(blocks))
-        })
-        .prop_map(|(change, blocks)| Clustered { change, blocks })
 }
 
 /// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.

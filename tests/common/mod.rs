@@ -2,7 +2,6 @@
 
 pub mod appendix_c;
 pub mod boxes;
-pub mod close_roots;
 pub mod complex_pencils;
 pub mod counting_allocator;
 pub mod decks;

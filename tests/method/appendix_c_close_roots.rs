@@ -1,12 +1,44 @@
-//! Close and repeated roots: three-mass chains with known spectra, and how blocks form.
+//! Close and repeated roots: three-mass chains with known spectra, which formulae follow them, and which refuse.
 
-use crate::common::appendix_c::{FORMULAE, Rule, three_mass_chain};
-use crate::common::close_roots::{repeated_chain, residual, root_error, separate_chain, solved, spring_change};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::appendix_c::{FORMULAE, Rule, ascending, three_mass_chain};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::recursive_1_converged;
+use corfem::method::appendix_c::{eigensolution, recursive_1_converged};
 use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix, dvector};
+use corfem::method::modes::{Modes, solve};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+
+/// λ = 1, 4, 4: masses 1, 4, 1; springs to ground 0, 8, 0; 1-2: 2, 2-3: 2, 1-3: 1.
+fn repeated_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
+    let stiffness = three_mass_chain([0.0, 8.0, 0.0], [2.0, 2.0, 1.0]);
+    let mass = DMatrix::from_diagonal(&dvector![1.0, 4.0, 1.0]);
+    let modes = solve(&stiffness, &mass, 3).unwrap();
+    (stiffness, mass, modes)
+}
+
+/// λ = 1, 4, 8: unit masses; springs to ground 1, 1, 1; 1-2: 1, 2-3: 1, 1-3: 3.
+fn separate_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
+    let stiffness = three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]);
+    let mass = DMatrix::identity(3, 3);
+    let modes = solve(&stiffness, &mass, 3).unwrap();
+    (stiffness, mass, modes)
+}
+
+/// A change of springs seen through a chain's modes.
+fn spring_change(modes: &Modes, ground: [f64; 3], between: [f64; 3]) -> ModalChange<f64> {
+    let beta = modes.shapes.tr_mul(&(three_mass_chain(ground, between) * &modes.shapes));
+    ModalChange::of_vibrations(&modes.omega_squared, beta, DMatrix::zeros(3, 3))
+}
+
+/// Largest relative distance of sorted ω² from those of the changed matrices in the modal coordinates.
+fn root_error(roots: &DVector<f64>, change: &ModalChange<f64>) -> f64 {
+    let k = &change.generalized_stiffness;
+    let stiffness = DMatrix::from_diagonal(k) + &change.beta;
+    let mass = DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha;
+    let exact = &solve(&stiffness, &mass, roots.len()).expect("vibrations").omega_squared;
+    let found = ascending(roots.map(f64::recip).iter());
+    found.iter().zip(exact.iter()).map(|(found, exact)| (found / exact - 1.0).abs()).fold(0.0, f64::max)
+}
 
 #[test]
 fn chains_have_the_spectra_they_are_said_to_have() {
@@ -17,8 +49,8 @@ fn chains_have_the_spectra_they_are_said_to_have() {
     }
 }
 
-/// Each spring of the chain with λ = 1, 4, 4 changed alone, by little and by much: the pair forms a block and the
-/// modes are exact.
+/// Each spring of the chain with λ = 1, 4, 4 changed alone, by little and by much: the eigensolution in the modal coordinates
+/// has the roots of the changed chain.
 #[test]
 fn repeated_roots_of_a_chain_are_followed_exactly() {
     let (stiffness, mass, modes) = repeated_chain();
@@ -27,24 +59,19 @@ fn repeated_roots_of_a_chain_are_followed_exactly() {
             let mut springs = [0.0; 6];
             springs[spring] = size;
             let [a, b, c, d, e, f] = springs;
-            let change = spring_change(&modes, [a, b, c], [d, e, f]);
-            let found = solved(&change);
-            assert_eq!(found.blocks, [vec![1, 2]], "spring {spring} by {size}");
-            let exact =
-                corfem::method::modes::solve(&(&stiffness + three_mass_chain([a, b, c], [d, e, f])), &mass, 3).unwrap();
-            let omega_squared = found.settled.perturbed.roots.map(f64::recip);
-            for i in 0..3 {
-                let error = omega_squared[i] / exact.omega_squared[i] - 1.0;
-                assert!(error.abs() < EIGEN_ROUND_OFF, "spring {spring} by {size}: mode {i} {error:e}");
+            let found = eigensolution(&spring_change(&modes, [a, b, c], [d, e, f])).unwrap();
+            let exact = solve(&(&stiffness + three_mass_chain([a, b, c], [d, e, f])), &mass, 3).unwrap();
+            let omega_squared = ascending(found.roots.map(f64::recip).iter());
+            for (found, exact) in omega_squared.iter().zip(exact.omega_squared.iter()) {
+                assert!((found / exact - 1.0).abs() < EIGEN_ROUND_OFF, "spring {spring} by {size}: {found} {exact}");
             }
-            assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
         }
     }
 }
 
-/// The plain formulae refuse what the blocks solve: a change that couples the two modes and leaves their roots together.
+/// The formulae refuse what the eigensolution solves: a change that couples the two modes and leaves their roots together.
 #[test]
-fn plain_formulae_refuse_a_coupled_repeated_root_and_name_it() {
+fn formulae_refuse_a_coupled_repeated_root_and_name_it() {
     let (_, _, modes) = repeated_chain();
     let mut change = spring_change(&modes, [0.0; 3], [0.0; 3]);
     change.beta[(1, 2)] = 0.1;
@@ -61,11 +88,8 @@ fn plain_formulae_refuse_a_coupled_repeated_root_and_name_it() {
             );
         }
     }
-    let found = solved(&change).settled.perturbed;
+    let found = eigensolution(&change).unwrap();
     assert!(root_error(&found.roots, &change) < EIGEN_ROUND_OFF);
-    change.beta.fill(0.0);
-    let found = solved(&change).settled.perturbed;
-    assert!((found.roots - modes.omega_squared.map(f64::recip)).amax() < ROUND_OFF);
 }
 
 /// Modes that a change does not couple turn nowhere, however close their roots: first order and Recursive 1 follow them
@@ -103,106 +127,20 @@ fn uncoupled_modes_may_have_equal_roots() {
     assert!(root_error(&settled.perturbed.roots, &with_mass) < EIGEN_ROUND_OFF);
 }
 
-/// λ = 1, 4, 8 are apart: no blocks, and Recursive 1 itself.
-#[test]
-fn chain_with_separate_roots_forms_no_block() {
-    let (_, _, modes) = separate_chain();
-    let change = spring_change(&modes, [0.1, -0.05, 0.0], [0.0, 0.1, 0.2]);
-    let found = solved(&change);
-    assert!(found.blocks.is_empty());
-    let (k, beta) = (&change.generalized_stiffness, &change.beta);
-    let plain = recursive_1_converged(k, beta, 1e-13, 60).unwrap().perturbed;
-    assert!((found.settled.perturbed.roots - plain.roots).amax() < ROUND_OFF);
-}
-
 /// Softening spring 1-3 from 3 to 1 turns λ = 1, 4, 8 into 1, 4, 4: roots that were apart are brought together. A ground
 /// spring of 0.3 more under mass 1 raises modes 1 and 2 by 0.05 and 0.15 and couples them, so that Recursive 1 refuses them
 /// where spring 1-3 makes up for the difference.
 #[test]
-fn roots_that_a_change_brings_together_form_a_block() {
+fn roots_that_a_change_brings_together_are_known() {
     let (_, _, modes) = separate_chain();
     let coupled = spring_change(&modes, [0.3, 0.0, 0.0], [0.0, 0.0, -2.05]);
     assert!(matches!(
         recursive_1_converged(&coupled.generalized_stiffness, &coupled.beta, 1e-13, 60),
         Err(Error::CoalescingModes { first: 2, second: 1, .. })
     ));
-    let found = solved(&coupled);
-    assert_eq!(found.blocks, [vec![1, 2]]);
-    assert!(root_error(&found.settled.perturbed.roots, &coupled) < EIGEN_ROUND_OFF);
-    assert!(residual(&found, &coupled) < EIGEN_ROUND_OFF);
-    let change = spring_change(&modes, [0.0; 3], [0.0, 0.0, -2.0]);
-    let found = solved(&change);
-    assert_eq!(found.blocks, [vec![1, 2]]);
-    for (root, expected) in found.settled.perturbed.roots.iter().zip([1.0, 0.25, 0.25]) {
+    assert!(root_error(&eigensolution(&coupled).unwrap().roots, &coupled) < EIGEN_ROUND_OFF);
+    let found = eigensolution(&spring_change(&modes, [0.0; 3], [0.0, 0.0, -2.0])).unwrap();
+    for (root, expected) in found.roots.iter().zip([1.0, 0.25, 0.25]) {
         assert!((root - expected).abs() < ROUND_OFF);
-    }
-    assert!(residual(&found, &change) < MATRIX_ROUND_OFF);
-}
-
-/// Two modes that are solved together may come close to a third that was apart from both: it joins them.
-#[test]
-fn block_whose_solution_meets_a_third_root_takes_it_in() {
-    let change = ModalChange::of_vibrations(
-        &dvector![1.0, 1.0, 1.15, 4.0],
-        dmatrix![0.0, 0.1, 0.01, 0.02; 0.1, 0.0, 0.03, 0.01; 0.01, 0.03, 0.0, 0.05; 0.02, 0.01, 0.05, 0.0],
-        DMatrix::zeros(4, 4),
-    );
-    let found = solved(&change);
-    assert_eq!(found.blocks, [vec![0, 1, 2]]);
-    assert!(root_error(&found.settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
-    assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
-    // Without their coupling the pair stays where it is, and the third mode stays out.
-    let mut apart = change;
-    apart.beta[(0, 1)] = 0.0;
-    apart.beta[(1, 0)] = 0.0;
-    assert_eq!(solved(&apart).blocks, [vec![0, 1]]);
-}
-
-/// Blocks need not be neighbors in the order of modes, and there may be several.
-#[test]
-fn blocks_follow_the_changed_roots_and_not_the_order_of_modes() {
-    // The change lifts mode 0 to mode 3 and mode 1 to mode 4.
-    let change = ModalChange::of_vibrations(
-        &dvector![1.0, 2.0, 3.0, 8.0, 20.0],
-        dmatrix![
-            7.0, 0.1, 0.05, 0.2, 0.1;
-            0.1, 18.1, 0.1, 0.1, 0.3;
-            0.05, 0.1, 0.0, 0.1, 0.1;
-            0.2, 0.1, 0.1, 0.0, 0.1;
-            0.1, 0.3, 0.1, 0.1, 0.0],
-        DMatrix::zeros(5, 5),
-    );
-    let found = solved(&change);
-    assert_eq!(found.blocks, [vec![0, 3], vec![1, 4]]);
-    assert!(root_error(&found.settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
-    assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
-    // The mode outside blocks stays in its place.
-    assert!((1.0 / found.settled.perturbed.roots[2] - 3.0).abs() < 0.01);
-}
-
-/// The separation is a fraction of the larger root: just inside it joins, just outside it does not.
-#[test]
-fn separation_is_a_fraction_of_the_larger_root() {
-    for (ratio, joined) in [(0.901, true), (0.899, false)] {
-        let change = ModalChange::of_vibrations(
-            &dvector![ratio, 1.0, 1.0 / ratio.powi(9)],
-            DMatrix::zeros(3, 3),
-            DMatrix::zeros(3, 3),
-        );
-        let blocks = solved(&change).blocks;
-        assert_eq!(blocks == [vec![0, 1]], joined, "{ratio}: {blocks:?}");
-    }
-}
-
-/// Every shape has its first largest component positive.
-#[test]
-fn shapes_are_signed_by_their_largest_component() {
-    let (_, _, modes) = repeated_chain();
-    for size in [-0.3, 0.1, 0.4] {
-        let shapes = solved(&spring_change(&modes, [size, 0.0, 0.0], [0.0, 0.0, 0.2])).settled.perturbed.shapes;
-        assert_eq!(shapes.shape(), (3, 3));
-        for shape in shapes.column_iter() {
-            assert!(shape.max() >= shape.amax() * (1.0 - EQUALLY_LARGE));
-        }
     }
 }

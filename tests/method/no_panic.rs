@@ -8,18 +8,14 @@ use corfem::method::appendix_b::{
     MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass, orthogonalize,
     rigid_body_vectors,
 };
-use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
 use corfem::method::appendix_c::general::{self, complex_modes};
 use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, normalize_with_mass, original, recursive_1, recursive_1_converged,
-    recursive_2,
+    Perturbed, eigensolution, first_order, normalize_with_mass, recursive_1, recursive_1_converged,
 };
-use corfem::method::elements::{mass, membrane, rod, shear, triangle, unit_stiffness};
+use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::linear_algebra::{
-    check_finite, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen, symmetric_part,
-};
+use corfem::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_eigen, symmetric_part};
 use corfem::method::model::Range;
 use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
 use corfem::method::outer_loop::{Settings, correlate};
@@ -62,14 +58,6 @@ const ENTRIES: &[Entry] = &[
         let size = d.size();
         symmetric_eigen("matrix", &d.symmetric(size))
             .map(|(values, vectors)| values.iter().chain(vectors.iter()).copied().collect())
-    }),
-    ("solve_lower", |d| {
-        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
-        solve_lower(&lower, &mut right).map(|()| Vec::new())
-    }),
-    ("solve_lower_transposed", |d| {
-        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
-        solve_lower_transposed(&lower, &mut right).map(|()| Vec::new())
     }),
     ("symmetric_part", |d| {
         symmetric_part(&d.symmetric(3));
@@ -118,14 +106,6 @@ const ENTRIES: &[Entry] = &[
         let size = d.size();
         perturbed(recursive_1_converged(&d.vector(size), &d.symmetric(size), 1e-13, 60).map(|found| found.perturbed))
     }),
-    ("recursive_2", |d| {
-        let (size, order) = (d.size(), d.size());
-        perturbed(recursive_2(&d.vector(size), &d.symmetric(size), order))
-    }),
-    ("original", |d| {
-        let size = d.size();
-        perturbed(original(&d.vector(size), &d.symmetric(size)))
-    }),
     ("general::first_order", |d| perturbed(general::first_order(&d.change()))),
     ("general::recursive_1", |d| {
         let change = d.change();
@@ -140,10 +120,6 @@ const ENTRIES: &[Entry] = &[
     }),
     ("general::original", |d| perturbed(general::original(&d.change()))),
     ("eigensolution", |d| perturbed(eigensolution(&d.change()))),
-    ("close_roots", |d| {
-        let settings = CloseRootsSettings::default();
-        close_roots(&d.change(), settings).map(|_| Vec::new())
-    }),
     ("complex_modes", |d| {
         let size = d.size();
         let g = d.symmetric(size).map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
@@ -189,11 +165,11 @@ const ENTRIES: &[Entry] = &[
     ("rod", |d| {
         let [a, b, ..] = d.corners();
         let modulus = d.number();
-        rod::rod([a, b], modulus).map(|found| entries(&found))
+        rod([a, b], modulus).map(|found| entries(&found))
     }),
     ("triangle", |d| {
         let ([a, b, c, _], material) = (d.corners(), d.material());
-        triangle::triangle([a, b, c], &material).map(|found| entries(&found))
+        membrane::triangle([a, b, c], &material).map(|found| entries(&found))
     }),
     ("membrane", |d| {
         let (corners, material) = (d.corners(), d.material());
@@ -211,7 +187,7 @@ const ENTRIES: &[Entry] = &[
     ("corner_volumes", |d| {
         let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
         let (kind, corners) = (kinds[d.below(4)], d.corners());
-        mass::corner_volumes(kind, &corners[..d.below(5)])
+        corner_volumes(kind, &corners[..d.below(5)])
     }),
     ("isotropic", |d| {
         let (modulus, ratio) = (d.number(), d.number());

@@ -8,16 +8,14 @@
 //!
 //! Every function here solves these equations in one way or another:
 //!
-//! - [`recursive`]: first order, Recursive 1, Recursive 2 and the formulae of 1947, for a change of stiffness alone;
-//! - [`eigensolution`]: exactly, which is what the others approach;
-//! - [`close_roots`]: Recursive 1 where some modes are so close that they must be solved together;
-//! - [`general`]: all of it with changes of mass, and for pencils that are complex or unsymmetric.
+//! - [`recursive`]: first order and Recursive 1 for a change of stiffness alone;
+//! - [`general`]: all of it, Recursive 2 and the formulae of 1947 too, with changes of mass, complex and unsymmetric pencils;
+//! - [`eigensolution`]: exactly, which is what the others approach.
 
-pub mod close_roots;
 pub mod general;
 pub mod recursive;
 
-pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
+pub use recursive::{first_order, recursive_1, recursive_1_converged};
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
@@ -41,8 +39,7 @@ pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
 pub struct Perturbed<T = f64> {
     /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
     pub roots: DVector<T>,
-    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$
-    /// (except by [`close_roots::close_roots`], which scales its shapes to unit generalized mass).
+    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
     pub shapes: DMatrix<T>,
 }
 
