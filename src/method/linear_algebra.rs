@@ -63,15 +63,12 @@ pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), 
 }
 
 /// Hands on a matrix whose entries are all finite.
-///
-/// # Errors
-/// [`Error::NotFinite`].
 pub(crate) fn finite(what: &'static str, matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_finite(what, &matrix).map(|()| matrix)
 }
 
-/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
-/// has none and comes back as it is.
+/// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not
+/// square has none and comes back as it is.
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if matrix.is_square() { 0.5 * matrix + 0.5 * matrix.transpose() } else { matrix.clone() }
 }

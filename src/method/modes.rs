@@ -61,11 +61,7 @@ impl ModeSet {
         Self { omega_squared: self.omega_squared.select_rows(places), shapes: self.shapes.select_columns(places) }
     }
 
-    /// Generalized masses $v_i^t M v_i$ of test modes (n) with the dynamic mass, d × d, lbf·s²/in.
-    ///
-    /// # Errors
-    /// [`Error::Empty`]; [`Error::WrongShape`] for a mass or shapes that do not fit; [`Error::NotFinite`];
-    /// [`Error::NotPositive`] for a squared frequency or a generalized mass that is not positive.
+    /// Generalized masses $v_i^t M v_i$ of test modes (n), after refusing modes that have none.
     pub(crate) fn generalized_masses(&self, mass: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
         if self.is_empty() {
             return Err(Error::Empty { what: "test modes" });
@@ -87,8 +83,8 @@ impl ModeSet {
     /// Appendix B does that.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotPositive`] for modes or a mass (d × d,
-    /// lbf·s²/in) that have no generalized masses.
+    /// [`Error::Empty`]; [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
+    /// [`Error::NotPositive`] for a squared frequency or a generalized mass that is not positive.
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
         let mut scaled = self.clone();
         for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(self.generalized_masses(mass)?) {

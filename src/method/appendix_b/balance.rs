@@ -140,14 +140,12 @@ impl Motion {
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
 pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
-    for (what, count) in [("rigid-body motions", motions.len()), ("dynamic degrees of freedom", dofs.len())] {
-        if count == 0 {
-            return Err(Error::Empty { what });
-        }
+    if motions.is_empty() || dofs.is_empty() {
+        return Err(Error::Empty {
+            what: if motions.is_empty() { "rigid-body motions" } else { "dynamic degrees of freedom" },
+        });
     }
-    let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| {
-        dofs[i].direction.dot(&motions[j].displacement(dofs[i].position))
-    });
-    check_finite("rigid-body vectors", &vectors)?;
-    Ok(vectors)
+    let displacement = |i: usize, j: usize| motions[j].displacement(dofs[i].position);
+    let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| dofs[i].direction.dot(&displacement(i, j)));
+    finite("rigid-body vectors", vectors)
 }

@@ -28,10 +28,8 @@ use nalgebra::{DMatrix, DVector};
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
 
-/// Relative change of a root in the last order allowed above which a recursion has not settled.
-///
-/// Between the tolerance, which is round-off, and this limit the recursion is slow, but what it still has to go is little: a
-/// thousandth of an error sum of some percent.
+/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
+/// some percent. Below it the recursion may be slow, but what it still has to go is little.
 pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
 
 /// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
