@@ -1,7 +1,8 @@
 //! The ratios at the end of a run, from the times that criterion wrote.
 
 use crate::problem::PassSetting;
-use corfem::method::appendix_c::{Perturbed, first_order, recursive_1, recursive_1_converged, recursive_2};
+use corfem::method::appendix_c::general::{ModalChange, recursive_2};
+use corfem::method::appendix_c::{Perturbed, first_order, recursive_1, recursive_1_converged};
 use corfem::method::error::Error;
 use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE};
 use nalgebra::{DMatrix, DVector};
@@ -33,7 +34,10 @@ pub fn formulae() -> [(&'static str, Formula); 6] {
             let settled = recursive_1_converged(k, beta, ROOT_TOLERANCE, MOST_ORDERS)?;
             Ok(settled.perturbed)
         }),
-        ("Recursive 2, order 2", |k, beta| recursive_2(k, beta, 2)),
+        ("Recursive 2, order 2", |k, beta| {
+            let no_mass = DMatrix::zeros(k.len(), k.len());
+            recursive_2(&ModalChange::of_vibrations(k, beta.clone(), no_mass), 2)
+        }),
     ]
 }
 

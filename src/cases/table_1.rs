@@ -5,7 +5,8 @@
 //! two unit masses on equal springs to the ground, joined by a coupling spring, one ground spring being changed: the
 //! modes before the change and the roots after it are known in closed form.
 
-use crate::method::appendix_c::{first_order, original, recursive_1, recursive_2};
+use crate::method::appendix_c::general::{ModalChange, original, recursive_2};
+use crate::method::appendix_c::{first_order, recursive_1};
 use crate::method::error::Error;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use serde::Serialize;
@@ -83,12 +84,14 @@ impl TwoMasses {
         }
         let exact = self.exact_roots();
         let (k, beta) = (self.generalized_stiffness(), self.beta());
+        let change = || ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(2, 2));
         let perturbed = match formula {
             Formula::FirstOrder => first_order(&k, &beta),
-            Formula::Original => original(&k, &beta),
+            Formula::Original => original(&change()),
             Formula::Recursive1 { order } => recursive_1(&k, &beta, order),
-            Formula::Recursive2 { order } => recursive_2(&k, &beta, order),
+            Formula::Recursive2 { order } => recursive_2(&change(), order),
         }?;
+        perturbed.check_roots()?;
         Ok([0, 1].map(|i| perturbed.roots[i] / exact[i] - 1.0))
     }
 }

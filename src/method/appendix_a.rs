@@ -2,7 +2,7 @@
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_shape, cholesky, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{check_shape, cholesky, symmetric_part};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -46,7 +46,7 @@ pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) 
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
-    solve_lower(&lower, &mut inverse_factor)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut inverse_factor);
     let stiffness = inverse_factor.tr_mul(&inverse_factor);
     Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }

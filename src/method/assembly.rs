@@ -1,7 +1,6 @@
 //! Assembly of the structural stiffness from unit element matrices, and its factorization.
 
-use crate::method::elements::mass::corner_volumes;
-use crate::method::elements::unit_stiffness;
+use crate::method::elements::{corner_volumes, unit_stiffness};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
     check_finite, check_length, check_shape, check_solution, cholesky, finite, finite_list, from_faer, to_faer,

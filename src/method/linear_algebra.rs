@@ -122,28 +122,7 @@ pub fn check_solution(
     if residual <= allowed { Ok(()) } else { Err(Error::WrongSolution { what, residual, allowed }) }
 }
 
-/// Solves $L X = R$ in place for a lower triangular $L$ with nonzero diagonal.
-///
-/// # Errors
-/// [`Error::WrongShape`] unless $L$ is square and has as many rows as $R$.
-pub fn solve_lower(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) -> Result<(), Error> {
-    check_shape("lower triangle", lower, right.nrows(), right.nrows())?;
-    lower.solve_lower_triangular_unchecked_mut(right);
-    Ok(())
-}
-
-/// Solves $L^t X = R$ in place for a lower triangular $L$ with nonzero diagonal.
-///
-/// # Errors
-/// [`Error::WrongShape`] unless $L$ is square and has as many rows as $R$.
-pub fn solve_lower_transposed(lower: &DMatrix<f64>, right: &mut DMatrix<f64>) -> Result<(), Error> {
-    check_shape("lower triangle", lower, right.nrows(), right.nrows())?;
-    lower.tr_solve_lower_triangular_unchecked_mut(right);
-    Ok(())
-}
-
-/// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal: what the eigenproblem $A v = \mu L L^t v$ becomes
-/// for $y = L^t v$.
+/// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal.
 pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
     let mut reduced = matrix.clone();
     for _ in 0..2 {
@@ -170,6 +149,18 @@ pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVe
     let scaled = matrix / unit;
     let eigen = to_faer(&scaled).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
     Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
+}
+
+/// Eigenvalues (ascending) and vectors of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, scaled to
+/// $V^t L L^t V = I$, from the symmetric problem of $L^{-1} A L^{-t}$ for $L^t v$.
+pub(crate) fn pencil_eigen(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    lower: &DMatrix<f64>,
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+    let (values, mut vectors) = symmetric_eigen(what, &symmetric_part(&reduced(lower, matrix)))?;
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut vectors);
+    Ok((values, vectors))
 }
 
 /// The same matrix, real or complex, for faer.

@@ -1,10 +1,7 @@
 //! Natural modes: the symmetric-definite eigenproblem, its order, scale and sign.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, reduced, solve_lower_transposed, symmetric_eigen,
-    symmetric_part,
-};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, pencil_eigen};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -64,21 +61,33 @@ impl ModeSet {
         Self { omega_squared: self.omega_squared.select_rows(places), shapes: self.shapes.select_columns(places) }
     }
 
+    /// Generalized masses $v_i^t M v_i$ of test modes (n), after refusing modes that have none.
+    pub(crate) fn generalized_masses(&self, mass: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
+        if self.is_empty() {
+            return Err(Error::Empty { what: "test modes" });
+        }
+        check_shape("dynamic mass", mass, mass.nrows(), mass.nrows())?;
+        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
+        check_finite("test mode shapes", &self.shapes)?;
+        let of_mode = |mode: usize| {
+            let shape = self.shapes.column(mode);
+            let generalized_mass = shape.dot(&(mass * shape));
+            positive("squared frequency", || test_mode(mode), self.omega_squared[mode])?;
+            positive("generalized mass", || test_mode(mode), generalized_mass)?;
+            Ok(generalized_mass)
+        };
+        (0..self.len()).map(of_mode).collect()
+    }
+
     /// The same modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;
     /// Appendix B does that.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
-    /// [`Error::NotPositive`] for a generalized mass or a squared frequency that is not positive.
+    /// [`Error::Empty`]; [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
+    /// [`Error::NotPositive`] for a squared frequency or a generalized mass that is not positive.
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
-        check_shape("dynamic mass", mass, mass.nrows(), mass.nrows())?;
-        check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
-        check_finite("test mode shapes", &self.shapes)?;
         let mut scaled = self.clone();
-        for (mode, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
-            let generalized_mass = shape.dot(&(mass * &shape));
-            positive("generalized mass", || test_mode(mode), generalized_mass)?;
-            positive("squared frequency", || test_mode(mode), self.omega_squared[mode])?;
+        for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(self.generalized_masses(mass)?) {
             shape /= generalized_mass.sqrt();
         }
         Ok(scaled)
@@ -141,7 +150,7 @@ pub(crate) fn check_count(what: &'static str, requested: usize, available: usize
 
 /// The lowest `count` modes of $K v = \omega^2 M v$ for `stiffness` in lbf/in and `mass` in lbf·s²/in, both d × d.
 ///
-/// With $M = L L^t$ the problem becomes the symmetric one of $L^{-1} K L^{-t}$, solved through faer.
+/// With $M = L L^t$ it becomes the symmetric problem of $L^{-1} K L^{-t}$.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
@@ -152,12 +161,10 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
     check_count("modes", count, stiffness.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
-    let reduced = symmetric_part(&reduced(&lower, stiffness));
-    let (omega_squared, mut shapes) = symmetric_eigen("dynamic stiffness", &reduced)?;
+    let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower)?;
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
         return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
     }
-    solve_lower_transposed(&lower, &mut shapes)?;
     Modes::ascending(omega_squared, shapes).lowest(count)
 }
 

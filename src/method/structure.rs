@@ -40,8 +40,7 @@ impl Material {
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self { youngs_modulus, poissons_ratio, shear_modulus, density: 0.0 };
-        material.check()?;
-        Ok(material)
+        material.check().map(|()| material)
     }
 
     /// The same material with a mass density, lbf·s²/in⁴.
@@ -71,7 +70,7 @@ fn material() -> String {
 /// What an element is made of and what it resists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ElementKind {
-    /// Axial member between two grids; its size is a cross section, in².
+    /// Axial member between two grids; its size is a cross section (area), in².
     Rod,
     /// Garvey shear panel between four grids; its size is a gage (thickness), in.
     ShearPanel,

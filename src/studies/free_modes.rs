@@ -5,9 +5,7 @@
 //! and infinite ones, and must neither be lost nor counted as vibrations.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_eigen, symmetric_part,
-};
+use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part};
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
@@ -57,8 +55,8 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
     let shifted = stiffness + sigma * mass;
     let lower = cholesky("stiffness shifted by the mass", &shifted, f64::EPSILON)?;
     let mut deflections = f.clone();
-    solve_lower(&lower, &mut deflections)?;
-    solve_lower_transposed(&lower, &mut deflections)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut deflections);
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
     let (roots, vectors) = symmetric_eigen("shifted flexibility", &symmetric_part(&f.tr_mul(&deflections)))?;
     // Ascending roots are descending frequencies.
     let order: Vec<usize> = (0..roots.len()).rev().collect();

@@ -9,9 +9,7 @@
 //! Journal* 21 (1983), 1168–1173.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, solve_lower, solve_lower_transposed, symmetric_part,
-};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, symmetric_part};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -63,8 +61,8 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DM
         .map_err(|error| error.or_dependent("test mode"))?;
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
-    solve_lower(&lower, &mut solved)?;
-    solve_lower_transposed(&lower, &mut solved)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut solved);
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut solved);
     let missing = DMatrix::identity(shapes.ncols(), shapes.ncols()) - generalized;
     Ok(symmetric_part(&(mass + solved.tr_mul(&(missing * &solved)))))
 }
@@ -113,9 +111,9 @@ pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Resul
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
     let mut weighted = change.clone();
-    solve_lower(&lower, &mut weighted)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
     weighted.transpose_mut();
-    solve_lower(&lower, &mut weighted)?;
+    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
     Ok(weighted)
 }
 

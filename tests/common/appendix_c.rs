@@ -1,9 +1,7 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
 use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, original, recursive_1, recursive_1_converged, recursive_2,
-};
+use corfem::method::appendix_c::{Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -54,6 +52,11 @@ pub const FORMULAE: [Rule; 7] = [
     },
 ];
 
+/// Those that the loops run on, with functions of their own for a change of stiffness alone.
+pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
+    FORMULAE.into_iter().filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
+}
+
 /// What they approach.
 pub const EIGENSOLUTION: Rule = Rule { name: "eigensolution", plain: exact, general: eigensolution };
 
@@ -62,10 +65,24 @@ pub fn rules() -> impl Iterator<Item = Rule> {
     FORMULAE.into_iter().chain([EIGENSOLUTION])
 }
 
+/// A change of stiffness alone.
+pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange<f64> {
+    ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
+}
+
 /// The eigensolution for a change of stiffness alone.
 pub fn exact(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    let no_mass = DMatrix::zeros(k.len(), k.len());
-    eigensolution(&ModalChange::of_vibrations(k, beta.clone(), no_mass))
+    eigensolution(&of_stiffness(k, beta))
+}
+
+/// Recursive 2 for a change of stiffness alone.
+pub fn recursive_2(k: &DVector<f64>, beta: &DMatrix<f64>, order: usize) -> Result<Perturbed, Error> {
+    general::recursive_2(&of_stiffness(k, beta), order)
+}
+
+/// The formulae of 1947 for a change of stiffness alone.
+pub fn original(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
+    general::original(&of_stiffness(k, beta))
 }
 
 /// Largest change of a root relative to itself.

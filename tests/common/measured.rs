@@ -1,7 +1,7 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
 use corfem::method::appendix_b::MeasuringPoint;
-use corfem::method::elements::rod::rod;
+use corfem::method::elements::rod;
 use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
 use proptest::prelude::*;

@@ -1,11 +1,11 @@
 //! The alternatives to the loop's update rule and to its halvings, on the torque box by the library's own reading of the step.
 
-use crate::common::appendix_c::exact;
+use crate::common::appendix_c::{exact, recursive_2};
 use crate::common::boxes::{first_problem, problem_of};
 use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY, STATED_ERROR_SUM};
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
-use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, recursive_1, recursive_2};
+use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, recursive_1};
 use corfem::method::error::Error;
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};

@@ -19,8 +19,6 @@ proptest! {
         for (general, plain) in [
             (general::first_order(&change)?, recursive::first_order(k, beta)?),
             (general::recursive_1(&change, order)?, recursive::recursive_1(k, beta, order)?),
-            (general::recursive_2(&change, order)?, recursive::recursive_2(k, beta, order)?),
-            (general::original(&change)?, recursive::original(k, beta)?),
         ] {
             let (root, shape) = errors(&general, &plain);
             prop_assert!(root < ROUND_OFF && shape < MATRIX_ROUND_OFF, "{root:e} {shape:e}");

@@ -11,11 +11,11 @@
 //! | Recursive 1, order r | r + 1 | r + 1 |
 //! | Recursive 2, order r ≥ 2 | 2r − 1 | 2r |
 
-use crate::common::appendix_c::{Plain, errors, exact};
+use crate::common::appendix_c::{Plain, errors, exact, original, recursive_2};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{MEASURABLE_ERROR, ORDER_HALFWAY, SECOND_ORDER_REMAINDER};
 use crate::common::vibrations::{Change, full_change};
-use corfem::method::appendix_c::{first_order, original, recursive_1, recursive_2};
+use corfem::method::appendix_c::{first_order, recursive_1};
 use nalgebra::{dmatrix, dvector};
 use proptest::prelude::*;
 

@@ -4,7 +4,7 @@
 //! Recursive 1 of order r has roots of order 2⌊r/2⌋ + 2 and shapes of order 2⌈r/2⌉ + 1, Recursive 2 roots of order 2r and
 //! shapes of order 2r + 1, the original formulae roots of order 4.
 
-use crate::common::appendix_c::{Plain, exact};
+use crate::common::appendix_c::{Plain, exact, original, recursive_2};
 use crate::common::log_log_slope;
 use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::{
@@ -12,7 +12,7 @@ use crate::common::tolerances::{
 };
 use crate::common::vibrations::{full_change, modes_by_nalgebra};
 use corfem::closed_forms::two_dof::{perturbed, squared_frequencies};
-use corfem::method::appendix_c::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
+use corfem::method::appendix_c::{first_order, recursive_1, recursive_1_converged};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;

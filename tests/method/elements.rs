@@ -4,7 +4,7 @@ use crate::common::matrices::{rank_of_semidefinite, relative_distance};
 use crate::common::panels::{Sample, sample};
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::ELEMENT_ROUND_OFF;
-use corfem::method::elements::{rod::rod, unit_stiffness};
+use corfem::method::elements::{rod, unit_stiffness};
 use corfem::method::error::Error;
 use corfem::method::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, DVector, Vector3};

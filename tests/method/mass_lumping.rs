@@ -3,7 +3,7 @@
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::method::elements::mass::corner_volumes;
+use corfem::method::elements::corner_volumes;
 use corfem::method::error::Error;
 use corfem::method::structure::ElementKind;
 use nalgebra::Vector3;

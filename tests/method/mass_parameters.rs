@@ -8,7 +8,7 @@ use corfem::method::appendix_a::condense;
 use corfem::method::appendix_c::general::{ModalChange, first_order};
 use corfem::method::assembly::{FactorizedStiffness, element_matrices};
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
-use corfem::method::elements::mass::corner_volumes;
+use corfem::method::elements::corner_volumes;
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, Scaled, Share};
 use corfem::method::modes::ModeSet;

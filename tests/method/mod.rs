@@ -45,9 +45,9 @@ pub mod appendix_c_table_1;
 pub mod appendix_c_two_dof;
 
 pub mod appendix_c_close_roots;
+
 pub mod appendix_c_close_roots_errors;
 pub mod appendix_c_clusters;
-
 pub mod appendix_c_complex;
 pub mod appendix_c_general;
 pub mod appendix_c_general_errors;

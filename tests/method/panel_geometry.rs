@@ -4,7 +4,7 @@ use crate::common::panels::{flat_panel, panel_sample, placed};
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
 use corfem::method::elements::panel::mean_plane;
-use corfem::method::elements::{triangle::triangle, unit_stiffness};
+use corfem::method::elements::{membrane::triangle, unit_stiffness};
 use corfem::method::error::Error;
 use corfem::method::structure::{ElementKind, Material};
 use nalgebra::{Matrix3, Vector3};

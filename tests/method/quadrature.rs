@@ -1,7 +1,7 @@
 //! Gauss-Legendre quadrature: exactness, and the same rule from the eigenvalues of a tridiagonal matrix.
 
 use crate::common::tolerances::ROUND_OFF;
-use corfem::method::elements::quadrature::gauss_legendre;
+use corfem::method::elements::shear::gauss_legendre;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

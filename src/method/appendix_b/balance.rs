@@ -1,13 +1,9 @@
-//! Balance of forces and moments in each test mode (B.1 to B.4).
+//! Balance of forces and moments in each test mode (B.1 to B.4), and the rigid-body motions on which they do work.
 
-use super::checked_generalized_masses;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, finite, reduced, solve_lower_transposed, symmetric_eigen,
-    symmetric_part,
-};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, finite, pencil_eigen};
 use crate::method::modes::ModeSet;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, Unit, Vector3};
 
 /// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
 /// soft suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
@@ -55,10 +51,21 @@ pub fn balance(
     mass: &DMatrix<f64>,
     rigid_body: &DMatrix<f64>,
 ) -> Result<Balanced, Error> {
-    let generalized_masses = checked_generalized_masses(raw, mass)?;
+    cholesky("dynamic mass", mass, 0.0)?;
+    let generalized_masses = raw.generalized_masses(mass)?;
     check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    let (suspension, from_suspension) = suspension_modes(stiffness, mass, rigid_body)?;
+    if rigid_body.ncols() == 0 {
+        return Err(Error::Empty { what: "rigid-body vectors" });
+    }
+    check_shape("rigid-body vectors", rigid_body, mass.nrows(), rigid_body.ncols())?;
+    check_finite("rigid-body vectors", rigid_body)?;
+    let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
+    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
+        .map_err(|error| error.or_dependent("rigid-body vector"))?;
+    // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
+    let rigid_stiffness = rigid_body.tr_mul(&(stiffness * rigid_body));
+    let (suspension, from_suspension) = pencil_eigen("rigid-body stiffness", &rigid_stiffness, &lower)?;
     let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
     if let Some(mode) = raw.omega_squared.iter().position(|omega_squared| stiffest > limit * omega_squared) {
         return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });
@@ -77,24 +84,68 @@ pub fn balance(
     })
 }
 
-/// Squared circular frequencies $\mu$ (rad²/s², zero on a free structure) of the rigid-body modes on the suspension,
-/// and these modes in terms of the rigid-body vectors, $L^{-t} Y$ (m × m).
-fn suspension_modes(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    rigid_body: &DMatrix<f64>,
-) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
-    let count = rigid_body.ncols();
-    if count == 0 {
-        return Err(Error::Empty { what: "rigid-body vectors" });
+/// A dynamic degree of freedom: a measuring point and the direction measured there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuringPoint {
+    /// Position, in: x aft, y outboard, z up, from the reference axes.
+    pub position: Vector3<f64>,
+    /// Direction of motion.
+    pub direction: Unit<Vector3<f64>>,
+}
+
+/// A rigid-body motion, named by the force or moment that does work on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Translation along x: drag.
+    ForeAft,
+    /// Translation along y: side force.
+    Side,
+    /// Translation along z: vertical force.
+    Plunge,
+    /// Rotation about x: rolling moment.
+    Roll,
+    /// Rotation about y: pitching moment.
+    Pitch,
+    /// Rotation about z: yawing moment.
+    Yaw,
+}
+
+/// The motions of the symmetric boundary condition: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of (B.1) and (B.2).
+/// Where x is measured, add [`Motion::ForeAft`], which is symmetric too.
+pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
+
+/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and
+/// the other two must be left out.
+pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
+
+impl Motion {
+    /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
+    ///
+    /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
+    pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::ForeAft => Vector3::x(),
+            Self::Side => Vector3::y(),
+            Self::Plunge => Vector3::z(),
+            Self::Roll => Vector3::new(0.0, -position.z, position.y),
+            Self::Pitch => Vector3::new(-position.z, 0.0, position.x),
+            Self::Yaw => Vector3::new(-position.y, position.x, 0.0),
+        }
     }
-    check_shape("rigid-body vectors", rigid_body, mass.nrows(), count)?;
-    check_finite("rigid-body vectors", rigid_body)?;
-    let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
-    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
-        .map_err(|error| error.or_dependent("rigid-body vector"))?;
-    let reduced = symmetric_part(&reduced(&lower, &rigid_body.tr_mul(&(stiffness * rigid_body))));
-    let (squared, mut modes) = symmetric_eigen("rigid-body stiffness", &reduced)?;
-    solve_lower_transposed(&lower, &mut modes)?;
-    Ok((squared, modes))
+}
+
+/// The rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
+/// Translations have no unit, rotations are in inches per radian.
+///
+/// # Errors
+/// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
+pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
+    if motions.is_empty() || dofs.is_empty() {
+        return Err(Error::Empty {
+            what: if motions.is_empty() { "rigid-body motions" } else { "dynamic degrees of freedom" },
+        });
+    }
+    let displacement = |i: usize, j: usize| motions[j].displacement(dofs[i].position);
+    let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| dofs[i].direction.dot(&displacement(i, j)));
+    finite("rigid-body vectors", vectors)
 }

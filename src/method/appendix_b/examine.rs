@@ -1,7 +1,6 @@
 //! Which test modes are fit for correlation: both steps, the report, and the deletion of deviant modes.
 
 use super::balance::{Balanced, balance};
-use super::checked_generalized_masses;
 use super::orthogonalize::{Movement, Orthogonalized, orthogonalize};
 use crate::method::error::{Error, positive_setting};
 use crate::method::modes::ModeSet;
@@ -107,7 +106,7 @@ pub fn examine(
     limits: &MovementLimits,
 ) -> Result<Examination, Error> {
     limits.check()?;
-    checked_generalized_masses(raw, mass)?;
+    raw.generalized_masses(mass)?;
     let unmoved = ModeReport { balance: None, movement: None, verdict: ModeVerdict::Kept };
     let (mut balanced, mut reports) = (raw.clone(), vec![unmoved; raw.len()]);
     if let Supports::Free { stiffness, rigid_body } = supports {

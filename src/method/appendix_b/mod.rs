@@ -13,33 +13,9 @@
 mod balance;
 mod examine;
 mod orthogonalize;
-mod rigid_body;
 
-pub use balance::{Balanced, LARGEST_SUSPENSION_RATIO, balance};
+pub use balance::{
+    ANTISYMMETRIC, Balanced, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, SYMMETRIC, balance, rigid_body_vectors,
+};
 pub use examine::{Examination, ModeReport, ModeVerdict, MovementLimits, Supports, examine};
 pub use orthogonalize::{Movement, Orthogonalized, generalized_mass, orthogonalize};
-pub use rigid_body::{ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors};
-
-use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, cholesky};
-use crate::method::modes::ModeSet;
-use crate::method::structure::positive;
-use nalgebra::{DMatrix, DVector};
-
-/// Every shape's generalized mass $v_i^t M v_i$, after refusing test modes and masses that no step can work with.
-fn checked_generalized_masses(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
-    if raw.is_empty() {
-        return Err(Error::Empty { what: "test modes" });
-    }
-    cholesky("dynamic mass", mass, 0.0)?;
-    check_shape("test mode shapes", &raw.shapes, mass.nrows(), raw.len())?;
-    check_finite("test mode shapes", &raw.shapes)?;
-    let weighted = mass * &raw.shapes;
-    let masses = DVector::from_fn(raw.len(), |mode, _| raw.shapes.column(mode).dot(&weighted.column(mode)));
-    for mode in 0..raw.len() {
-        let owner = || format!("test mode {mode} (from zero)");
-        positive("squared circular frequency", owner, raw.omega_squared[mode])?;
-        positive("generalized mass", owner, masses[mode])?;
-    }
-    Ok(masses)
-}

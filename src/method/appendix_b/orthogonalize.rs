@@ -1,6 +1,5 @@
 //! Orthogonal test modes from nearly orthogonal ones (B.5 to B.7).
 
-use super::checked_generalized_masses;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_shape, cholesky, finite, symmetric_part};
 use crate::method::modes::{ModeSet, solve};
@@ -60,11 +59,8 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::Dependent`] for a shape that
 /// is a combination of those before it.
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
-    let generalized_masses = checked_generalized_masses(raw, mass)?;
-    let mut unit = raw.shapes.clone();
-    for (mut shape, generalized_mass) in unit.column_iter_mut().zip(generalized_masses.iter()) {
-        shape /= generalized_mass.sqrt();
-    }
+    cholesky("dynamic mass", mass, 0.0)?;
+    let unit = raw.scaled_with(mass)?.shapes;
     let mut overlap = symmetric_part(&generalized_mass(&unit, mass)?);
     overlap.iter_mut().filter(|entry| entry.abs() < OVERLAP_ROUND_OFF).for_each(|entry| *entry = 0.0);
     cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART)

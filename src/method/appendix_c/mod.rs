@@ -8,16 +8,17 @@
 //!
 //! Every function here solves these equations in one way or another:
 //!
-//! - [`recursive`]: first order, Recursive 1, Recursive 2 and the formulae of 1947, for a change of stiffness alone;
-//! - [`eigensolution`]: exactly, which is what the others approach;
-//! - [`close_roots`]: Recursive 1 where some modes are so close that they must be solved together;
-//! - [`general`]: all of it with changes of mass, and for pencils that are complex or unsymmetric.
+//! - [`recursive`]: first order and Recursive 1 for a change of stiffness alone;
+//! - [`general`]: all of it, Recursive 2 and the formulae of 1947 too, with changes of mass, complex and unsymmetric pencils;
+//! - [`close_roots`]: modes so close that the recursions diverge, in blocks;
+//! - [`eigensolution`]: exactly, which is what the others approach.
 
 pub mod close_roots;
 pub mod general;
 pub mod recursive;
 
-pub use recursive::{first_order, original, recursive_1, recursive_1_converged, recursive_2};
+pub use close_roots::{CloseRootsSettings, close_roots};
+pub use recursive::{first_order, recursive_1, recursive_1_converged};
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
@@ -30,10 +31,8 @@ use nalgebra::{DMatrix, DVector};
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
 
-/// Relative change of a root in the last order allowed above which a recursion has not settled.
-///
-/// Between the tolerance, which is round-off, and this limit the recursion is slow, but what it still has to go is little: a
-/// thousandth of an error sum of some percent.
+/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
+/// some percent. Below it the recursion may be slow, but what it still has to go is little.
 pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
 
 /// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
@@ -41,8 +40,7 @@ pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
 pub struct Perturbed<T = f64> {
     /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
     pub roots: DVector<T>,
-    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$
-    /// (except by [`close_roots::close_roots`], which scales its shapes to unit generalized mass).
+    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
     pub shapes: DMatrix<T>,
 }
 

@@ -1,9 +1,9 @@
-//! First order (C.20, C.21), Recursive 1 (C.22), Recursive 2 (C.24) and the original formulae, for a change of
-//! stiffness alone and real mass-orthonormal modes.
+//! First order (C.20, C.21) and Recursive 1 (C.22) for a change of stiffness alone and real mass-orthonormal modes: what the
+//! loops run on.
 //!
-//! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$; both are given in rad²/s².
+//! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$, both in rad²/s².
 
-use super::{Perturbed, SMALLEST_SEPARATION, Settled, general};
+use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
@@ -45,13 +45,7 @@ pub fn recursive_1(
     beta: &DMatrix<f64>,
     order: usize,
 ) -> Result<Perturbed, Error> {
-    check_order(order)?;
-    let mut now = first_order(generalized_stiffness, beta)?;
-    let coupling = without_diagonal(beta);
-    for _ in 2..=order {
-        next_order(generalized_stiffness, beta, &coupling, &mut now)?;
-    }
-    Ok(now)
+    Ok(settle(generalized_stiffness, beta, 0.0, order)?.perturbed)
 }
 
 /// [`recursive_1`] until no root changes by more than `tolerance` (relative), at most to order `orders`.
@@ -65,43 +59,31 @@ pub fn recursive_1_converged(
     tolerance: f64,
     orders: usize,
 ) -> Result<Settled, Error> {
-    check_order(orders)?;
-    let mut now = first_order(generalized_stiffness, beta)?;
-    let coupling = without_diagonal(beta);
-    let (mut order, mut last_change) = (1, 1.0);
-    while order < orders && last_change >= tolerance {
-        last_change = next_order(generalized_stiffness, beta, &coupling, &mut now)?;
-        order += 1;
-    }
-    Settled { perturbed: now, order, last_change }.check(tolerance, orders)
+    settle(generalized_stiffness, beta, tolerance, orders)?.check(tolerance, orders)
 }
 
-fn without_diagonal(beta: &DMatrix<f64>) -> DMatrix<f64> {
+fn settle(k: &DVector<f64>, beta: &DMatrix<f64>, tolerance: f64, orders: usize) -> Result<Settled, Error> {
+    check_order(orders)?;
+    let mut now = first_order(k, beta)?;
     let mut coupling = beta.clone();
     coupling.fill_diagonal(0.0);
-    coupling
-}
-
-/// One order of Recursive 1 in place; returns the largest relative change of a root.
-fn next_order(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    coupling: &DMatrix<f64>,
-    now: &mut Perturbed,
-) -> Result<f64, Error> {
-    // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
-    // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
-    let sums = coupling * &now.shapes;
-    update_shapes(k, beta, &sums, now)?;
-    let mut largest_change = 0.0_f64;
-    for (j, gamma) in now.roots.iter_mut().enumerate() {
-        let lambda = 1.0 / k[j];
-        let root = lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
-        largest_change = largest_change.max((root / *gamma - 1.0).abs());
-        *gamma = root;
+    let (mut order, mut last_change) = (1, 1.0);
+    while order < orders && last_change >= tolerance {
+        // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
+        // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
+        let sums = &coupling * &now.shapes;
+        update_shapes(k, beta, &sums, &mut now)?;
+        last_change = 0.0;
+        for (j, gamma) in now.roots.iter_mut().enumerate() {
+            let lambda = 1.0 / k[j];
+            let root = lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+            last_change = (root / *gamma - 1.0).abs().max(last_change);
+            *gamma = root;
+        }
+        now.check_roots()?;
+        order += 1;
     }
-    now.check_roots()?;
-    Ok(largest_change)
+    Ok(Settled { perturbed: now, order, last_change })
 }
 
 /// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
@@ -121,51 +103,6 @@ fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now
         }
     }
     check_finite("perturbed shapes", &now.shapes)
-}
-
-/// Recursive 2 (C.24) to a given order: explicit roots, and shapes from one linear solution per mode.
-///
-/// $$ \Delta\lambda_i^{(r)} = -\frac{\lambda_i S_i}{k_{ii} + S_i}, \qquad S_i = \sum_j \beta_{ij}p_{ji}^{(\rho)}
-///    \quad (j = i \text{ included}) $$
-/// $$ \Big(k_{ii} + \beta_{ii} - \frac{1}{\gamma_j^{(r)}}\Big)p_{ij}^{(r)} + \sum_{s \ne i,j}\beta_{is}p_{sj}^{(r)} = -\beta_{ij},
-///    \qquad i \ne j $$
-///
-/// # Errors
-/// As [`first_order`]; [`Error::Setting`] for order zero; [`Error::CoalescingModes`] when the linear system of a mode is
-/// singular; [`Error::NotFinite`] for a root without a finite value.
-pub fn recursive_2(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    order: usize,
-) -> Result<Perturbed, Error> {
-    check_order(order)?;
-    let mut now = first_order(generalized_stiffness, beta)?;
-    let pencil = pencil(generalized_stiffness, beta);
-    for _ in 2..=order {
-        now.roots = general::explicit_roots(&pencil, &now.shapes)?;
-        now.check_roots()?;
-        now.shapes = general::shapes_by_linear_solution(&pencil, &now.roots)?;
-    }
-    Ok(now)
-}
-
-/// The original formulae of 1947: first-order roots and shapes, then the root once more from those shapes (C.24).
-///
-/// # Errors
-/// As [`first_order`]; [`Error::NotFinite`] for a root without a finite value.
-///
-/// Source: Van de Vooren, Report V.1366, National Aeronautical Research Institute, Amsterdam (1947).
-pub fn original(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    let mut now = first_order(generalized_stiffness, beta)?;
-    now.roots = general::explicit_roots(&pencil(generalized_stiffness, beta), &now.shapes)?;
-    now.check_roots()?;
-    Ok(now)
-}
-
-/// The changed pencil of the general formulae, whose $G$ is $k\Lambda = I$ here. Multiplied by their roots, the equations
-/// (C.24) are the general ones.
-fn pencil(k: &DVector<f64>, beta: &DMatrix<f64>) -> general::Pencil<f64> {
-    (DMatrix::from_diagonal(k) + beta, DMatrix::identity(k.len(), k.len()))
 }
 
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {

@@ -1,11 +1,53 @@
-//! The membrane panel: four overlapping constant-strain triangles.
+//! The constant-strain triangle in plane stress, and the membrane panel of four that overlap.
 
-use crate::method::elements::panel::mean_plane;
-use crate::method::elements::triangle::triangle;
+use crate::method::elements::panel::{mean_plane, normal_and_area};
 use crate::method::error::Error;
 use crate::method::linear_algebra::finite;
 use crate::method::structure::Material;
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
+///
+/// $$ K = A B^t D B, \qquad D = \frac{E}{1-\nu^2}
+///    \begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
+///
+/// $B$ maps the nine translations (x, y, z of each corner, inches) to the three strains in the triangle's plane; motion
+/// out of the plane meets no resistance. Rank three.
+///
+/// # Errors
+/// [`Error::ZeroArea`] when the corners lie on a line.
+///
+/// Source: Turner, Clough, Martin and Topp, *Journal of the Aeronautical Sciences* 23 (1956), 805.
+pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
+    let [a, b, c] = corners;
+    let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
+    let (normal, area) = normal_and_area((b - a).cross(&(c - a)), longest)?;
+    let strain = strain_matrix(corners, normal, area);
+    let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
+    let e = youngs_modulus / (1.0 - nu * nu);
+    let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
+    finite("element stiffness", area * strain.transpose() * (elasticity * &strain))
+}
+
+/// $B$, 3 × 9: strains $\epsilon_x, \epsilon_y, \gamma_{xy}$ in a frame with its first axis along the first side.
+///
+/// The gradient of corner $n$'s shape function is $k \times s_n / (2A)$, $s_n$ the side opposite to it.
+fn strain_matrix(corners: [Vector3<f64>; 3], k: Vector3<f64>, area: f64) -> DMatrix<f64> {
+    let i = (corners[1] - corners[0]).normalize();
+    let j = k.cross(&i);
+    let mut strain = DMatrix::zeros(3, 9);
+    for n in 0..3 {
+        let opposite = corners[(n + 2) % 3] - corners[(n + 1) % 3];
+        let gradient = k.cross(&opposite) / (2.0 * area);
+        let (dx, dy) = (gradient.dot(&i), gradient.dot(&j));
+        for axis in 0..3 {
+            strain[(0, 3 * n + axis)] = dx * i[axis];
+            strain[(1, 3 * n + axis)] = dy * j[axis];
+            strain[(2, 3 * n + axis)] = dy * i[axis] + dx * j[axis];
+        }
+    }
+    strain
+}
 
 /// The four triangles of a quadrilateral 1-2-3-4; each of its two diagonals splits it once.
 const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];

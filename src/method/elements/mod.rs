@@ -1,19 +1,16 @@
-//! Element stiffness matrices in global axes, for unit gage or area.
+//! Element stiffness matrices in global axes, for unit gage or area, and lumped element masses.
 //!
 //! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z translations
 //! of the corners in the order given. Stiffness is proportional to gage or area.
 
-pub mod mass;
 pub mod membrane;
 pub mod panel;
-pub mod quadrature;
-pub mod rod;
 pub mod shear;
-pub mod triangle;
 
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use crate::method::structure::{ElementKind, Material};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Unit-size stiffness of an element of any kind, lbf/in per in (gage) or per in² (area).
 ///
@@ -23,10 +20,60 @@ use nalgebra::{DMatrix, Vector3};
 /// [`Error::WrongCornerCount`], and those of the element's own function.
 pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Material) -> Result<DMatrix<f64>, Error> {
     match (kind, corners) {
-        (ElementKind::Rod, &[a, b]) => rod::rod([a, b], material.youngs_modulus),
-        (ElementKind::Triangle, &[a, b, c]) => triangle::triangle([a, b, c], material),
+        (ElementKind::Rod, &[a, b]) => rod([a, b], material.youngs_modulus),
+        (ElementKind::Triangle, &[a, b, c]) => membrane::triangle([a, b, c], material),
         (ElementKind::ShearPanel, &[a, b, c, d]) => shear::shear_panel(&[a, b, c, d], material),
         (ElementKind::Membrane, &[a, b, c, d]) => membrane::membrane(&[a, b, c, d], material),
         _ => Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
     }
+}
+
+/// Stiffness of a rod, an axial member, of unit cross section, lbf/in per in² of area (6 × 6; x, y, z of each end).
+///
+/// $$ K = \frac{E}{L} b b^t, \qquad b = (-n, n), \qquad n = (x_2 - x_1)/L $$
+///
+/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching.
+///
+/// # Errors
+/// [`Error::ZeroLength`] when the ends coincide to working precision; [`Error::NotFinite`].
+///
+/// Source: Przemieniecki, *Theory of Matrix Structural Analysis*, section 5.2.
+pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>, Error> {
+    let along = ends[1] - ends[0];
+    let length = along.norm();
+    // Ends closer than the round-off of their own coordinates have no direction.
+    if length.is_nan() || length <= 1e-12 * (ends[0].norm() + ends[1].norm()) {
+        return Err(Error::ZeroLength(length));
+    }
+    let n = along / length;
+    let b = DVector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
+    finite("element stiffness", (youngs_modulus / length) * &b * b.transpose())
+}
+
+/// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
+///
+/// Times density (lbf·s²/in⁴) and size it is the mass that moves with the corner, alike in x, y and z:
+///
+/// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
+///
+/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ the
+/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$.
+///
+/// # Errors
+/// [`Error::WrongCornerCount`] when the corners do not fit the kind; [`Error::NotFinite`].
+///
+/// Source: the lumped masses of NASTRAN, NASA SP-222, and for warped quadrilaterals its routine EMADTQ.
+pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
+    let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
+    let volumes = match (kind, corners) {
+        (ElementKind::Rod, [a, b]) => vec![0.5 * (b - a).norm(); 2],
+        (ElementKind::Triangle, [a, b, c]) => vec![triangle(a, b, c) / 3.0; 3],
+        (ElementKind::ShearPanel | ElementKind::Membrane, [a, b, c, d]) => {
+            let at_corner: [f64; 4] = [triangle(d, a, b), triangle(a, b, c), triangle(b, c, d), triangle(c, d, a)];
+            let area = 0.5 * (c - a).cross(&(d - b)).norm();
+            at_corner.iter().map(|corner| (area + corner) / 6.0).collect()
+        }
+        _ => return Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
+    };
+    finite("element volumes", DMatrix::from_vec(volumes.len(), 1, volumes)).map(|volumes| volumes.as_slice().to_vec())
 }

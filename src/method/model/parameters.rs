@@ -89,11 +89,8 @@ impl Parameter {
     }
 }
 
-/// Every parameter's members as rows, of the structure's elements or of the dynamic DOF.
-///
-/// # Errors
-/// [`Error::Empty`] without parameters or members; [`Error::Unknown`]; [`Error::SharedElement`] for a member of two
-/// parameters that scale the same of it.
+/// Every parameter's members as rows, of the structure's elements or of the dynamic DOF; refuses a member of two parameters that
+/// scale the same of it.
 pub(crate) fn member_rows<'a>(
     structure: &Structure,
     dynamic_dof: usize,
@@ -115,13 +112,8 @@ pub(crate) fn member_rows<'a>(
                 Scaled::Stiffness | Scaled::ElementMass => ("element", row_of.get(&label).copied()),
             };
             let row = row.ok_or_else(|| Error::Unknown { owner: parameter.owner(), what, label })?;
-            match first_with.insert((parameter.scaled, row), &parameter.name) {
-                None => Ok(row),
-                Some(first) => {
-                    let (first, second) = (first.to_owned(), parameter.name.clone());
-                    Err(Error::SharedElement { element: label, first, second })
-                }
-            }
+            let Some(first) = first_with.insert((parameter.scaled, row), &parameter.name) else { return Ok(row) };
+            Err(Error::SharedElement { element: label, first: first.to_owned(), second: parameter.name.clone() })
         };
         parameter.members.iter().map(row).collect()
     };

@@ -108,7 +108,7 @@ fn bad_input_is_refused() {
     }
     for bad in [0.0, -4.0, f64::NAN, f64::INFINITY] {
         match refused(&[1.0, bad], &shapes, &mass) {
-            Error::NotPositive { what: "squared circular frequency", owner, value } => {
+            Error::NotPositive { what: "squared frequency", owner, value } => {
                 assert_eq!(owner, "test mode 1 (from zero)");
                 assert_eq!(value.to_bits(), bad.to_bits());
             }

@@ -7,8 +7,7 @@ use corfem::method::appendix_b::{
 };
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky, solve_lower,
-    solve_lower_transposed, symmetric_eigen, symmetric_part,
+    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
 };
 use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
 use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes, paired};
@@ -28,14 +27,6 @@ pub const MATRICES: &[Entry] = &[
         let size = d.size();
         symmetric_eigen("matrix", &d.symmetric(size))
             .map(|(values, vectors)| values.iter().chain(vectors.iter()).copied().collect())
-    }),
-    ("linear_algebra::solve_lower", |d| {
-        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
-        solve_lower(&lower, &mut right).map(|()| Vec::new())
-    }),
-    ("linear_algebra::solve_lower_transposed", |d| {
-        let (lower, mut right) = (d.symmetric(3), d.symmetric(3));
-        solve_lower_transposed(&lower, &mut right).map(|()| Vec::new())
     }),
     ("linear_algebra::symmetric_part", |d| {
         symmetric_part(&d.symmetric(3));
@@ -96,7 +87,7 @@ pub const MATRICES: &[Entry] = &[
         let limits = if d.below(2) == 0 { MovementLimits::default() } else { limits };
         examine(&d.modes(size), &d.symmetric(size), Supports::Held, &limits).map(|found| modes(&found.modes))
     }),
-    ("rigid_body::rigid_body_vectors", |d| {
+    ("balance::rigid_body_vectors", |d| {
         let corners = d.corners();
         let points = corners.map(|position| MeasuringPoint { position, direction: Vector3::z_axis() });
         rigid_body_vectors(&[Motion::Plunge, Motion::Roll, Motion::Pitch], &points).map(|found| entries(&found))

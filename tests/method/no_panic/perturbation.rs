@@ -5,8 +5,7 @@ use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
 use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
 use corfem::method::appendix_c::general::{self, ModalChange, complex_modes};
 use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, normalize_with_mass, original, recursive_1, recursive_1_converged,
-    recursive_2,
+    Perturbed, eigensolution, first_order, normalize_with_mass, recursive_1, recursive_1_converged,
 };
 use corfem::method::error::Error;
 use corfem::method::modes::solve;
@@ -28,14 +27,6 @@ pub const PERTURBATION: &[Entry] = &[
     ("recursive::recursive_1_converged", |d| {
         let size = d.size();
         perturbed(recursive_1_converged(&d.vector(size), &d.symmetric(size), 1e-13, 60).map(|found| found.perturbed))
-    }),
-    ("recursive::recursive_2", |d| {
-        let (size, order) = (d.size(), d.size());
-        perturbed(recursive_2(&d.vector(size), &d.symmetric(size), order))
-    }),
-    ("recursive::original", |d| {
-        let size = d.size();
-        perturbed(original(&d.vector(size), &d.symmetric(size)))
     }),
     ("general::first_order", |d| perturbed(general::first_order(&d.change()))),
     ("general::recursive_1", |d| {

@@ -4,23 +4,23 @@ use super::{Entry, entries, modes};
 use corfem::method::appendix_a;
 use corfem::method::appendix_b::MovementLimits;
 use corfem::method::assembly::{FactorizedStiffness, dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::panel::mean_plane;
-use corfem::method::elements::quadrature::gauss_legendre;
-use corfem::method::elements::shear::{corner_forces, energy_coefficient};
-use corfem::method::elements::{mass, membrane, rod, shear, triangle, unit_stiffness};
+use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
+use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
 use corfem::method::model::{FiniteElementModel, Range};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::studies::whole_model::WholeModel;
 
 pub const STRUCTURES: &[Entry] = &[
-    ("rod::rod", |d| {
+    ("elements::rod", |d| {
         let [a, b, ..] = d.corners();
         let modulus = d.number();
-        rod::rod([a, b], modulus).map(|found| entries(&found))
+        rod([a, b], modulus).map(|found| entries(&found))
     }),
-    ("triangle::triangle", |d| {
+    ("membrane::triangle", |d| {
         let ([a, b, c, _], material) = (d.corners(), d.material());
-        triangle::triangle([a, b, c], &material).map(|found| entries(&found))
+        triangle([a, b, c], &material).map(|found| entries(&found))
     }),
     ("membrane::membrane", |d| {
         let (corners, material) = (d.corners(), d.material());
@@ -35,10 +35,10 @@ pub const STRUCTURES: &[Entry] = &[
         let (kind, corners, material) = (kinds[d.below(4)], d.corners(), d.material());
         unit_stiffness(kind, &corners[..d.below(5)], &material).map(|found| entries(&found))
     }),
-    ("mass::corner_volumes", |d| {
+    ("elements::corner_volumes", |d| {
         let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
         let (kind, corners) = (kinds[d.below(4)], d.corners());
-        mass::corner_volumes(kind, &corners[..d.below(5)])
+        corner_volumes(kind, &corners[..d.below(5)])
     }),
     ("Material::isotropic", |d| {
         let (modulus, ratio) = (d.number(), d.number());
@@ -77,7 +77,7 @@ pub const STRUCTURES: &[Entry] = &[
         let (corners, material) = (d.corners(), d.material());
         mean_plane(&corners).map(|plane| energy_coefficient(&plane, &material)).map(|_| Vec::new())
     }),
-    ("quadrature::gauss_legendre", |d| {
+    ("shear::gauss_legendre", |d| {
         Ok(gauss_legendre(d.below(40)).into_iter().flat_map(|(point, weight)| [point, weight]).collect())
     }),
     ("Material::with_density", |d| {

@@ -57,10 +57,7 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
 pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
-    check_order(order)?;
-    let pencil = change.pencil()?;
-    let coupling = coupling(&pencil);
-    (0..order).try_fold(order_zero(&pencil)?, |now, _| next_order(&pencil, &coupling, now))
+    Ok(settle(change, 0.0, order)?.perturbed)
 }
 
 /// [`recursive_1`] until two orders in a row change no root by more than `tolerance` (relative), at most to order
@@ -75,10 +72,19 @@ pub fn recursive_1_converged<T: Number>(
     tolerance: f64,
     orders: usize,
 ) -> Result<Settled<T>, Error> {
+    settle(change, tolerance, orders)?.check(tolerance, orders)
+}
+
+fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> Result<Settled<T>, Error> {
     check_order(orders)?;
     let pencil = change.pencil()?;
-    let coupling = coupling(&pencil);
-    let mut now = next_order(&pencil, &coupling, order_zero(&pencil)?)?;
+    let mut coupling = pencil.clone();
+    coupling.0.fill_diagonal(T::zero());
+    coupling.1.fill_diagonal(T::zero());
+    // Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
+    let shapes = DMatrix::identity(change.len(), change.len());
+    let order_zero = Perturbed { roots: explicit_roots(&pencil, &shapes)?, shapes };
+    let mut now = next_order(&pencil, &coupling, order_zero)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
     while order < orders && quiet_orders < QUIET_ORDERS {
         let before = now.roots.clone();
@@ -90,21 +96,7 @@ pub fn recursive_1_converged<T: Number>(
         last_change = changes.fold(0.0, f64::max);
         quiet_orders = if last_change < tolerance { quiet_orders + 1 } else { 0 };
     }
-    Settled { perturbed: now, order, last_change }.check(tolerance, orders)
-}
-
-/// The shapes before the change, and Rayleigh's quotients on them for roots.
-fn order_zero<T: Number>(pencil: &Pencil<T>) -> Result<Perturbed<T>, Error> {
-    let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
-    Ok(Perturbed { roots: explicit_roots(pencil, &shapes)?, shapes })
-}
-
-/// $A$ and $G$ without their diagonals, the same for every order.
-fn coupling<T: Number>(pencil: &Pencil<T>) -> Pencil<T> {
-    let mut coupling = pencil.clone();
-    coupling.0.fill_diagonal(T::zero());
-    coupling.1.fill_diagonal(T::zero());
-    coupling
+    Ok(Settled { perturbed: now, order, last_change })
 }
 
 /// One order of Recursive 1.
@@ -162,7 +154,7 @@ pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Erro
 }
 
 /// Roots from given shapes, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
-pub(super) fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
+fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
     let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;
     Ok(roots)
@@ -173,10 +165,7 @@ fn check_finite_roots<T: Number>(roots: &DVector<T>) -> Result<(), Error> {
 }
 
 /// Shapes that satisfy all equations but their own for given roots, one (n−1) × (n−1) solution per mode.
-pub(super) fn shapes_by_linear_solution<T: Number>(
-    (stiffness, g): &Pencil<T>,
-    roots: &DVector<T>,
-) -> Result<DMatrix<T>, Error> {
+fn shapes_by_linear_solution<T: Number>((stiffness, g): &Pencil<T>, roots: &DVector<T>) -> Result<DMatrix<T>, Error> {
     let size = roots.len();
     let mut shapes = DMatrix::identity(size, size);
     // One mode has no others, and nalgebra's solution of an empty system panics.
