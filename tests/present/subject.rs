@@ -303,19 +303,3 @@ proptest! {
         }
     }
 }
-
-#[test]
-fn zz_temporary_dump() {
-    let put = |name: &str, text: &str| {
-        std::fs::create_dir_all("/tmp/pres_out").expect("a folder");
-        std::fs::write(format!("/tmp/pres_out/{name}"), text).expect("written");
-    };
-    put("wing.html", &subject_page(&WING, &[], "corfem correlate wing.toml").expect("a page"));
-    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
-    put("chain.html", &subject_page(&subject, &[], "corfem correlate chain.toml").expect("a page"));
-    put("wing.txt", &text(&subject_tables(&WING).expect("tables")));
-    put("chain.txt", &text(&subject_tables(&subject).expect("tables")));
-    for figure in crate::present::figures::figures() {
-        put(&format!("{}.svg", figure.name), &figure.svg);
-    }
-}
