@@ -61,7 +61,7 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
         table.row(label, [Cell::Blank].into_iter().chain(rms.into_iter().flat_map(state)).chain([Cell::Blank]));
     }
     let measure = if weighted { "cross-orthogonality" } else { "modal assurance criterion (no mass is known)" };
-    table.notes.extend(solver_note(&subject.solver, "", ";"));
+    table.notes.extend(solver_note(&subject.solver, " of the model", ";"));
     Ok(table.note(format!(
         "Others: the largest {measure} of either mode with any but its partner. Good: at least 0.95, others at most 0.05; \
         acceptable: 0.90 and 0.10. MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
