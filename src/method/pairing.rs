@@ -40,30 +40,7 @@ pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f6
     Ok(analysis.shapes.tr_mul(&(mass * &test.shapes)))
 }
 
-/// Cosine of the angle between every two of two sets of shapes (columns), n × g; zero with a shape that is zero.
-///
-/// # Errors
-/// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotFinite`].
-pub(crate) fn cosines(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
-    let unit = |shapes: &DMatrix<f64>| {
-        let mut unit = shapes.clone();
-        for mut shape in unit.column_iter_mut() {
-            // First of a largest component of one to two: squares of very large or small ones leave the range of numbers. A power
-            // of two is exact.
-            let largest = shape.amax();
-            if largest > 0.0 {
-                shape /= largest.log2().floor().exp2();
-                shape.normalize_mut();
-            }
-        }
-        unit
-    };
-    let cosines = unit(shapes).tr_mul(&unit(others));
-    check_finite("cosines of mode shapes", &cosines).map(|()| cosines)
-}
-
-/// Modal assurance criterion between two sets of shapes (columns), n × g, the squares of their cosines:
+/// Modal assurance criterion between two sets of shapes (columns), n × g:
 ///
 /// $$ \mathrm{MAC}_{ij} = \frac{(v_i^t w_j)^2}{(v_i^t v_i)(w_j^t w_j)} $$
 ///
@@ -73,12 +50,33 @@ pub(crate) fn cosines(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DM
 ///
 /// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
 pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
         for (mode, shape) in shapes.column_iter().enumerate() {
             positive("largest component", || format!("{of} {mode} (from zero)"), shape.amax())?;
         }
     }
-    Ok(cosines(shapes, others)?.map(|cosine| cosine * cosine))
+    Ok(signed_assurance(shapes, others)?.abs())
+}
+
+/// The same with the sign of the product $v_i^t w_j$, and zero for a shape that is zero.
+pub(crate) fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
+    // Of a largest component of one to two: squares of very large or small ones leave the range of numbers. A power of two is
+    // exact.
+    let unit = |shapes: &DMatrix<f64>| {
+        let mut unit = shapes.clone();
+        let scale = |largest: f64| if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 };
+        unit.column_iter_mut().for_each(|mut shape| shape /= scale(shape.amax()));
+        unit
+    };
+    let (shapes, others) = (unit(shapes), unit(others));
+    let cross = shapes.tr_mul(&others);
+    let assurance = DMatrix::from_fn(cross.nrows(), cross.ncols(), |i, j| match cross[(i, j)] {
+        0.0 => 0.0,
+        product => product * product.abs() / (shapes.column(i).norm_squared() * others.column(j).norm_squared()),
+    });
+    finite("modal assurance", assurance)
 }
 
 /// Pairs every test mode with an analysis mode by the cross-orthogonality $m$ (n × g, g ≤ n).

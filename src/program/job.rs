@@ -11,7 +11,7 @@ use corfem::present::page::subject_page;
 use corfem::present::subject::Subject;
 use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
-use corfem::present::tables::subject::{factor_table, paired_table, subject_tables};
+use corfem::present::tables::subject::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
@@ -92,8 +92,9 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     bar.finish_and_clear();
     let finished = finished?;
     let subject = Subject::of_job(&prepared, Some(&finished))?;
-    let mut tables = subject_tables(&subject)?;
-    tables.push(seen_table(&prepared, &finished)?);
+    // The verdict stands under the history, at the end.
+    let [paired, factors, history] = [paired_table(&subject)?, factor_table(&subject), history_table(&subject)];
+    let tables = [paired, factors, seen_table(&prepared, &finished)?, history];
     arguments.output.write(&tables, || json::document(json::subject(&subject)?))?;
     if let Some(folder) = &arguments.folder {
         let extra = [seen_table(&prepared, &finished)?, places_table(&prepared), doubts_table(&prepared)?];

@@ -1,5 +1,6 @@
 //! `paper/equations.toml` against the code: every equation is listed, every function and test named there exists.
 
+use crate::ledgers::files_below;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -119,6 +120,10 @@ fn found(folder: &Path, list: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).expect("it reads");
     entries
         .map(|entry| entry.expect("an entry").path())
+        // A folder without source holds data.
+        .filter(|path| {
+            !path.is_dir() || files_below(path).iter().any(|file| file.extension().is_some_and(|end| end == "rs"))
+        })
         .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
         .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
         .filter(|name| name != list)

@@ -105,7 +105,9 @@ fn every_public_function_of_the_method_is_called() {
     assert!(missing.is_empty(), "of {} public functions nobody calls {missing:?}", functions.len());
     let known = |name: &&str| functions.iter().any(|function| function == name);
     let called = LISTS.iter().copied().flatten().map(|(name, _)| *name);
-    let gone: Vec<&str> = called.chain(NOT_CALLED).filter(|name| !known(name)).collect();
+    // What stands on the method in other rooms may be called beside it.
+    let of_method = called.filter(|name| !name.starts_with("WholeModel::"));
+    let gone: Vec<&str> = of_method.chain(NOT_CALLED).filter(|name| !known(name)).collect();
     assert!(gone.is_empty(), "no longer public functions: {gone:?}");
 }
 

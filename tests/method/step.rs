@@ -6,6 +6,7 @@ use crate::common::vibrations::{Chain, chain_and_truth};
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::error::Error;
 use corfem::method::model::{ModalModel, Range};
+use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
 use corfem::method::step::{
     Accumulation, LEAST_SHARE, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
@@ -122,7 +123,11 @@ fn bare(count: usize) -> ModalModel {
 
 /// Three parameters on two test modes: relative stiffnesses (3, 4), (6, 8) with a coupling, and none.
 fn by_hand() -> (ModalModel, Vec<f64>) {
-    let mut model = bare(3);
+    let chain = Chain::uniform(3);
+    let modes = chain.modes(&[1.1; 3]);
+    let two =
+        ModeSet { omega_squared: modes.omega_squared.rows(0, 2).into(), shapes: modes.shapes.columns(0, 2).into() };
+    let mut model = chain.model(&[1.0; 3]).analyze(&two, None).unwrap();
     model.test_shares = vec![dmatrix![3.0, 1.0; 1.0, 4.0], dmatrix![6.0, 2.0; 2.0, 8.0], DMatrix::zeros(2, 2)];
     (model, vec![0.002, -0.001, 0.0])
 }

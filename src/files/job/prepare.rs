@@ -11,7 +11,7 @@ use crate::method::model::{ModalModel, Pair};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
 use crate::studies::assignment::pair_optimally;
-use crate::studies::whole_model::SparseMatrix;
+use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::{Path, PathBuf};
 
@@ -102,7 +102,16 @@ impl Prepared {
     /// Leaves out the test modes that no mode of the first model is like.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let ones = vec![1.0; self.source.whole.parameters().len()];
-        let shapes = match self.analyze(&ones) {
+        let mut first = self.analyze(&ones);
+        // Half as many again as test modes may be more than the model has.
+        if let Err(Error::TooMany { what: FINITE, available, .. }) = first
+            && self.job.compare.analysis_modes.is_none()
+            && available > 0
+        {
+            self.analysis_modes = available;
+            first = self.analyze(&ones);
+        }
+        let shapes = match first {
             Ok(first) => first.exact.modes.shapes.clone(),
             // More test modes than the model has are still to be looked at.
             Err(Error::TooMany { what: "test modes", .. }) => {

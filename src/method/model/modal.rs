@@ -8,7 +8,7 @@ use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::pairing::{Pairing, cosines, cross_orthogonality, pair_modes, paired};
+use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
 use crate::method::step::REFERENCE_GAGE;
 use nalgebra::DMatrix;
 
@@ -139,9 +139,9 @@ impl ModalModel {
     /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
     ///
     /// # Errors
-    /// Those of [`cosines`] and of `pair`; [`Error::Empty`] without parameters.
+    /// Those of [`signed_assurance`] and of `pair`; [`Error::Empty`] without parameters.
     pub(crate) fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
-        let cross = cosines(&modes.shapes, &test.shapes)?;
+        let cross = signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
         let pairing = pair(&cross)?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {

@@ -17,7 +17,7 @@ pub fn places_table(prepared: &Prepared) -> Table {
     for sensor in &prepared.placed {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
         let direction = Cell::text(format!("{sign}{}", DIRECTIONS[sensor.direction]));
-        let distance = sensor.distance.map_or(Cell::Blank, |distance| Cell::number(distance, Digits::Significant(3)));
+        let distance = sensor.distance.map_or(Cell::Blank, |distance| Cell::number(distance, Digits::Fixed(3)));
         table.row(&sensor.name, [Cell::count(sensor.grid), direction, distance]);
     }
     let all = prepared.data.sensors.len();

@@ -18,7 +18,7 @@ pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, us
     element.dof.iter().zip(&element.unit_mass).map(|(&row, unit)| (row, row, size * unit)).collect()
 }
 
-/// Those of $m\, t t^t$, a mass that moves with the degrees of freedom by the coefficients $t$.
+/// Those of $m t t^t$, a mass that moves with the degrees of freedom by the coefficients $t$.
 pub(crate) fn moving_mass_entries(motion: &[(usize, f64)], mass: f64) -> Vec<(usize, usize, f64)> {
     let pairs = motion.iter().flat_map(|a| motion.iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| (a.0, b.0, mass * a.1 * b.1)).collect()

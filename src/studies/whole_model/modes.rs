@@ -10,6 +10,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Most rows of a pencil that is solved as dense matrices.
 pub const MOST_DENSE_ROWS: usize = 150;
+/// What there are too few of when more modes are asked for than have a frequency.
+pub const FINITE: &str = "modes of finite frequency";
 /// Directions that are added to the subspace at once: as many repeated roots are found together.
 const BLOCK: usize = 8;
 /// Modes found beyond those asked for, so that the count can be made where two neighbors are apart.
@@ -46,7 +48,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
     check_count("modes", count, stiffness.rows())?;
     if stiffness.rows() <= MOST_DENSE_ROWS {
         let all = counted_modes(&stiffness.dense(), &mass.dense())?;
-        check_count("modes of finite frequency", count, all.vibrations.len())?;
+        check_count(FINITE, count, all.vibrations.len())?;
         let lowest: Vec<usize> = (0..count).collect();
         return Ok(CountedModes { vibrations: all.vibrations.select(&lowest), ..all });
     }
@@ -60,7 +62,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
             wanted = count + rigid + BEYOND;
             continue;
         }
-        check_count("modes of finite frequency", count, omega_squared.len() - rigid)?;
+        check_count(FINITE, count, omega_squared.len() - rigid)?;
         check_number(stiffness, mass, &omega_squared, rigid + count, found.is_all)?;
         let of = |places: Vec<usize>| (omega_squared.select_rows(&places), found.shapes.select_columns(&places));
         let ((_, rigid_body), (omega_squared, shapes)) =
