@@ -66,7 +66,7 @@ pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), 
     output.check()?;
     let prepared = Prepared::new(path)?;
     let subject = Subject::of_job(&prepared, None)?;
-    let tables = [doubts_table(&prepared)?, places_table(&prepared), paired_table(&subject)?];
+    let tables = [doubts_table(&prepared)?, places_table(&prepared, None)?, paired_table(&subject)?];
     output.write(&tables, || json::tables(&tables))
 }
 
@@ -97,7 +97,8 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let tables = [paired, factors, seen_table(&prepared, &finished)?, history];
     arguments.output.write(&tables, || json::document(json::subject(&subject)?))?;
     if let Some(folder) = &arguments.folder {
-        let extra = [seen_table(&prepared, &finished)?, places_table(&prepared), doubts_table(&prepared)?];
+        let extra =
+            [seen_table(&prepared, &finished)?, places_table(&prepared, Some(&finished))?, doubts_table(&prepared)?];
         let command = format!("corfem correlate {}", arguments.job.display());
         let mut files = vec![
             ("report.html".to_owned(), subject_page(&subject, &extra, &command)?.into_bytes()),

@@ -5,26 +5,39 @@ use crate::files::job::{ComparedModes, Finished, Prepared};
 use crate::files::test_data::DIRECTIONS;
 use crate::method::model::DynamicModel;
 use crate::present::table::{Cell, Digits, Table, counted};
+use crate::studies::metrics::coordinate_assurance;
 use crate::studies::preflight::{Finding, coarse_condensation, preflight};
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
 const COLLINEAR: f64 = 0.95;
 
-/// Every sensor with its grid, direction and distance.
-pub fn places_table(prepared: &Prepared) -> Table {
-    let table = Table::new("sensors", "Sensors on the model", "Sensor");
-    let mut table = table.columns(["grid", "direction", "distance"], "");
-    for sensor in &prepared.placed {
+/// Every sensor with its grid, direction and distance, and the coordinate modal assurance criterion (COMAC) of the first model and of
+/// the corrected one there.
+///
+/// # Errors
+/// Those of [`coordinate_assurance`].
+pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<Table, FileError> {
+    let models = finished.iter().flat_map(|finished| [&finished.first, &finished.last]);
+    let assurance = models.map(|model| {
+        let pairs: Vec<Option<usize>> = model.exact.pairing.analysis_mode.iter().copied().map(Some).collect();
+        coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)
+    });
+    let assurance = assurance.collect::<Result<Vec<_>, _>>()?;
+    let table = Table::new("sensors", "Sensors on the model", "Sensor").columns(["grid", "direction", "distance"], "");
+    let mut table = table.columns(["first COMAC", "corrected COMAC"].into_iter().take(assurance.len()), "");
+    for (row, sensor) in prepared.placed.iter().enumerate() {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
         let direction = Cell::text(format!("{sign}{}", DIRECTIONS[sensor.direction]));
         let distance = sensor.distance.map_or(Cell::Blank, |distance| Cell::number(distance, Digits::Fixed(3)));
-        table.row(&sensor.name, [Cell::count(sensor.grid), direction, distance]);
+        let place = [Cell::count(sensor.grid), direction, distance];
+        let assurance = assurance.iter().map(|assurance| Cell::number(assurance[row], Digits::Fixed(3)));
+        table.row(&sensor.name, place.into_iter().chain(assurance));
     }
     let all = prepared.data.sensors.len();
     if all > prepared.placed.len() {
         table.notes.push(format!("{} of the test's {all} sensors are not used.", all - prepared.placed.len()));
     }
-    table
+    Ok(table)
 }
 
 /// Everything doubtful of a job before its first step: what the pre-flight finds, test modes that are left out, and what the

@@ -114,7 +114,24 @@ pub fn history_table(subject: &Subject) -> Table {
         let exact = Cell::percent(stage.check.errors.sum(), RMS_PERCENT);
         table.row(row + 1, [Cell::count(iterations), Cell::text(&stage.stop), inner.unwrap_or(Cell::Blank), exact]);
     }
+    let swaps = swaps(subject).into_iter();
+    let words = |[pass, test, from, to]: [usize; 4]| format!("in pass {pass} test mode {test} from {from} to {to}");
+    let words: Vec<String> = swaps.map(words).collect();
+    if !words.is_empty() {
+        table.notes.insert(0, format!("Other modes of the model answer: {}.", words.join("; ")));
+    }
     table
+}
+
+/// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.
+pub fn swaps(subject: &Subject) -> Vec<[usize; 4]> {
+    let checks = std::iter::once(&subject.initial).chain(subject.stages.iter().map(|stage| &stage.check));
+    let pairs: Vec<&Vec<usize>> = checks.map(|check| &check.pairing.analysis_mode).collect();
+    let of_stage = |(stage, both): (usize, &[&Vec<usize>])| {
+        let modes = both[0].iter().zip(both[1]).enumerate().filter(|(_, (from, to))| from != to);
+        modes.map(|(test, (from, to))| [stage + 1, test + 1, from + 1, to + 1]).collect::<Vec<_>>()
+    };
+    pairs.windows(2).enumerate().flat_map(of_stage).collect()
 }
 
 /// Derivatives at the first model: percent of a frequency, and percent points of the error sum, for one percent of a parameter.
