@@ -105,8 +105,11 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ("factors.csv".to_owned(), render::csv(&[factor_table(&subject)]).into_bytes()),
             ("correlation.json".to_owned(), json::document(json::subject(&subject)?)?.into_bytes()),
         ];
-        files.extend(prepared.corrected_deck(&finished.factors)?.map(|deck| ("corrected.bdf".to_owned(), deck)));
+        // The report of a long correlation is not lost with a deck that cannot be written.
+        let deck = prepared.corrected_deck(&finished.factors);
+        files.extend(deck.as_ref().ok().cloned().flatten().map(|deck| ("corrected.bdf".to_owned(), deck)));
         put_all(folder, &files)?;
+        deck?;
     }
     if finished.is_interrupted {
         say("corfem: stopped by request; the best factors so far are given");

@@ -12,15 +12,18 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Whether the signals end the program at once, as they do by default.
 static FREE: AtomicBool = AtomicBool::new(true);
+/// How many hold them.
+static HOLDERS: AtomicUsize = AtomicUsize::new(0);
 /// The last signal that came while they did not; 0 for none.
 static CAME: AtomicUsize = AtomicUsize::new(0);
 
-/// The signals are held as long as this lives; one that came meanwhile ends the program then.
+/// The signals are held as long as this or another one lives; one that came meanwhile ends the program then.
 pub struct Held(());
 
 /// Holds the signals.
 pub fn hold() -> Held {
     take_over();
+    HOLDERS.fetch_add(1, SeqCst);
     FREE.store(false, SeqCst);
     Held(())
 }
@@ -39,6 +42,9 @@ fn take_over() {
 
 impl Drop for Held {
     fn drop(&mut self) {
+        if HOLDERS.fetch_sub(1, SeqCst) > 1 {
+            return;
+        }
         FREE.store(true, SeqCst);
         // A signal's number fits the type it came from.
         let came = CAME.load(SeqCst) as i32;

@@ -138,3 +138,21 @@ pub fn delta_wing() -> Files {
     let deck = deck::write(&BulkData::of_structure(model.structure()), "delta wing", &task()).expect("a deck");
     vec![("job.toml".to_owned(), job), ("model.bdf".to_owned(), deck), ("test.unv".to_owned(), write_universal(&data))]
 }
+
+/// Three rods in a row between a wall and masses of one, as a deck, with the three modes of rods of other areas: a job of few
+/// lines, every part of which a test may replace. Rod 1 has property and material 1, rods 2 and 3 have property and material 2;
+/// point mass `1k` is at grid k.
+pub fn rods() -> Files {
+    let real = shear_building(&[0.8e4, 1.1e4, 1.0e4], 1.0, None);
+    let modes = real.modes(&[1.0; 3], 3).expect("modes").vibrations;
+    let place = |grid: usize| Vector3::new(10.0 * (grid - 1) as f64, 0.0, 0.0);
+    let sensors = (2..=4).map(|grid| sensor(format!("S{grid}"), grid, 0, Some(place(grid))));
+    let deck = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,10.,0.,0.,,23456\nGRID,3,,20.,0.,0.,,23456\nGRID,4,,30.,0.,0.,,23456\n\
+                CROD,1,1,1,2\nCROD,2,2,2,3\nCROD,3,2,3,4\nPROD,1,1,.1\nPROD,2,2,.1\nMAT1,1,1.+6,,.3\nMAT1,2,1.+6,,.3\n\
+                CMASS2,12,1.,2,1\nCMASS2,13,1.,3,1\nCMASS2,14,1.,4,1\n";
+    let job = "[model]\ndeck = \"model.bdf\"\n[test]\nfile = \"test.csv\"\n[sensors]\n[compare]\nmethod = \"gauss_newton\"\n\
+               [[parameter]]\nname = \"a\"\nelements = [1]\n[[parameter]]\nname = \"b\"\nelements = [\"2-3\"]\n";
+    let data = test_data(&modes, sensors.collect());
+    let files = [("job.toml", job.to_owned()), ("model.bdf", deck.to_owned()), ("test.csv", write_csv(&data))];
+    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}

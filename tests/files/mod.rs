@@ -27,4 +27,5 @@ pub mod nastran95_output5;
 pub mod nastran95_process;
 pub mod nastran95_program;
 
+pub mod job_errors;
 pub mod jobs;

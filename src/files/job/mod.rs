@@ -265,7 +265,9 @@ pub(crate) fn labels(path: &Path, list: &[Labels]) -> Result<Vec<usize>, FileErr
                     .split_once('-')
                     .map(|(first, last)| (first.trim().parse::<usize>(), last.trim().parse::<usize>()));
                 match ends {
-                    Some((Ok(first), Ok(last))) if first <= last && last - first < MOST_LABELS => {
+                    Some((Ok(first), Ok(last)))
+                        if first <= last && last - first < MOST_LABELS.saturating_sub(all.len()) =>
+                    {
                         all.extend(first..=last)
                     }
                     _ => return Err(FileError::job(path, "a range of numbers such as \"10-19\"", text.clone())),
@@ -276,5 +278,5 @@ pub(crate) fn labels(path: &Path, list: &[Labels]) -> Result<Vec<usize>, FileErr
     Ok(all)
 }
 
-/// Most numbers in one range, against a slip of the finger that fills the memory.
+/// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;

@@ -6,6 +6,7 @@ use crate::files::error::FileError;
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::DIRECTIONS;
 use crate::method::assembly::element_matrices;
+use crate::method::error::Error;
 use crate::method::model::Range;
 use crate::method::structure::StructuralDof;
 use crate::studies::whole_model::elements::{mass_entries, moving_mass_entries, stiffness_entries};
@@ -79,7 +80,7 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
     let moving = bulk.moving_masses(&structure, &elements)?;
     let mass = sum_of(count, moving.iter().flat_map(|point| moving_mass_entries(&point.motion, point.mass)))?;
     let motion_of = bulk.motions(&structure);
-    let (mut parameters, mut members) = (Vec::new(), Vec::new());
+    let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
         if rule.matrix.is_some() {
             return Err(FileError::job(path, "parameters of a deck by elements or masses", "a matrix"));
@@ -92,6 +93,11 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
                     format!("elements of the deck in parameter {name}"),
                     label.to_string(),
                 ));
+            }
+            for &element in &labels {
+                if let Some(first) = owner.insert((rule.scales == Scales::Mass, element), name.clone()) {
+                    return Err(Error::SharedElement { element, first, second: name }.into());
+                }
             }
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
@@ -107,14 +113,9 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
                     let lumped = rows.iter().flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
                     let mut entries: Vec<_> = lumped.collect();
                     for point in &points {
-                        let point = bulk.masses.iter().find(|mass| mass.label == *point);
-                        let point = point.ok_or_else(|| {
-                            FileError::job(
-                                path,
-                                format!("point masses of the deck in parameter {name}"),
-                                "another number",
-                            )
-                        })?;
+                        let expected = || format!("point masses of the deck in parameter {name}");
+                        let unknown = || FileError::job(path, expected(), point.to_string());
+                        let point = bulk.masses.iter().find(|mass| mass.label == *point).ok_or_else(unknown)?;
                         for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
                             entries.extend(moving_mass_entries(
                                 &motion_of(StructuralDof { grid: point.grid, direction }),
@@ -152,13 +153,20 @@ fn groups(path: &Path, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, 
         m.property.is_some_and(|p| rule.properties.contains(&p)) || rule.materials.contains(&m.material)
     };
     elements.extend(deck.members.iter().filter(|(_, membership)| is_of(membership)).map(|(label, _)| *label));
-    let masses = labels(path, &rule.masses)?;
-    let (elements, name): (Vec<usize>, _) = (elements.into_iter().collect(), &rule.name);
+    let (has, name) = (|is: &dyn Fn(&deck::Membership) -> bool| deck.members.iter().any(|(_, m)| is(m)), &rule.name);
+    let property = rule.properties.iter().find(|p| !has(&|m| m.property == Some(**p)));
+    let material = rule.materials.iter().find(|own| !has(&|m| m.material == **own));
+    if let Some(label) = property.or(material) {
+        let expected = format!("properties and materials of the deck's elements in parameter {name}");
+        return Err(FileError::job(path, expected, label.to_string()));
+    }
+    let masses: BTreeSet<usize> = labels(path, &rule.masses)?.into_iter().collect();
+    let elements: Vec<usize> = elements.into_iter().collect();
     if elements.is_empty() && masses.is_empty() {
         return Err(FileError::job(path, format!("elements or masses in parameter {name}"), "none that the deck has"));
     }
     if !rule.each {
-        return Ok(vec![(name.clone(), elements, masses)]);
+        return Ok(vec![(name.clone(), elements, masses.into_iter().collect())]);
     }
     let of_elements = elements.into_iter().map(|label| (format!("{name} {label}"), vec![label], Vec::new()));
     let of_masses = masses.into_iter().map(|label| (format!("{name} mass {label}"), Vec::new(), vec![label]));
@@ -181,8 +189,29 @@ fn sum_of(count: usize, entries: impl Iterator<Item = (usize, usize, f64)>) -> R
 
 fn from_matrices(path: &Path, job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
     let stiffness = matrix(path, stiffness)?;
-    let mass = on_rows_of(&stiffness, matrix(path, mass)?)?;
     let count = stiffness.matrix.rows();
+    let component = |&(grid, component): &(usize, usize)| (grid, component.saturating_sub(1));
+    let own: Option<Vec<_>> = stiffness.rows.as_ref().map(|labels| labels.iter().map(component).collect());
+    let (labels, places) = match (&job.model.rows, &own) {
+        (Some(file), _) => rows(&beside(path, file))?,
+        (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
+        (None, None) => {
+            return Err(FileError::job(path, "model.rows for matrices that do not name their rows", "none"));
+        }
+    };
+    if labels.len() != count {
+        let expected = format!("{count} rows in model.rows, one a row of the stiffness");
+        return Err(FileError::job(path, expected, labels.len().to_string()));
+    }
+    if own.is_some_and(|own| own != labels) {
+        return Err(FileError::job(path, "model.rows in the order of the stiffness, which names its own", "another"));
+    }
+    let row_of: BTreeMap<_, usize> = labels.iter().enumerate().map(|(row, label)| (*label, row)).collect();
+    if row_of.len() != count {
+        return Err(FileError::job(path, "every grid and direction in one row of the matrices", "one in two"));
+    }
+    let on_rows = |file: &Path| on_rows(path, file, &row_of, matrix(path, file)?);
+    let mass = on_rows(mass)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
         let is_of_deck = !(rule.elements.is_empty()
@@ -190,38 +219,17 @@ fn from_matrices(path: &Path, job: &Job, stiffness: &Path, mass: &Path) -> Resul
             && rule.materials.is_empty()
             && rule.masses.is_empty());
         let file = rule.matrix.as_ref().filter(|_| !is_of_deck && !rule.each).ok_or_else(|| {
-            FileError::job(
-                path,
-                format!("a matrix, and nothing of a deck, in parameter {}", rule.name),
-                "no such entry",
-            )
+            let found = if rule.matrix.is_none() { "no matrix" } else { "entries of a deck" };
+            FileError::job(path, format!("a matrix, and nothing of a deck, in parameter {}", rule.name), found)
         })?;
-        let matrix = on_rows_of(&stiffness, matrix(path, file)?)?;
+        let matrix = on_rows(file)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
         };
         parameters.push(WholeParameter { name: rule.name.clone(), share, range: range(path, rule)? });
     }
-    let labels = stiffness.rows.clone();
     let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
-    let (labels, places) = match (&job.model.rows, labels) {
-        (Some(file), _) => rows(&beside(path, file))?,
-        (None, Some(labels)) => {
-            let component = |&(grid, component): &(usize, usize)| (grid, component.saturating_sub(1));
-            (labels.iter().map(component).collect(), BTreeMap::new())
-        }
-        (None, None) => {
-            return Err(FileError::job(path, "model.rows for matrices that do not name their rows", "none"));
-        }
-    };
-    if labels.len() != count {
-        return Err(FileError::job(
-            path,
-            format!("{count} rows in model.rows, one a row of the stiffness"),
-            labels.len().to_string(),
-        ));
-    }
     let motions = labels.into_iter().enumerate().map(|(row, at)| (at, vec![(row, 1.0)])).collect();
     let geometry = Geometry { places, elements: Vec::new() };
     let members = vec![Vec::new(); whole.parameters().len()];
@@ -237,15 +245,29 @@ fn matrix(path: &Path, file: &Path) -> Result<LabeledMatrix, FileError> {
     matrices::read(&file.display().to_string(), &bytes, wanted)
 }
 
-/// A matrix with its rows and columns in the order of the stiffness, where both name theirs.
-fn on_rows_of(stiffness: &LabeledMatrix, other: LabeledMatrix) -> Result<SparseMatrix, FileError> {
-    let (Some(expected), Some(found)) = (&stiffness.rows, &other.rows) else { return Ok(other.matrix) };
-    let count = expected.len();
-    let place_of: BTreeMap<_, usize> = expected.iter().enumerate().map(|(row, label)| (label, row)).collect();
-    // A row that the stiffness does not have lies outside and is refused.
-    let places: Vec<usize> = found.iter().map(|label| place_of.get(label).copied().unwrap_or(count)).collect();
-    let entries = other.matrix.entries().iter().map(|&(row, column, value)| (places[row], places[column], value));
-    Ok(SparseMatrix::new("matrix by labels", count, count, entries.collect())?)
+/// A matrix with its rows and columns in the order of the stiffness, where it names its own.
+fn on_rows(
+    path: &Path,
+    file: &Path,
+    row_of: &BTreeMap<(usize, usize), usize>,
+    matrix: LabeledMatrix,
+) -> Result<SparseMatrix, FileError> {
+    let Some(found) = &matrix.rows else { return Ok(matrix.matrix) };
+    if matrix.columns != matrix.rows {
+        let expected = format!("rows and columns of the same names in {}", file.display());
+        return Err(FileError::job(path, expected, "others"));
+    }
+    let place = |&(grid, component): &(usize, usize)| {
+        let at = (grid, component.saturating_sub(1));
+        let unknown = || {
+            let expected = format!("rows of the stiffness in {}", file.display());
+            FileError::job(path, expected, format!("grid {grid} component {component}"))
+        };
+        row_of.get(&at).copied().ok_or_else(unknown)
+    };
+    let places = found.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
+    let entries = matrix.matrix.entries().iter().map(|&(row, column, value)| (places[row], places[column], value));
+    Ok(SparseMatrix::new("matrix by labels", row_of.len(), row_of.len(), entries.collect())?)
 }
 
 /// Labels and places of a model's rows.
@@ -268,13 +290,11 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
         let letters = cells.get(1).copied().unwrap_or_default();
         let direction = DIRECTIONS.iter().position(|name| *name == letters).ok_or_else(wrong)?;
         labels.push((grid, direction));
-        let place: Vec<f64> =
-            cells[2..].iter().filter(|cell| !cell.is_empty()).filter_map(|cell| cell.parse().ok()).collect();
+        let place: Vec<Option<f64>> =
+            cells[2..].iter().map(|cell| cell.parse().ok().filter(|number: &f64| number.is_finite())).collect();
         match place[..] {
-            [x, y, z] if x.is_finite() && y.is_finite() && z.is_finite() => {
-                places.insert(grid, Vector3::new(x, y, z));
-            }
-            [] if cells[2..].iter().all(|cell| cell.is_empty()) => {}
+            [Some(x), Some(y), Some(z)] => drop(places.insert(grid, Vector3::new(x, y, z))),
+            _ if cells[2..].iter().all(|cell| cell.is_empty()) => {}
             _ => return Err(wrong()),
         }
     }

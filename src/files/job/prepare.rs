@@ -70,6 +70,11 @@ impl Prepared {
         if let Some(&mode) = numbers.iter().find(|mode| !(1..=available).contains(*mode)) {
             return Err(FileError::job(path, format!("test.modes from 1 to {available}"), mode.to_string()));
         }
+        if let Some(mode) =
+            (1..numbers.len()).map(|at| numbers[at]).zip(1..).find(|(mode, at)| numbers[..*at].contains(mode))
+        {
+            return Err(FileError::job(path, "every mode of test.modes once", format!("{} again", mode.0)));
+        }
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
@@ -88,6 +93,7 @@ impl Prepared {
             prepared.orthogonalize()?;
         }
         prepared.leave_out_unpaired()?;
+        prepared.weights()?;
         Ok(prepared)
     }
 

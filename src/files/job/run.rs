@@ -1,6 +1,6 @@
 //! A prepared job is run: the factors found, what they are worth, and the deck that has them.
 
-use super::{Method, Prepared};
+use super::{Method, ParameterRule, Prepared};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
@@ -52,9 +52,13 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode of the job.
+    /// [`FileError::Job`] for weights that are not one a test mode, and for those without Gauss–Newton steps, which alone know them.
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
+        if compare.method == Method::Paper && (compare.frequency_weights.is_some() || compare.shape_weights.is_some()) {
+            let expected = "compare.method = \"gauss_newton\" with weights";
+            return Err(FileError::job(&self.path, expected, "the paper's, whose error sum has none"));
+        }
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
         let list = |what: &str, weights: &Option<Vec<f64>>| match weights {
             Some(weights) if weights.len() != named => {
@@ -94,7 +98,8 @@ impl Prepared {
         for ((parameter, members), &factor) in
             self.source.whole.parameters().iter().zip(&self.source.members).zip(factors)
         {
-            if members.is_empty() && factor != 1.0 {
+            let has_masses = |rule: &ParameterRule| rule.name == parameter.name && !rule.masses.is_empty();
+            if (members.is_empty() || self.job.parameters.iter().any(has_masses)) && factor != 1.0 {
                 let expected =
                     format!("parameters of elements for a corrected deck; {} is one of point masses", parameter.name);
                 return Err(FileError::job(&self.path, expected, format!("a factor of {factor}")));
@@ -115,7 +120,7 @@ impl Prepared {
 /// Runs a job. `progress` is told of every pass or analysis in words; `go_on` is asked after each whether to.
 ///
 /// # Errors
-/// Those of the analyses and of the loops; [`FileError::Job`] for weights without Gauss–Newton steps, which alone know them.
+/// Those of the analyses, of the loops and of [`Prepared::weights`].
 pub fn run(
     prepared: &Prepared,
     mut progress: impl FnMut(&str),
@@ -131,10 +136,6 @@ pub fn run(
         !is_interrupted.get()
     };
     let (history, factors) = match compare.method {
-        Method::Paper if compare.frequency_weights.is_some() || compare.shape_weights.is_some() => {
-            let expected = "compare.method = \"gauss_newton\" with weights";
-            return Err(FileError::job(&prepared.path, expected, "the paper's, whose error sum has none"));
-        }
         Method::Paper => {
             let told = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;

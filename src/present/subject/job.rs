@@ -29,7 +29,11 @@ impl Subject {
         let base = match finished.map(|finished| &finished.history) {
             Some(History::Paper(run)) => Self::of(&stem, &names, &first.test, run),
             Some(History::GaussNewton(Some((run, _)))) => Self::of_weighted(&stem, &names, &first, run),
-            _ => Self::untouched(&stem, &names, &first.test, &first.exact),
+            history => Self {
+                best: history.map(|_| 0),
+                stages: finished.into_iter().map(stopped).collect(),
+                ..Self::untouched(&stem, &names, &first.test, &first.exact)
+            },
         };
         let mass = prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last));
         Ok(Self {
@@ -69,6 +73,12 @@ impl Subject {
         let stages: Vec<Stage> = stages.collect();
         Self { best: stages.len().checked_sub(1), stages, ..Self::untouched(name, names, &first.test, &first.exact) }
     }
+}
+
+/// The best that a stopped run has come to.
+fn stopped(finished: &Finished) -> Stage {
+    let (factors, check) = (finished.factors.clone(), finished.last.exact.clone());
+    Stage { factors, check, inner: None, stop: "request".to_owned() }
 }
 
 fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
 pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
 
-/// Weights of every test mode: one over a standard deviation.
+/// Weights of every test mode: one over a standard deviation, or zero for what does not count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
     /// Of its relative frequency error.
@@ -38,7 +38,11 @@ impl Weights {
         [&self.frequency, &self.shape]
             .into_iter()
             .try_for_each(|weights| check_length("weights", weights.len(), modes))?;
-        self.frequency.iter().chain(&self.shape).try_for_each(|&weight| positive_setting("weight", weight))
+        let (expected, all) =
+            ("a finite number from zero up, one of them positive", self.frequency.iter().chain(&self.shape));
+        let wrong = all.clone().find(|weight| !(0.0..f64::INFINITY).contains(*weight)).copied();
+        let wrong = wrong.or_else(|| all.clone().all(|weight| *weight == 0.0).then_some(0.0));
+        wrong.map_or(Ok(()), |found| Err(Error::Setting { name: "weight", expected, found }))
     }
 }
 

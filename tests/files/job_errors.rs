@@ -1,0 +1,309 @@
+//! Mistakes in jobs: every one is named with what was expected and what was found.
+
+use crate::common::jobs::{Files, building, rods};
+use corfem::files::job::{Prepared, run};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// A job in a folder of its own.
+fn placed(files: &Files) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).expect("written"));
+    let path = folder.path().join("job.toml");
+    (folder, path)
+}
+
+/// The files with one text replaced by another in one of them.
+fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
+    let text = &mut files.iter_mut().find(|(name, _)| name == file).expect("a file").1;
+    assert!(text.contains(old), "{old} is not in {text}");
+    *text = text.replacen(old, new, 1);
+    files
+}
+
+/// What is said of a job, without its folder.
+fn said(files: &Files) -> String {
+    let (folder, path) = placed(files);
+    let error = Prepared::new(&path).and_then(|prepared| run(&prepared, |_| {}, || true)).map(drop);
+    let error = error.expect_err("a mistake").to_string();
+    error.replace(&format!("{}/", folder.path().display()), "")
+}
+
+/// Mistakes in the small job: what is replaced by what, and what is then said.
+fn check(mistakes: &[(&str, &str, &str)]) {
+    for (old, new, expected) in mistakes {
+        let error = said(&with(rods(), "job.toml", old, new));
+        assert!(error.contains(expected), "{new}: {error}");
+    }
+}
+
+const A: &str = "elements = [1]";
+const SENSORS: &str = "[sensors]";
+const COMPARE: &str = "[compare]";
+
+#[test]
+fn the_small_jobs_are_right_before_their_mistakes() {
+    for files in [rods(), building()] {
+        let (_folder, path) = placed(&files);
+        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+#[test]
+fn a_job_names_its_model_once_and_whole() {
+    const DECK: &str = "deck = \"model.bdf\"";
+    let what = "job.toml: expected either model.deck, or model.stiffness and model.mass, found";
+    for (model, found) in [
+        ("", "neither"),
+        ("deck = \"model.bdf\"\nstiffness = \"k.mtx\"", "a deck and matrices"),
+        ("deck = \"model.bdf\"\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"", "a deck and matrices"),
+        ("stiffness = \"k.mtx\"", "one matrix alone"),
+        ("mass = \"m.mtx\"", "one matrix alone"),
+    ] {
+        assert_eq!(said(&with(rods(), "job.toml", DECK, model)), format!("{what} {found}"));
+    }
+    check(&[
+        ("model.bdf", "no.bdf", "no.bdf: expected to read it, found an error"),
+        ("test.csv", "no.csv", "no.csv: expected to read it, found an error"),
+        ("[model]", "[model]\ndek = 1", "unknown field `dek`"),
+        ("[model]", "[model", "job.toml: expected a job as corfem init explains it, found TOML parse error at line 1"),
+        ("gauss_newton", "newton", "unknown variant `newton`"),
+    ]);
+    let mut none = rods();
+    none[0].1 = none[0].1.split("[[parameter]]").next().expect("a beginning").to_owned();
+    assert_eq!(said(&none), "job.toml: expected at least one [[parameter]], found none");
+    let (folder, path) = placed(&rods());
+    std::fs::remove_file(&path).expect("removed");
+    let missing = Prepared::new(&path).map(drop).expect_err("no job").to_string();
+    assert!(missing.starts_with(&format!("{}/job.toml: expected to read it", folder.path().display())), "{missing}");
+}
+
+#[test]
+fn a_parameter_names_what_the_deck_has() {
+    check(&[
+        (A, "elements = [\"9-3\"]", "job.toml: expected a range of numbers such as \"10-19\", found 9-3"),
+        (A, "elements = [\"1-x\"]", "expected a range of numbers such as \"10-19\", found 1-x"),
+        (A, "elements = [\"1-99999999999\"]", "expected a range of numbers such as \"10-19\", found 1-99999999999"),
+        (A, "elements = [1, 9]", "expected elements of the deck in parameter a, found 9"),
+        (A, "properties = [1, 7]", "expected properties and materials of the deck's elements in parameter a, found 7"),
+        (A, "materials = [8]", "expected properties and materials of the deck's elements in parameter a, found 8"),
+        (A, "", "expected elements or masses in parameter a, found none that the deck has"),
+        (A, "matrix = \"k.mtx\"", "expected parameters of a deck by elements or masses, found a matrix"),
+        (A, "masses = [12]", "expected scales = \"mass\" for point masses, found stiffness in parameter a"),
+        (A, "masses = [12, 19]\nscales = \"mass\"", "expected point masses of the deck in parameter a, found 19"),
+        (A, "elements = [1]\nlower = 0.5", "expected both lower and upper in parameter a, found one of them"),
+        (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
+        (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
+        (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
+    ]);
+}
+
+#[test]
+fn properties_materials_masses_and_each_say_what_they_scale() {
+    let members = |old: &str, new: &str| {
+        let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
+        let source = Prepared::new(&path).unwrap_or_else(|error| panic!("{new}: {error}")).source;
+        let names: Vec<String> = source.whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
+        (names, source.members)
+    };
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let b = "elements = [\"2-3\"]";
+    for by in ["properties = [2]", "materials = [2]", "properties = [2]\nmaterials = [2]\nelements = [3, 2]"] {
+        assert_eq!(members(b, by), (names(&["a", "b"]), vec![vec![1], vec![2, 3]]), "{by}");
+    }
+    let each = members(b, "properties = [2]\neach = true");
+    assert_eq!(each, (names(&["a", "b 2", "b 3"]), vec![vec![1], vec![2], vec![3]]));
+    let masses = members(b, "masses = [\"13-14\"]\nscales = \"mass\"\neach = true");
+    assert_eq!(masses, (names(&["a", "b mass 13", "b mass 14"]), vec![vec![1], vec![], vec![]]));
+}
+
+/// A mass that is named twice counts once, and a deck cannot say what factors of point masses say.
+#[test]
+fn point_masses_count_once_and_have_no_corrected_deck() {
+    let masses = |list: &str| {
+        let rule = format!("elements = [1]\nmasses = {list}\nscales = \"mass\"");
+        let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
+        (folder, Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")))
+    };
+    let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
+    assert_eq!(once.source.whole, twice.source.whole);
+    assert!(once.corrected_deck(&[1.0, 1.2]).expect("a deck").is_some());
+    let refused = once.corrected_deck(&[1.1, 1.0]).expect_err("a factor of point masses").to_string();
+    assert!(refused.contains("a is one of point masses, found a factor of 1.1"), "{refused}");
+}
+
+#[test]
+fn sensors_are_those_of_the_test_at_what_moves() {
+    let place = |sensor: &str, grid: usize, direction: &str| {
+        format!("[sensors]\nplace = [{{ sensor = \"{sensor}\", grid = {grid}, direction = \"{direction}\" }}]")
+    };
+    let distant = "[sensors]\nby = \"nearest\"\ndistance = 0.5";
+    check(&[
+        (SENSORS, "[sensors]\nleave_out = [\"S9\"]", "expected names of sensors that the test has, found S9"),
+        (SENSORS, &place("S9", 2, "x"), "expected names of sensors that the test has, found S9"),
+        (SENSORS, &place("S2", 1, "x"), "that moves for sensor S2, found grid 1 x"),
+        (SENSORS, &place("S2", 2, "z"), "that moves for sensor S2, found grid 2 z"),
+        (SENSORS, &place("S2", 77, "x"), "that moves for sensor S2, found grid 77 x"),
+        (SENSORS, &place("S2", 2, "w"), "expected a direction x, y, z or -x, -y, -z of sensor S2, found w"),
+        (SENSORS, &place("S2", 3, "x"), "expected one sensor a degree of freedom, found S2 and S3 at grid 3 x"),
+        (SENSORS, "[sensors]\nby = \"name\"", "expected sensors of the test on the model, found none"),
+    ]);
+    let far = with(with(rods(), "job.toml", SENSORS, distant), "test.csv", "+,10.0,", "+,11.0,");
+    assert_eq!(said(&far), "job.toml: expected sensor S2 within 0.5 of a grid, found grid 2 at 1.0000");
+    let nowhere = with(with(rods(), "job.toml", SENSORS, distant), "test.csv", "+,10.0,0.0,0.0", "+,,,");
+    let expected = "job.toml: expected a place of sensor S2 and of the model's grids, found none in the test";
+    assert_eq!(said(&nowhere), expected);
+    let rows = building().into_iter().map(|(name, text)| match &name[..] {
+        "rows.csv" => (name, (1..=10).map(|row| format!("{row},x\n")).collect()),
+        "job.toml" => (name, format!("{text}\n[sensors]\nby = \"nearest\"\n")),
+        _ => (name, text),
+    });
+    let error = said(&rows.collect());
+    assert!(error.ends_with("found none in the model"), "{error}");
+    let unnamed = said(&with(rods(), "test.csv", "\n2,", "\n,"));
+    assert!(unnamed.ends_with("expected a grid for sensor S2, found none in the test"), "{unnamed}");
+}
+
+#[test]
+fn a_minus_before_the_direction_turns_the_sensor() {
+    let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
+    let shapes = |files: &Files| {
+        let (_folder, path) = placed(files);
+        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).test.shapes
+    };
+    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", SENSORS, turned)));
+    assert_eq!(plain.row(0), -turned.row(0));
+    assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
+}
+
+#[test]
+fn test_modes_are_there_and_named_once() {
+    const FILE: &str = "file = \"test.csv\"";
+    let modes = |list: &str| format!("{FILE}\nmodes = {list}");
+    check(&[
+        (FILE, &modes("[4]"), "expected test.modes from 1 to 3, found 4"),
+        (FILE, &modes("[0]"), "expected test.modes from 1 to 3, found 0"),
+        (FILE, &modes("[2, 1, 2]"), "expected every mode of test.modes once, found 2 again"),
+        (FILE, &modes("[]"), "test modes: expected at least one, found none"),
+        (COMPARE, "[compare]\nanalysis_modes = 0", "expected"),
+        (COMPARE, "[compare]\nanalysis_modes = 4", "expected at most"),
+        (COMPARE, "[compare]\nstarts = 0", "starts: expected at least one, found none"),
+        (COMPARE, "[compare]\nfloor = 1.5", "with a modal assurance of 1.5 or more for one test mode at least"),
+    ]);
+}
+
+#[test]
+fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
+    // One sensor alone that moves is like none of the three.
+    let mut files = rods();
+    let text = &mut files[2].1;
+    let more = [",999.0", ",mode 4", ",1.0", ",-1.0", ",1.0"];
+    assert_eq!(text.lines().count(), more.len());
+    *text = text.lines().zip(more).map(|(line, more)| format!("{line}{more}\n")).collect();
+    let (_folder, path) = placed(&files);
+    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(prepared.modes, [0, 1, 2]);
+    assert!(matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0));
+}
+
+#[test]
+fn weights_are_one_a_test_mode_and_some_may_be_zero() {
+    let paper = with(rods(), "job.toml", "method = \"gauss_newton\"", "shape_weights = [1, 1, 1]");
+    let error = said(&paper);
+    assert!(error.contains("expected compare.method = \"gauss_newton\" with weights, found the paper's"), "{error}");
+    check(&[
+        (COMPARE, "[compare]\nshape_weights = [1, 1]", "expected 3 shape_weights, one a test mode of the job, found 2"),
+        (COMPARE, "[compare]\nfrequency_weights = [1]", "expected 3 frequency_weights, one a test mode of the job"),
+        (COMPARE, "[compare]\nfrequency_weights = [1, -1, 1]", "weight: expected a finite number from zero up"),
+        (COMPARE, "[compare]\nshape_deviation = 0.0", "weight: expected a finite number from zero up"),
+        (
+            COMPARE,
+            "[compare]\nfrequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
+            "one of them positive, found 0",
+        ),
+    ]);
+    let frequencies = with(rods(), "job.toml", COMPARE, "[compare]\nshape_weights = [0, 0, 0]");
+    let (_folder, path) = placed(&frequencies);
+    let prepared = Prepared::new(&path).expect("a job");
+    let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    // Without shapes the frequencies come as close as two factors allow.
+    let [first, last] = [&finished.first, &finished.last].map(|model| model.exact.errors.frequency);
+    assert!(last < first, "{last} after {first}");
+    assert_eq!(prepared.weights().expect("weights").shape, [0.0; 3]);
+}
+
+#[test]
+fn rows_of_matrices_are_a_table_of_grids_and_directions() {
+    let wrong = "rows.csv: expected lines of grid, direction and perhaps x, y, z, found line 3: ";
+    for line in ["2", "2,q", "x,x", "2,x,1.", "2,x,0.,a,0.,0.", "2,x,,0.,0.,240", "2,x,0.,0.,inf", "-2,x"] {
+        let error = said(&with(building(), "rows.csv", "2,x,0.,0.,240", line));
+        assert_eq!(error, format!("{wrong}{line}"));
+    }
+    let short = said(&with(building(), "rows.csv", "2,x,0.,0.,240\n", ""));
+    assert_eq!(short, "job.toml: expected 10 rows in model.rows, one a row of the stiffness, found 9");
+    let twice = said(&with(building(), "rows.csv", "2,x,0.,0.,240", "1,x,0.,0.,240"));
+    assert!(twice.contains("expected every grid and direction in one row of the matrices"), "{twice}");
+    let none = said(&with(building(), "job.toml", "rows = \"rows.csv\"", ""));
+    assert_eq!(none, "job.toml: expected model.rows for matrices that do not name their rows, found none");
+    let story = "matrix = \"story_1.mtx\"";
+    for (rule, found) in [("", "no matrix"), ("matrix = \"story_1.mtx\"\nelements = [1]", "entries of a deck")] {
+        let error = said(&with(building(), "job.toml", story, rule));
+        assert_eq!(
+            error,
+            format!("job.toml: expected a matrix, and nothing of a deck, in parameter story 1, found {found}")
+        );
+    }
+}
+
+/// DMIG of the chain of the rods: the stiffness names its rows in ascending order, the mass misses one.
+fn named_matrices(mass: &[(usize, f64)]) -> Files {
+    let card = |name: &str, a: usize, b: usize, value: f64| format!("DMIG,{name},{a},1,,{b},1,{value:?}\n");
+    let header = |name: &str| format!("DMIG,{name},0,6,2,0\n");
+    let chain: String = (2..=4)
+        .rev()
+        .flat_map(|grid| {
+            let own = card("KAAX", grid, grid, if grid < 4 { 2e4 } else { 1e4 });
+            [Some(own), (grid > 2).then(|| card("KAAX", grid - 1, grid, -1e4))].into_iter().flatten()
+        })
+        .collect();
+    let first = header("KONE") + &card("KONE", 2, 2, 1e4);
+    let mass = mass.iter().map(|&(grid, value)| card("MAAX", grid, grid, value)).collect::<String>();
+    let model = "stiffness = \"model.pch#KAAX\"\nmass = \"model.pch#MAAX\"";
+    let mut files = with(rods(), "job.toml", "deck = \"model.bdf\"", model);
+    files[0].1 = files[0].1.split("[[parameter]]").next().expect("a beginning").to_owned()
+        + "[[parameter]]\nname = \"a\"\nmatrix = \"model.pch#KONE\"\n";
+    files.push(("model.pch".to_owned(), header("KAAX") + &chain + &first + &header("MAAX") + &mass));
+    files
+}
+
+#[test]
+fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
+    let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
+    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let (_, mass) = prepared.source.whole.at(&[1.0]).expect("matrices");
+    assert_eq!(mass.entries(), [(1, 1, 2.0), (2, 2, 3.0)], "grid 2 has none");
+    let stranger = said(&named_matrices(&[(3, 1.0), (9, 1.0)]));
+    assert_eq!(stranger, "job.toml: expected rows of the stiffness in model.pch#MAAX, found grid 9 component 1");
+    let unknown = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", "#KTWO"));
+    assert!(unknown.contains("model.pch, line 1") && unknown.contains("found KAAX, KONE, MAAX"), "{unknown}");
+    let ambiguous = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", ""));
+    assert!(ambiguous.contains("found KAAX, KONE, MAAX"), "{ambiguous}");
+}
+
+/// Matrices without names of their own beside one with: the table of rows gives the order of both.
+#[test]
+fn a_table_of_rows_orders_matrices_that_name_theirs() {
+    let dmig: String = (1..=10).map(|grid| format!("DMIG,M,{grid},1,,{grid},1,{:?}\n", grid as f64)).collect();
+    let mut files = with(building(), "job.toml", "mass.mtx", "mass.pch");
+    let rows: String = (1..=10).rev().map(|row| format!("{row},x\n")).collect();
+    files.iter_mut().filter(|(name, _)| name == "rows.csv").for_each(|(_, text)| text.clone_from(&rows));
+    files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
+    let files = with(files, "job.toml", "analysis_modes = 10", "analysis_modes = 10\nfloor = 0.0");
+    let (_folder, path) = placed(&files);
+    let source = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).source;
+    let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
+    assert_eq!(
+        mass.entries().iter().map(|entry| entry.2).collect::<Vec<_>>(),
+        [10., 9., 8., 7., 6., 5., 4., 3., 2., 1.]
+    );
+}
