@@ -100,12 +100,14 @@ pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
     let mut table = Table::new("suspects", "Suspects: what one parameter alone explains", "Parameter")
         .columns(["factor", "evidence", "paper's factor"], "")
         .note(format!(
-            "Evidence: how far half the weighted squared error, which is {:.3e} from {} measured numbers, falls when this \
-            parameter alone has this factor. It is the logarithm of a likelihood ratio: differences of less than about three say \
-            nothing. Where the first leaves much more than half a unit a number, several are wrong, and it need not be among them. \
-            Paper's factor: unlimited, of the first iteration.",
+            "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone \
+            has this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first \
+            leaves much more than half a unit a number, several are wrong, and it need not be among them. Modes are combined \
+            from {} of the first model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the \
+            first iteration.",
             0.5 * residuals.norm_squared(),
             residuals.len(),
+            first.exact.modes.len(),
         ));
     for suspect in suspects.iter().take(MOST_SUSPECTS) {
         let slope = slopes.iter().find(|slope| slope.parameter == suspect.parameter);
