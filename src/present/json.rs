@@ -18,12 +18,15 @@ use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
 use crate::method::structure::DIRECTIONS;
+use crate::studies::coverage::Coverage;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
+use crate::studies::localization::Located;
 use crate::studies::matrix_comparison::MatrixComparison;
 use crate::studies::noisy_modes::NoisyModes;
 use crate::studies::preflight::Finding;
 use crate::studies::preflight::rates::Rates;
+use crate::studies::weighted::comparison::Compared;
 use crate::studies::whole_modes::WholeModes;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -179,6 +182,16 @@ pub fn noisy_modes(study: &NoisyModes) -> Result<String, PresentError> {
 pub fn preflight(found: &[(String, Vec<Finding>)], rates: &[Rates]) -> Result<String, PresentError> {
     let structure = |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
     document(json!({ "structures": found.iter().map(structure).collect::<Value>(), "rates": rates }))
+}
+
+/// How often each culprit is found; panels by their numbers.
+pub fn localization(located: &[Located]) -> Result<String, PresentError> {
+    document(json!({ "located": located }))
+}
+
+/// Structures before correction, by the paper's rule and by the weighted one, and how often intervals hold the truth.
+pub fn weighted(compared: &[[Compared; 3]], coverages: &[Coverage]) -> Result<String, PresentError> {
+    document(json!({ "structures": compared, "coverage": coverages }))
 }
 
 /// Tables cell by cell: what is computed as an object, what is printed as text.

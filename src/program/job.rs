@@ -10,7 +10,7 @@ use corfem::files::job::{Prepared, TEMPLATE, TEST_TEMPLATE, run};
 use corfem::present::page::subject_page;
 use corfem::present::subject::Subject;
 use corfem::present::tables::deck::not_read;
-use corfem::present::tables::job::{doubts_table, places_table, seen_table};
+use corfem::present::tables::job::{doubts_table, places_table, seen_table, suspects_table};
 use corfem::present::tables::subject::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -60,13 +60,14 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
     put(arguments.output.as_deref(), if arguments.test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
-/// Says everything doubtful of a job, without a step.
+/// Says everything doubtful of a job and ranks its parameters, without a step.
 pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), PresentError> {
     let Some(path) = job else { return super::studies::check(output) };
     output.check()?;
     let prepared = Prepared::new(path)?;
     let subject = Subject::of_job(&prepared, None)?;
-    let tables = [doubts_table(&prepared)?, places_table(&prepared, None)?, paired_table(&subject)?];
+    let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
+    let tables = [doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects];
     output.write(&tables, || json::tables(&tables))
 }
 

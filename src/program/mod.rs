@@ -22,7 +22,9 @@ use output::{OutputArguments, say};
 use pictures::FolderArguments;
 use place::put;
 use std::process::ExitCode;
-use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
+use studies::{
+    DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments, WeightedArguments,
+};
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -74,6 +76,10 @@ enum Command {
     Init(InitArguments),
     /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
     Check(CheckArguments),
+    /// Make each panel of the box too thin in turn, and count how often it is named as the wrong one
+    Localize(LocalizeArguments),
+    /// Compare the paper's rule with weighted Gauss–Newton steps, and count how often their 95 % intervals hold the truth
+    Weighted(WeightedArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -113,6 +119,8 @@ pub fn run() -> ExitCode {
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments).map(|()| true),
+        Some(Command::Localize(arguments)) => studies::localize(&arguments).map(|()| true),
+        Some(Command::Weighted(arguments)) => studies::weighted(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem tables`, `corfem fewer-modes`, `corfem matrices`, `corfem noise`, `corfem check` and `corfem delta-wing`.
+//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `localize`, `weighted` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::settings::SettingsArguments;
@@ -9,12 +9,16 @@ use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
 use corfem::cases::readings::{READINGS, all_columns, detection};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::present::{PresentError, json, tables};
+use corfem::studies::coverage;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
+use corfem::studies::localization;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
 use corfem::studies::preflight::Specimen;
 use corfem::studies::preflight::rates::{self, all_rates};
+use corfem::studies::weighted::comparison::compare_all;
+use corfem::studies::weighted::gauss_newton::WeightedSettings;
 
 #[derive(Debug, Args)]
 pub struct TablesArguments {
@@ -33,6 +37,24 @@ pub struct MatricesArguments {
     /// How many test modes, the lowest, the corrections are given
     #[arg(long, value_name = "N", default_value_t = USUAL_TEST_MODES)]
     test_modes: usize,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct LocalizeArguments {
+    /// How many noisy tests of each panel
+    #[arg(long, value_name = "N", default_value_t = *localization::SEEDS.end(), value_parser = clap::value_parser!(u64).range(1..))]
+    tests: u64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct WeightedArguments {
+    /// How many noisy tests of each structure
+    #[arg(long, value_name = "N", default_value_t = *coverage::SEEDS.end(), value_parser = clap::value_parser!(u64).range(1..))]
+    tests: u64,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -119,6 +141,23 @@ pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
     let mut tables = vec![tables::preflight::findings_table(&found)];
     tables.extend(tables::preflight::rate_tables(&rates));
     output.write(&tables, || json::preflight(&found, &rates))
+}
+
+/// Makes each panel of the box too thin in turn, and writes how often it is found.
+pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments) -> Result<(), PresentError> {
+    output.check()?;
+    let located = localization::localization(1..=*tests)?;
+    output.write(&tables::weighted::localization_tables(&located), || json::localization(&located))
+}
+
+/// Writes the paper's rule and the weighted one side by side, and how often the weighted one's intervals hold the truth.
+pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments) -> Result<(), PresentError> {
+    output.check()?;
+    let compared = compare_all(&WeightedSettings::default())?;
+    let coverages = coverage::all_coverages(1..=*tests)?;
+    let mut tables = tables::weighted::coverage_tables(&coverages);
+    tables.insert(0, tables::weighted::rules_table(&compared));
+    output.write(&tables, || json::weighted(&compared, &coverages))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

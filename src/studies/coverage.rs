@@ -71,7 +71,7 @@ pub fn coverage(known: &Known, noise: Noise, seeds: RangeInclusive<u64>) -> Resu
     Ok(Coverage { name: known.name.clone(), tests, parameters })
 }
 
-/// Coverage on Cases 2 and 3 and on the delta wing, with [`Noise::USUAL`].
+/// Coverage on Cases 2 and 3, on the delta wing, and on [`Known::case_2_by_bays`], with [`Noise::USUAL`].
 ///
 /// Where upper and lower cover of a bay are alike, they do the same to every mode: Case 2 leaves their ratio to the prior. In
 /// Case 3 they begin unlike, and near the truth modes depend on the ratio by its square alone, which no linear interval describes.
@@ -79,6 +79,6 @@ pub fn coverage(known: &Known, noise: Noise, seeds: RangeInclusive<u64>) -> Resu
 /// # Errors
 /// Those of the structures and of [`coverage`].
 pub fn all_coverages(seeds: RangeInclusive<u64>) -> Result<Vec<Coverage>, CaseError> {
-    let all = [Known::of_case(2)?, Known::of_case(3)?, Known::delta_wing()?];
+    let all = [Known::of_case(2)?, Known::of_case(3)?, Known::delta_wing()?, Known::case_2_by_bays()?];
     all.iter().map(|known| coverage(known, Noise::USUAL, seeds.clone())).collect()
 }

@@ -216,6 +216,8 @@ pub const WEIGHTED_FACTOR: f64 = 1e-3;
 pub const COVERAGE: f64 = 0.02;
 /// The same for one parameter: four standard errors of a thousand tests, 0.7 % each.
 pub const LEAST_PARAMETER_COVERAGE: f64 = 0.92;
+/// Coverage over a thousand tests in a golden, in percent: one at an interval's end may fall on its other side elsewhere.
+pub const GOLDEN_COVERAGE: f64 = 0.11;
 /// Coverage in twenty tests, over a dozen parameters: their errors are correlated, so that it scatters by some percent.
 pub const FEW_COVERAGE: f64 = 0.88;
 /// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.

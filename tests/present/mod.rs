@@ -13,3 +13,4 @@ pub mod preflight_tables;
 pub mod published_tables;
 pub mod render;
 pub mod subject;
+pub mod weighted_tables;

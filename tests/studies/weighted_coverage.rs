@@ -1,56 +1,22 @@
 //! How often 95 % intervals hold the truth, and how often a culprit is found.
 
+use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{
-    COVERAGE, FEW_COVERAGE, LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR,
+    COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE,
+    MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR,
 };
 use crate::studies::weighted::at;
 use corfem::cases::Case;
-use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::modes::{ModeSet, solve};
-use corfem::studies::coverage::{Coverage, SEEDS, SEEN, all_coverages, coverage};
+use corfem::present::render::csv;
+use corfem::present::tables::weighted::{coverage_tables, localization_tables};
+use corfem::studies::coverage::{SEEDS, SEEN, all_coverages};
 use corfem::studies::localization::{self, NOISE, by_single_fit, localization};
-use corfem::studies::noisy_modes::Noise;
-use corfem::studies::weighted::comparison::Known;
 use corfem::studies::weighted::residuals::{Weights, residuals};
-use std::ops::RangeInclusive;
-
-/// Case 2 with the two covers of each bay, which no mode tells apart, as one parameter.
-fn by_bays() -> Known {
-    let known = Known::of_case(2).unwrap();
-    let bays = [[2, 15], [9, 11], [4, 8]];
-    let alone = known.model.parameters().iter().filter(|p| !bays.as_flattened().contains(&p.members[0]));
-    let groups = bays.iter().map(|bay| Parameter::group(&format!("{} and {}", bay[0], bay[1]), bay));
-    let parameters: Vec<Parameter> = alone.cloned().chain(groups).collect();
-    let truth = parameters.iter().map(|parameter| known.truth[parameter.members[0] - 1]).collect();
-    let (structure, t, mass) = (known.model.structure(), known.model.load_distribution(), known.model.mass());
-    let model = FiniteElementModel::new(structure.clone(), t.clone(), mass.clone(), parameters).unwrap();
-    Known { name: "Case 2 by bays".to_owned(), model, truth, ..known }
-}
-
-fn print(all: &[Coverage]) {
-    for of in all {
-        println!(
-            "{}: {:.4} of all, {:.4} of those seen, {} tests",
-            of.name,
-            of.overall(0.0),
-            of.overall(SEEN),
-            of.tests
-        );
-        for held in &of.parameters {
-            println!("  {:24} {:4}, learned {:.3}", held.parameter, held.tests, held.learned);
-        }
-    }
-}
-
-fn every(seeds: RangeInclusive<u64>) -> Vec<Coverage> {
-    let mut all = all_coverages(seeds.clone()).unwrap();
-    all.push(coverage(&by_bays(), Noise::USUAL, seeds).unwrap());
-    all
-}
 
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {
-    let all = every(1..=20);
+    let all = all_coverages(1..=20).unwrap();
     assert_eq!(all.iter().map(|of| of.parameters.len()).collect::<Vec<_>>(), [15, 15, 21, 12]);
     assert!(all.iter().all(|of| of.tests == 20));
     for of in [&all[0], &all[2], &all[3]] {
@@ -61,6 +27,7 @@ fn intervals_hold_the_truth_in_most_of_a_few_tests() {
     let unseen = all[0].parameters.iter().filter(|held| held.learned < SEEN);
     assert_eq!(unseen.map(|held| held.parameter.as_str()).collect::<Vec<_>>(), ["2", "4", "8", "9", "11", "15"]);
     assert!(all[3].parameters.iter().all(|held| held.learned > SEEN));
+    assert_eq!((all[3].name.as_str(), all[3].parameters[11].parameter.as_str()), ("Case 2 by bays", "4 and 8"));
 }
 
 #[test]
@@ -68,8 +35,9 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
     if std::env::var_os("CORFEM_SLOW").is_none() {
         return eprintln!("SKIPPED: a thousand tests of each structure; set CORFEM_SLOW=1 to run them");
     }
-    let all = every(SEEDS);
-    print(&all);
+    let all = all_coverages(SEEDS).unwrap();
+    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_COVERAGE, last_digit: false };
+    assert_golden("coverage", &csv(&coverage_tables(&all)), numbers);
     for of in [&all[0], &all[2], &all[3]] {
         assert!((of.overall(SEEN) - 0.95).abs() < COVERAGE, "{}: {}", of.name, of.overall(SEEN));
         let seen = of.parameters.iter().filter(|held| held.learned >= SEEN);
@@ -119,8 +87,10 @@ fn a_panel_too_thin_is_the_first_suspect_in_noise() {
     if std::env::var_os("CORFEM_SLOW").is_none() {
         return eprintln!("SKIPPED: a hundred seeds for every panel; set CORFEM_SLOW=1 to run them");
     }
-    for of in localization(localization::SEEDS).unwrap() {
-        println!("{of:?}");
+    let located = localization(localization::SEEDS).unwrap();
+    let numbers = Numbers { relative: 0.0, absolute: GOLDEN_COUNT, last_digit: false };
+    assert_golden("localization", &csv(&localization_tables(&located)), numbers);
+    for of in located {
         assert!(of.by_single_fit[1] == of.tests && of.by_factor[0] <= of.by_factor[1]);
         assert!(100 * of.by_single_fit[0] >= LEAST_DETECTIONS * of.tests);
         assert!(100 * of.by_factor[1] >= LEAST_DETECTIONS * of.tests);

@@ -1,15 +1,19 @@
-//! A job before and after: its sensors on the model, everything doubtful, and what the test sees of the parameters.
+//! A job before and after: its sensors on the model, everything doubtful, the suspects, and what the test sees of the parameters.
 
 use crate::files::error::FileError;
 use crate::files::job::{ComparedModes, Finished, Prepared};
 use crate::files::test_data::DIRECTIONS;
 use crate::method::model::DynamicModel;
 use crate::present::table::{Cell, Digits, Table, counted};
+use crate::studies::localization::{by_factor, by_single_fit};
 use crate::studies::metrics::coordinate_assurance;
 use crate::studies::preflight::{Finding, coarse_condensation, preflight};
+use crate::studies::weighted::residuals::residuals;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
 const COLLINEAR: f64 = 0.95;
+/// Most parameters in the table of suspects.
+pub const MOST_SUSPECTS: usize = 20;
 
 /// Every sensor with its grid, direction and distance, and the coordinate modal assurance criterion (COMAC) of the first model and of
 /// the corrected one there.
@@ -91,6 +95,43 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
     }
     if sentences.is_empty() {
         table.row("", [Cell::text("nothing doubtful")]);
+    }
+    Ok(table)
+}
+
+/// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
+/// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration.
+///
+/// # Errors
+/// Those of [`Prepared::weights`] and of the rankings.
+pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
+    let parameters = prepared.source.whole.parameters();
+    let (first, weights) = (prepared.analyze(&vec![1.0; parameters.len()])?, prepared.weights()?);
+    let suspects = by_single_fit(&first, &weights)?;
+    let slopes = by_factor(&first, &prepared.job.correlation.inner)?;
+    let residuals = residuals(&first, &weights)?;
+    let mut table = Table::new("suspects", "Suspects: what one parameter alone explains", "Parameter")
+        .columns(["factor", "evidence", "paper's factor"], "")
+        .note(format!(
+            "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone \
+            has this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first \
+            leaves much more than half a unit a number, several are wrong, and it need not be among them. Modes are combined \
+            from {} of the first model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the \
+            first iteration.",
+            0.5 * residuals.norm_squared(),
+            residuals.len(),
+            first.exact.modes.len(),
+        ));
+    for suspect in suspects.iter().take(MOST_SUSPECTS) {
+        let slope = slopes.iter().find(|slope| slope.parameter == suspect.parameter);
+        let [factor, evidence] =
+            [suspect.factor, suspect.evidence].map(|value| Cell::number(value, Digits::Significant(3)));
+        let slope = slope.map_or(Cell::Blank, |slope| Cell::number(slope.factor, Digits::Fixed(2)));
+        table.row(&parameters[suspect.parameter].name, [factor, evidence, slope]);
+    }
+    if suspects.len() > MOST_SUSPECTS {
+        let left = counted(suspects.len() - MOST_SUSPECTS, "parameter explains", "parameters explain");
+        table.notes.push(format!("{left} less."));
     }
     Ok(table)
 }

@@ -14,6 +14,7 @@ pub mod stages;
 pub mod subject;
 pub mod table_1;
 pub mod unlimited;
+pub mod weighted;
 
 use super::table::Digits;
 use crate::cases::published::PublishedTable;

@@ -5,11 +5,14 @@ use super::residuals::{DEVIATIONS, Weights};
 use crate::cases::error::CaseError;
 use crate::cases::torque_box::TEST_GAGE;
 use crate::cases::{Case, run_case};
-use crate::method::model::FiniteElementModel;
+use crate::method::model::{FiniteElementModel, Parameter};
 use crate::method::modes::ModeSet;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{GROUPS, correlate_wing, first_model, test_modes};
 use serde::Serialize;
+
+/// Upper and lower cover of each bay, inboard to outboard.
+const BAYS: [[usize; 2]; 3] = [[2, 15], [9, 11], [4, 8]];
 
 /// A structure whose true factors are known.
 pub struct Known {
@@ -42,6 +45,25 @@ impl Known {
         let wing = DeltaWing::embedded()?;
         let truth = GROUPS.iter().map(|group| 1.0 / group.first_over_true).collect();
         Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
+    }
+
+    /// Case 2 with the two covers of each bay, which its modes do not tell apart, as one parameter.
+    ///
+    /// # Errors
+    /// Those of the case and its model.
+    pub fn case_2_by_bays() -> Result<Self, CaseError> {
+        let known = Self::of_case(2)?;
+        let (structure, t, mass) = (known.model.structure(), known.model.load_distribution(), known.model.mass());
+        let elements = known.model.parameters().iter().zip(&known.truth);
+        let alone = elements.filter(|(element, _)| !BAYS.as_flattened().contains(&element.members[0]));
+        let (mut parameters, mut truth): (Vec<Parameter>, Vec<f64>) =
+            alone.map(|(element, truth)| (element.clone(), *truth)).unzip();
+        for bay in BAYS {
+            parameters.push(Parameter::group(&format!("{} and {}", bay[0], bay[1]), &bay));
+            truth.push(known.truth[bay[0] - 1]);
+        }
+        let model = FiniteElementModel::new(structure.clone(), t.clone(), mass.clone(), parameters)?;
+        Ok(Self { name: "Case 2 by bays".to_owned(), model, test: known.test, truth })
     }
 
     fn compared(&self, rule: &'static str, [steps, analyses]: [usize; 2], factors: &[f64]) -> Compared {

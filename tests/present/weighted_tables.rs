@@ -1,0 +1,110 @@
+//! The tables of culprits, of two rules side by side, of intervals, and of suspects.
+
+use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::{JOB_RESULTS, SINGLE_FIT_FACTOR};
+use crate::ledgers::places::{filled, goldens};
+use corfem::files::job::Prepared;
+use corfem::present::render::{WIDTH, csv, text};
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
+use corfem::present::tables::weighted::{coverage_tables, localization_tables, rules_table};
+use corfem::studies::coverage::{Coverage, Held, all_coverages};
+use corfem::studies::localization::localization;
+use corfem::studies::weighted::comparison::compare_all;
+use corfem::studies::weighted::gauss_newton::WeightedSettings;
+use std::path::Path;
+
+fn fits(tables: &[Table]) {
+    let text = text(tables);
+    assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+    let whole = |table: &Table| table.rows.iter().all(|row| row.cells.len() == table.columns.len());
+    assert!(tables.iter().all(whole));
+}
+
+fn written(table: &Table, row: &str) -> Vec<String> {
+    let row = table.rows.iter().find(|found| found.label == row).expect("the row");
+    row.cells.iter().map(Cell::computed).collect()
+}
+
+#[test]
+fn two_rules_as_numbers() {
+    let table = rules_table(&compare_all(&WeightedSettings::default()).expect("they run"));
+    let numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: false };
+    fits(std::slice::from_ref(&table));
+    assert_golden("rules", &csv(&[table]), numbers);
+}
+
+#[test]
+fn culprits_without_noise_are_those_of_the_golden() {
+    let tables = localization_tables(&localization(1..=1).expect("it runs"));
+    fits(&tables);
+    let goldens = goldens();
+    for table in &tables {
+        assert_eq!(table.rows.len(), 16);
+        for (row, column) in table.rows.iter().flat_map(|row| [0, 3].map(|column| (row, column))) {
+            let place = format!("{{localization|{}|{}|{}|0}}", table.name, row.label, table.columns[column].name);
+            assert_eq!(Ok(row.cells[column].computed()), filled(&place, &goldens));
+        }
+    }
+    // All panels are found first by their own fit, with one seed's noise too.
+    assert_eq!(written(&tables[0], "all")[3..], ["15", "15", "15"]);
+    assert!(tables[0].title.ends_with("of 1 noisy tests"));
+}
+
+#[test]
+fn intervals_are_counted_by_what_the_test_says_of_a_parameter() {
+    let held = |parameter: &str, tests, learned| Held { parameter: parameter.to_owned(), tests, learned };
+    let parameters = vec![held("a", 9, 0.99), held("b", 8, 0.95), held("c", 1, 0.5)];
+    let tables = coverage_tables(&[Coverage { name: "A box".to_owned(), tests: 10, parameters }]);
+    fits(&tables);
+    assert_eq!(written(&tables[0], "A box"), ["3", "2", "85.0", "80.0", "60.0"]);
+    assert_eq!(
+        (tables[1].name.as_str(), written(&tables[1], "c")),
+        ("coverage_a_box", vec!["10.0".into(), "50.0".into()])
+    );
+    let blind = Coverage { name: "Blind".to_owned(), tests: 10, parameters: vec![held("c", 10, 0.1)] };
+    assert_eq!(written(&coverage_tables(&[blind])[0], "Blind"), ["1", "0", "", "", "100.0"]);
+}
+
+#[test]
+fn a_few_tests_see_the_parameters_that_a_thousand_see() {
+    let tables = coverage_tables(&all_coverages(1..=3).expect("they run"));
+    fits(&tables);
+    let goldens = goldens();
+    for structure in &tables[0].rows {
+        let place = |column: &str| filled(&format!("{{coverage|coverage|{}|{column}|0}}", structure.label), &goldens);
+        assert_eq!(Ok(structure.cells[0].computed()), place("Parameters"));
+        assert_eq!(Ok(structure.cells[1].computed()), place("Seen"), "{}", structure.label);
+    }
+}
+
+#[test]
+fn a_job_names_its_suspects() {
+    let job = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs").join(name).join("job.toml");
+        let mut prepared = Prepared::new(&path).expect("a job");
+        // The test as it would be were the fifth parameter alone wrong: a third of what it is in the model.
+        let mut factors = vec![1.0; prepared.source.whole.parameters().len()];
+        factors[4] = 0.3;
+        let right = prepared.analyze(&factors).expect("modes").exact;
+        for (j, &i) in right.pairing.analysis_mode.iter().enumerate() {
+            prepared.test.omega_squared[j] = right.modes.omega_squared[i];
+            let shape = right.modes.shapes.column(i).into_owned();
+            prepared.test.shapes.set_column(j, &shape);
+        }
+        let table = suspects_table(&prepared).expect("a table");
+        fits(std::slice::from_ref(&table));
+        (prepared, table)
+    };
+    // The building's ten modes are all there are; the wing's 25 of many give the culprit, and its factor roughly.
+    for (name, has_all_modes) in [("building", true), ("wing", false)] {
+        let (prepared, table) = job(name);
+        let parameters = prepared.source.whole.parameters();
+        assert_eq!(table.rows.len(), parameters.len().min(MOST_SUSPECTS));
+        assert_eq!(table.notes.len(), if parameters.len() > MOST_SUSPECTS { 2 } else { 1 });
+        assert_eq!(table.rows[0].label, parameters[4].name);
+        let Cell::Number { computed, .. } = table.rows[0].cells[0] else { panic!("a number") };
+        let off = (computed / 0.3 - 1.0).abs();
+        assert!(if has_all_modes { off < SINGLE_FIT_FACTOR } else { computed < 1.0 }, "{name}: {computed}");
+    }
+}
