@@ -23,9 +23,10 @@
 //!      [`outer_loop`](method::outer_loop).
 //! - [`closed_forms`]: structures whose answers can be written down.
 //! - [`cases`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing, corrections of whole matrices instead of elements, noisy test modes, and a
-//!   pre-flight that names mistakes in model and test before the first step.
-//! - [`files`]: NASTRAN decks, and analyses by NASTRAN-95.
+//! - [`studies`]: a delta wing, corrections of whole matrices instead of elements, noisy test modes, a pre-flight that
+//!   names mistakes in model and test before the first step, whole models without condensation, weighted steps with what the
+//!   test sees of the parameters, and measures of correlation.
+//! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
 //!
 //! ```text
