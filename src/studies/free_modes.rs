@@ -27,15 +27,15 @@ pub struct CountedModes {
 ///
 /// $$ F^t (K + \sigma M)^{-1} F y = \mu y, \qquad \omega^2 = \frac{1}{\mu} - \sigma, \qquad v = \frac{1}{\mu} (K + \sigma M)^{-1} F y , $$
 ///
-/// so that rigid-body modes are the roots $\mu = 1/\sigma$ and massless motions do not enter. The number found is compared with
-/// [`count_below`] a bound twice the highest, and that of the rigid-body modes below the lowest vibration.
+/// so that rigid-body modes are the roots $\mu = 1/\sigma$ and massless motions do not enter. The number found is
+/// compared with [`count_below`] a bound twice the highest, and that of the rigid-body modes below the lowest
+/// vibration. Source: Sylvester's law of inertia; Parlett, *The Symmetric Eigenvalue Problem* (1980), chapter 3 and
+/// section 15.
 ///
 /// # Errors
 /// [`Error::NotSymmetric`], [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::Empty`] without mass;
 /// [`Error::NotPositiveDefinite`] for a motion that has neither stiffness nor mass, or a matrix that is not semidefinite;
 /// [`Error::Miscounted`] when a count by inertia differs.
-///
-/// Source: Sylvester's law of inertia; Parlett, *The Symmetric Eigenvalue Problem* (1980), chapter 3 and section 15.
 pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<CountedModes, Error> {
     check_symmetric("stiffness", stiffness)?;
     check_shape("mass", mass, stiffness.nrows(), stiffness.nrows())?;

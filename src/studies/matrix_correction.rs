@@ -9,7 +9,7 @@
 //! Journal* 21 (1983), 1168–1173.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, symmetric_part};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, reduced, symmetric_part};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -109,12 +109,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
 pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
-    let lower = cholesky("dynamic mass", mass, 0.0)?;
-    let mut weighted = change.clone();
-    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
-    weighted.transpose_mut();
-    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
-    Ok(weighted)
+    Ok(reduced(&cholesky("dynamic mass", mass, 0.0)?, change))
 }
 
 fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<(), Error> {

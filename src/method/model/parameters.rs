@@ -31,13 +31,8 @@ impl Range {
 
     /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.
     pub(crate) fn clamp(&self, value: f64) -> f64 {
-        if value < self.lower {
-            self.lower
-        } else if value > self.upper {
-            self.upper
-        } else {
-            value
-        }
+        // What is no number stays none.
+        if value.is_nan() { value } else { value.max(self.lower).min(self.upper) }
     }
 }
 

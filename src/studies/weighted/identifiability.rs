@@ -37,13 +37,13 @@ pub struct Identifiability {
 
 /// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
 ///
-/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero with
-/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated tests.
+/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero
+/// with $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated
+/// tests. Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix
+/// Computations*.
 ///
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
-///
-/// Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix Computations*.
 pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;
