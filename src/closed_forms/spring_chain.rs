@@ -2,7 +2,7 @@
 //! modes are too.
 
 use super::analytical::{ChainEnds, chain_eigenvalues};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -35,9 +35,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
 /// # Errors
 /// [`Error::Empty`] without masses; [`Error::NotPositive`] for a spring or mass that is not.
 pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Result<Modes, Error> {
-    if mass_count == 0 {
-        return Err(Error::Empty { what: "masses" });
-    }
+    at_least_one("masses", mass_count)?;
     let owner = || "the uniform chain".to_owned();
     positive("stiffness", owner, stiffness)?;
     positive("mass", owner, mass)?;

@@ -1,7 +1,7 @@
 //! Appendix A: from structural to dynamic degrees of freedom.
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_shape, cholesky, symmetric_part};
 use nalgebra::DMatrix;
 
@@ -38,9 +38,7 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
 /// Those of [`condense`].
 pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
     check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
-    if t.ncols() == 0 {
-        return Err(Error::Empty { what: "dynamic degrees of freedom" });
-    }
+    at_least_one("dynamic degrees of freedom", t.ncols())?;
     let flexibility = symmetric_part(&t.tr_mul(&deflections));
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;

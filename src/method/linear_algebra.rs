@@ -1,6 +1,6 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use faer::{Mat, MatRef, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
@@ -140,9 +140,7 @@ pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) 
 /// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
-    if matrix.is_empty() {
-        return Err(Error::Empty { what });
-    }
+    at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
     let largest = matrix.amax();
     let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };

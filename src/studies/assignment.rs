@@ -1,6 +1,6 @@
 //! Pairing of all modes at once, where the method's own (4) takes the closest pair first and may leave a bad one for the last.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_finite;
 use nalgebra::DMatrix;
 
@@ -18,9 +18,7 @@ use nalgebra::DMatrix;
 /// [`Error::NotFinite`]; [`Error::Setting`] for a floor that is negative or not finite.
 pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option<usize>>, Error> {
     check_finite("closeness", closeness)?;
-    if !(0.0..f64::INFINITY).contains(&floor) {
-        return Err(Error::Setting { name: "floor of closeness", expected: "a number from zero up", found: floor });
-    }
+    setting("floor of closeness", "a number from zero up", floor, (0.0..f64::INFINITY).contains(&floor))?;
     // Behind the analysis modes every test mode has a place of its own, the last one first, which stands for none and counts nothing.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;

@@ -48,9 +48,8 @@ pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Mo
 /// with $\Phi^t M \Phi = I$ it is the one of smallest [`weighted_norm`] of $M - M_A$.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
-/// [`Error::NotPositiveDefinite`] for a mass that is not; [`Error::Dependent`] naming the first shape that is a
-/// combination of those before it.
+/// Those of [`cholesky`], [`check_shape`] and [`check_finite`] for bad matrices; [`Error::Dependent`] naming the first shape
+/// that is a combination of those before it.
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     check_shape("test mode shapes", shapes, mass.nrows(), shapes.ncols())?;
@@ -98,8 +97,7 @@ pub fn berman_nagy_stiffness(
 /// For a change of stiffness in lbf/in it is in rad²/s², for a change of mass a fraction.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotPositiveDefinite`] for bad
-/// matrices.
+/// Those of [`check_symmetric`] and [`cholesky`].
 pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, Error> {
     Ok(mass_weighted(change, mass)?.norm())
 }

@@ -3,7 +3,7 @@
 //!
 //! AutoMAC is the modal assurance of a set of shapes with itself: what it has beside its diagonal, sensors cannot tell apart.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, finite};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -73,9 +73,8 @@ pub fn coordinate_assurance(
         pairs.iter().enumerate().filter_map(|(j, mode)| Some((j, (*mode)?))).unzip();
     if let Some(&label) = modes.iter().find(|mode| **mode >= analysis.ncols()) {
         return Err(Error::Unknown { owner: "pairs".to_owned(), what: "analysis mode (from zero)", label });
-    } else if modes.is_empty() {
-        return Err(Error::Empty { what: "pairs" });
     }
+    at_least_one("pairs", modes.len())?;
     let v = scaled("paired analysis", &analysis.select_columns(&modes), DVector::norm_squared)?;
     let w = scaled("paired test", &test.select_columns(&tests), DVector::norm_squared)?;
     let assurance = v.row_iter().zip(w.row_iter()).map(|(v, w)| match (v.norm(), w.norm()) {

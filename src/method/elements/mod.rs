@@ -8,7 +8,7 @@ pub mod panel;
 pub mod shear;
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::finite;
+use crate::method::linear_algebra::{finite, finite_list};
 use crate::method::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -73,5 +73,5 @@ pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec
         }
         _ => return Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
     };
-    finite("element volumes", DMatrix::from_vec(volumes.len(), 1, volumes)).map(|volumes| volumes.as_slice().to_vec())
+    finite_list("element volumes", volumes)
 }

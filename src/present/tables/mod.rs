@@ -15,7 +15,8 @@ pub mod subject;
 pub mod table_1;
 pub mod unlimited;
 
-use super::table::Digits;
+use super::PresentError;
+use super::table::{Cell, Digits, Table};
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
 

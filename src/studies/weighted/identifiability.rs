@@ -1,6 +1,6 @@
 //! What the test modes can see of the parameters, and how sure the factors are.
 
-use crate::method::error::{Error, positive_setting};
+use crate::method::error::{Error, at_least_one, positive_setting};
 use crate::method::linear_algebra::{check_finite, check_length};
 use crate::method::model::Range;
 use nalgebra::DMatrix;
@@ -48,9 +48,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;
     let count = jacobian.ncols();
-    if jacobian.is_empty() {
-        return Err(Error::Empty { what: "parameters or residuals" });
-    }
+    at_least_one("parameters or residuals", jacobian.len())?;
     let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
     singular_values.resize(count, 0.0);
     let smallest = singular_values[count - 1];
