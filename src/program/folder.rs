@@ -93,7 +93,7 @@ fn switch(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
             fs::copy(&path, &old).and_then(|_| File::open(&old)?.sync_all())?;
         }
     }
-    [&stage.join(OLD), &stage.join(NEW), &stage, folder].into_iter().for_each(|folder| sync_folder(folder));
+    [&stage.join(OLD), &stage.join(NEW), &stage, folder].into_iter().for_each(sync_folder);
     for (name, _) in files {
         link(&format!("{STAGE}/{CURRENT}/{name}"), &next)?;
         fs::rename(&next, folder.join(name))?;

@@ -45,3 +45,16 @@ pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>
     let shares = decomposed(mode_count)?.solve(test, 0.0).map_err(|_| Error::NoConvergence(what))?;
     finite("expanded test shapes", all * shares)
 }
+
+/// The mass at the sensors (s × s) with which n ≤ s modes are orthonormal there, $M_a = (V_s^+)^t V_s^+$: that of the expansion. With
+/// it a test shape has the generalized mass of the combination of modes that is nearest to it.
+///
+/// # Errors
+/// Those of [`expand`].
+///
+/// Source: the same.
+pub fn mass_by_modes(at_sensors: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    let (sensors, modes) = at_sensors.shape();
+    let inverse = expand(&DMatrix::identity(modes, modes), at_sensors, &DMatrix::identity(sensors, sensors))?;
+    Ok(inverse.tr_mul(&inverse))
+}

@@ -33,6 +33,9 @@ const NASTY: [f64; 16] = [
     f64::NEG_INFINITY,
 ];
 
+/// Matrices, sizes and DOF of elements.
+type Elements = (Vec<ElementMatrix>, Vec<f64>, Vec<StructuralDof>);
+
 impl Draws {
     /// Half of all numbers are ordinary ones, so that calls come past the first check.
     pub fn number(&mut self) -> f64 {
@@ -221,7 +224,7 @@ impl Draws {
     }
 
     /// Element matrices, their sizes and the DOF they belong to, of which a part may not fit the others.
-    pub fn elements(&mut self) -> Result<(Vec<ElementMatrix>, Vec<f64>, Vec<StructuralDof>), Error> {
+    pub fn elements(&mut self) -> Result<Elements, Error> {
         let structure = self.structure()?;
         let mut elements = element_matrices(&structure)?;
         let mut free = structure.free_dof().to_vec();

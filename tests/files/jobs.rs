@@ -2,8 +2,8 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{Files, STORIES, building, delta_wing, torque_box, torque_box_truth};
-use crate::common::tolerances::{JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY};
-use corfem::files::job::{Finished, Prepared, run};
+use crate::common::tolerances::{CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR};
+use corfem::files::job::{ComparedModes, Finished, Prepared, run};
 use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
@@ -45,6 +45,37 @@ fn finished(name: &str) -> (Prepared, Finished) {
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     assert_golden(&format!("job_{name}"), &text, NUMBERS);
     (prepared, finished)
+}
+
+/// The job of a folder with another way to compare.
+fn condensed(name: &str, analysis_modes: usize) -> Finished {
+    let path = folder(name).join("job.toml");
+    let mut prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    prepared.job.compare.modes = ComparedModes::Condensed;
+    prepared.analysis_modes = analysis_modes;
+    run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Condensation to five floors raises frequencies, and the loop takes that for soft stories which it cannot tell apart.
+#[test]
+fn condensed_to_five_floors_the_building_is_not_found() {
+    let found = condensed("building", 5);
+    assert!(found.verdict.error_sum > 0.2 && !found.verdict.is_within, "{}", found.verdict);
+    for pair in found.factors.chunks(2) {
+        assert!((pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR, "{pair:?}");
+    }
+    let worst =
+        found.factors.iter().zip(&STORIES).map(|(found, truth)| (found / truth - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst > 0.2, "{worst}");
+}
+
+/// All that the wing's sensors do not see is condensed well: both ways find the same.
+#[test]
+fn condensed_the_wing_has_the_same_gages() {
+    let (whole, condensed) = (finished("wing").1, condensed("wing", 19));
+    for (a, b) in whole.factors.iter().zip(&condensed.factors) {
+        assert!((a / b - 1.0).abs() < CONDENSED_GAGES, "{a} {b}");
+    }
 }
 
 #[test]

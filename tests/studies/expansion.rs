@@ -3,7 +3,7 @@
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::closed_forms::spring_chain::uniform_held_modes;
 use corfem::method::error::Error;
-use corfem::studies::expansion::expand;
+use corfem::studies::expansion::{expand, mass_by_modes};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
@@ -36,6 +36,18 @@ proptest! {
         let left = measured - expanded.select_rows(&SENSORS);
         prop_assert!(at_sensors.tr_mul(&left).amax() < MATRIX_ROUND_OFF * at_sensors.amax());
     }
+}
+
+#[test]
+fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_nearest_combination_does() {
+    let at_sensors = modes().select_rows(&SENSORS);
+    let mass = mass_by_modes(&at_sensors).unwrap();
+    assert!((at_sensors.tr_mul(&(&mass * &at_sensors)) - DMatrix::identity(3, 3)).amax() < MATRIX_ROUND_OFF);
+    let measured = dmatrix![0.3; -1.0; 0.8; 0.1];
+    let shares = expand(&DMatrix::identity(3, 3), &at_sensors, &measured).unwrap();
+    let weight = (measured.tr_mul(&(&mass * &measured)))[(0, 0)];
+    assert!((weight / shares.norm_squared() - 1.0).abs() < MATRIX_ROUND_OFF, "{weight}");
+    assert!(matches!(mass_by_modes(&DMatrix::identity(2, 3)), Err(Error::TooMany { .. })));
 }
 
 #[test]

@@ -142,8 +142,11 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
     Ok(ModelSource { whole, geometry, motions, members, deck: Some((bytes, deck)) })
 }
 
-/// The parameters that a rule makes of a deck: name, elements, point masses.
-fn groups(path: &Path, rule: &ParameterRule, deck: &Deck) -> Result<Vec<(String, Vec<usize>, Vec<usize>)>, FileError> {
+/// A parameter of a deck: its name, elements and point masses.
+type Group = (String, Vec<usize>, Vec<usize>);
+
+/// The parameters that a rule makes of a deck.
+fn groups(path: &Path, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, FileError> {
     let mut elements: BTreeSet<usize> = labels(path, &rule.elements)?.into_iter().collect();
     let is_of = |m: &deck::Membership| {
         m.property.is_some_and(|p| rule.properties.contains(&p)) || rule.materials.contains(&m.material)

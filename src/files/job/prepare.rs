@@ -11,12 +11,17 @@ use crate::method::model::{ModalModel, Pair};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
 use crate::studies::assignment::pair_optimally;
+use crate::studies::expansion::mass_by_modes;
 use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::{Path, PathBuf};
 
 /// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
 pub const FLOOR: f64 = 0.5;
+
+/// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
+/// acceptable.
+const LARGEST_OVERLAP: f64 = 0.05;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
@@ -135,6 +140,21 @@ impl Prepared {
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
         Ok(())
+    }
+
+    /// The mass at the sensors that cross-orthogonality is to be measured with: the condensed one where the model's own modes are
+    /// orthogonal with it, else that of the lowest modes themselves; none where these are too alike at the sensors.
+    pub fn mass_at_sensors(&self, model: &ModalModel) -> Option<DMatrix<f64>> {
+        let ones = vec![1.0; self.source.whole.parameters().len()];
+        let shapes = &model.exact.modes.shapes;
+        let count = shapes.ncols().min(shapes.nrows());
+        let lowest = shapes.columns(0, count.min(self.test.len())).into_owned();
+        let apart = |mass: &DMatrix<f64>| {
+            (lowest.tr_mul(&(mass * &lowest)) - DMatrix::identity(lowest.ncols(), lowest.ncols())).amax()
+        };
+        let condensed = self.source.whole.condensed(&ones, &self.sensors).ok().map(|(_, mass)| mass);
+        let fitting = condensed.filter(|mass| apart(mass) <= LARGEST_OVERLAP);
+        fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
     }
 
     /// What the loops are handed at the given parameter factors.

@@ -52,7 +52,7 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode; those of [`Weights::new`].
+    /// [`FileError::Job`] for weights that are not one a test mode of the job.
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);

@@ -10,7 +10,7 @@
 //!
 //! - [`recursive`]: first order and Recursive 1 for a change of stiffness alone;
 //! - [`general`]: all of it, Recursive 2 and the formulae of 1947 too, with changes of mass, complex and unsymmetric pencils;
-//! - [`close_roots`]: modes so close that the recursions diverge, in blocks;
+//! - [`close_roots`](mod@close_roots): modes so close that the recursions diverge, in blocks;
 //! - [`eigensolution`]: exactly, which is what the others approach.
 
 pub mod close_roots;

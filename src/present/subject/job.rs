@@ -31,11 +31,14 @@ impl Subject {
             Some(History::GaussNewton(Some((run, _)))) => Self::of_weighted(&stem, &names, &first, run),
             _ => Self::untouched(&stem, &names, &first.test, &first.exact),
         };
-        let mass = whole.condensed(&ones, &prepared.sensors).ok().map(|(_, mass)| mass);
+        let mass = prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last));
         Ok(Self {
             title: prepared.title.clone(),
             ranges: whole.ranges(),
-            deviations: finished.map(|finished| finished.seen[1].deviations.clone()),
+            // Of the factor itself, from that of its logarithm.
+            deviations: finished.map(|finished| {
+                finished.factors.iter().zip(&finished.seen[1].deviations).map(|(factor, log)| factor * log).collect()
+            }),
             sensors: prepared.placed.iter().map(sensor_point).collect(),
             frame,
             grids: geometry.places.iter().map(|(grid, place)| (*grid, *place)).collect(),

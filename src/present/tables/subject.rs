@@ -27,16 +27,17 @@ pub fn subject_tables(subject: &Subject) -> Result<Vec<Table>, Error> {
 pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
     let title = format!("{}: test modes and their partners", subject.title);
     let mut table = Table::new(format!("{}_modes", subject.name), title, "Mode").column("Test", "Hz");
-    let states = [("First", &subject.initial), ("Corrected", subject.corrected())];
+    let mut states = vec![("First", &subject.initial)];
+    states.extend((!subject.stages.is_empty()).then(|| ("Corrected", subject.corrected())));
     let weighted = subject.mass.is_some();
-    for (name, _) in states {
-        table = table.column(name, "Hz").column(format!("{name} error"), "%").column(format!("{name} MAC"), "");
+    for (name, _) in &states {
+        table = table.column(*name, "Hz").column(format!("{name} error"), "%").column(format!("{name} MAC"), "");
         table = table.columns(weighted.then(|| format!("{name} cross")), "");
         table = table.column(format!("{name} others"), "");
     }
-    table = table.column("Corrected is", "");
-    let [first, corrected] = states.map(|(_, check)| subject.agreement(check));
-    let agreements = [first?, corrected?];
+    let last = states.last().map_or("", |(name, _)| name);
+    table = table.column(format!("{last} is"), "");
+    let agreements = states.iter().map(|(_, check)| subject.agreement(check)).collect::<Result<Vec<_>, _>>()?;
     for (mode, test_hz) in subject.test.frequencies_hz().into_iter().enumerate() {
         let mut cells = vec![Cell::number(test_hz, HERTZ)];
         let mut mark = "";
@@ -51,13 +52,13 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
         }
         table.row(mode + 1, cells.into_iter().chain([Cell::text(mark)]));
     }
-    let rms = states.map(|(_, check)| [check.errors.frequency_rms(), check.errors.shape_rms()]);
+    let rms = states.iter().map(|(_, check)| [check.errors.frequency_rms(), check.errors.shape_rms()]);
     for (row, label) in ["frequency RMS", "shape RMS"].into_iter().enumerate() {
         let state = |rms: [f64; 2]| {
             let blanks = vec![Cell::Blank; 2 + usize::from(weighted)];
             [Cell::Blank, Cell::percent(rms[row], RMS_PERCENT)].into_iter().chain(blanks)
         };
-        table.row(label, [Cell::Blank].into_iter().chain(rms.into_iter().flat_map(state)).chain([Cell::Blank]));
+        table.row(label, [Cell::Blank].into_iter().chain(rms.clone().flat_map(state)).chain([Cell::Blank]));
     }
     let measure = if weighted { "cross-orthogonality" } else { "modal assurance criterion (no mass is known)" };
     table.notes.extend(solver_note(&subject.solver, " of the model", ";"));
