@@ -8,14 +8,16 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 /// A congruence transformation leaves about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
 
+/// A real or complex number.
+pub trait Number: ComplexField<RealField = f64> + Copy {}
+
+impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
+
 /// Refuses matrices, real or complex, with NaN or infinite entries.
 ///
 /// # Errors
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
-pub fn check_finite<T>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error>
-where
-    T: ComplexField<RealField = f64> + Copy,
-{
+pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
     let Some(index) = matrix.iter().position(|value| !value.is_finite()) else { return Ok(()) };
     let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
     let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
