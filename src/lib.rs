@@ -62,15 +62,10 @@
 #![forbid(unsafe_code)]
 
 pub mod method;
-
 pub mod closed_forms;
-
 pub mod cases;
-
 pub mod studies;
-
 pub mod files;
-
 #[cfg(feature = "program")]
 pub mod present;
 

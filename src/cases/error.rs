@@ -3,47 +3,26 @@
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
-/// An error of a case, of its torque box or of a published table.
+/// An error of a case, of its torque box or of a published table. The message above a variant is the documentation of its fields.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "a variant's message says what its fields are")]
 pub enum CaseError {
     /// The method refuses its input or cannot go on.
     #[error(transparent)]
     Method(#[from] crate::method::error::Error),
     /// A case that the paper does not have.
     #[error("case: expected 1, 2, 3 or 4, found {found}")]
-    UnknownCase {
-        /// The number asked for.
-        found: usize,
-    },
+    UnknownCase { found: usize },
     /// A torque box lacks one of its grid points.
     #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
-    MissingGrid {
-        /// The missing label.
-        grid: usize,
-        /// How many grids a box has.
-        count: usize,
-    },
+    MissingGrid { grid: usize, count: usize },
     /// Data that does not read as TOML of the expected form.
     #[error("{name}: expected {expected}, found an error: {source}")]
-    Toml {
-        /// The file or data set.
-        name: String,
-        /// What it should contain.
-        expected: &'static str,
-        /// The reader's own message.
-        source: Box<toml::de::Error>,
-    },
+    Toml { name: String, expected: &'static str, source: Box<toml::de::Error> },
     /// A table that does not read as CSV of the expected form.
     #[error("{name}: expected {expected}, found {found}")]
-    Table {
-        /// The table.
-        name: String,
-        /// What it should contain.
-        expected: String,
-        /// What it contains.
-        found: String,
-    },
+    Table { name: String, expected: String, found: String },
 }
 
 impl CaseError {

@@ -7,7 +7,7 @@
 
 use crate::method::appendix_c::general::{ModalChange, original, recursive_2};
 use crate::method::appendix_c::{first_order, recursive_1};
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use serde::Serialize;
 
@@ -78,9 +78,7 @@ impl TwoMasses {
             ("coupling", self.coupling, 0.0, "a positive finite number"),
             ("change", self.change, -1.0, "a finite number above -1"),
         ] {
-            if !(value > lowest && value.is_finite()) {
-                return Err(Error::Setting { name, expected, found: value });
-            }
+            setting(name, expected, value, value > lowest && value.is_finite())?;
         }
         let exact = self.exact_roots();
         let (k, beta) = (self.generalized_stiffness(), self.beta());

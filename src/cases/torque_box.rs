@@ -5,7 +5,7 @@
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
 use crate::cases::error::{CaseError, read_toml};
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -65,10 +65,8 @@ impl Reconstruction {
         if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
             return Err(CaseError::MissingGrid { grid, count: GRID_COUNT });
         }
-        if !(read.mid_chord_fraction > 0.0 && read.mid_chord_fraction < 1.0) {
-            let (name, found) = ("mid_chord_fraction", read.mid_chord_fraction);
-            return Err(Error::Setting { name, expected: "a number between 0 and 1", found }.into());
-        }
+        let fraction = read.mid_chord_fraction;
+        setting("mid_chord_fraction", "a number between 0 and 1", fraction, fraction > 0.0 && fraction < 1.0)?;
         Ok(read)
     }
 

@@ -2,7 +2,7 @@
 //! modes are too.
 
 use super::analytical::{ChainEnds, chain_eigenvalues};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -30,14 +30,12 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
 /// $$ \omega_i^2 = 4\frac{k}{m}\sin^2\frac{i\pi}{2(d+1)}, \qquad
 ///    v_{ji} = \sqrt{\frac{2}{(d+1)m}} \sin\frac{ij\pi}{d+1}, \qquad i, j = 1 \dots d $$
 ///
+/// Source: Lagrange, *Mécanique analytique* (1788): the string loaded with equal masses.
+///
 /// # Errors
 /// [`Error::Empty`] without masses; [`Error::NotPositive`] for a spring or mass that is not.
-///
-/// Source: Lagrange, *Mécanique analytique* (1788): the string loaded with equal masses.
 pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Result<Modes, Error> {
-    if mass_count == 0 {
-        return Err(Error::Empty { what: "masses" });
-    }
+    at_least_one("masses", mass_count)?;
     let owner = || "the uniform chain".to_owned();
     positive("stiffness", owner, stiffness)?;
     positive("mass", owner, mass)?;

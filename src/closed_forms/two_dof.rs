@@ -21,8 +21,7 @@ use nalgebra::{DMatrix, DVector, dvector};
 /// negative root.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
-/// [`Error::NotPositiveDefinite`] naming the DOF for a mass that is not.
+/// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass.
 pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<[f64; 2], Error> {
     check_shape("stiffness", stiffness, 2, 2)?;
     check_symmetric("stiffness", stiffness)?;

@@ -1,7 +1,7 @@
 //! Appendix A: from structural to dynamic degrees of freedom.
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_shape, cholesky, symmetric_part};
 use nalgebra::DMatrix;
 
@@ -21,14 +21,13 @@ pub struct Condensed {
 ///
 /// $$ K_D^{-1} = T^t K_S^{-1} T, \qquad B^t = K_S^{-1} T K_D, \qquad q_S = B^t q_D $$
 ///
-/// $T$ distributes dynamic loads to structural ones, $Q_S = T Q_D$; by equal work $q_D = T^t q_S$. When $T$
-/// only selects DOF this is static (Guyan) condensation.
+/// $T$ distributes dynamic loads to structural ones, $Q_S = T Q_D$; by equal work $q_D = T^t q_S$. When $T$ only
+/// selects DOF this is static (Guyan) condensation. Source: the paper's (1), (2), (A.5), (A.7), (A.8), of which the
+/// last two print $T^t$ for $T$ (`paper/errata.md`).
 ///
 /// # Errors
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
-///
-/// Source: the paper's (1), (2), (A.5), (A.7), (A.8), of which the last two print $T^t$ for $T$ (`paper/errata.md`).
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     condense_deflections(load_distribution, structural.solve(load_distribution)?)
 }
@@ -39,9 +38,7 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
 /// Those of [`condense`].
 pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
     check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
-    if t.ncols() == 0 {
-        return Err(Error::Empty { what: "dynamic degrees of freedom" });
-    }
+    at_least_one("dynamic degrees of freedom", t.ncols())?;
     let flexibility = symmetric_part(&t.tr_mul(&deflections));
     let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;

@@ -1,9 +1,7 @@
 //! Derivatives of the error sum (12): what a small change of each parameter does to it.
 //!
-//! There are two ways to them. [`by_definition`] is the paper's: each parameter is changed by 0.1 %, the modes follow by first
-//! order, and the error sum is taken anew. [`gradient`] is the limit of that for smaller and smaller changes, for all
-//! parameters at once: one sweep over the test modes gives the derivative of the error sum with respect to every entry of
-//! $\beta$, and one inner product with $V^t K_e V$ the derivative of each parameter.
+//! [`by_definition`] is the paper's way, parameter by parameter. [`gradient`] is its limit for all parameters at once: a sweep
+//! over the test modes gives the derivative by every entry of $\beta$, an inner product with $V^t K_e V$ that by a parameter.
 
 use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};

@@ -133,8 +133,17 @@ impl Error {
     }
 }
 
+/// Accepts a setting that is what it must be.
+pub(crate) fn setting(name: &'static str, expected: &'static str, found: f64, is_met: bool) -> Result<(), Error> {
+    if is_met { Ok(()) } else { Err(Error::Setting { name, expected, found }) }
+}
+
 /// Accepts a setting that is a positive finite number.
 pub(crate) fn positive_setting(name: &'static str, found: f64) -> Result<(), Error> {
-    let expected = "a positive finite number";
-    if found > 0.0 && found.is_finite() { Ok(()) } else { Err(Error::Setting { name, expected, found }) }
+    setting(name, "a positive finite number", found, found > 0.0 && found.is_finite())
+}
+
+/// Refuses to go on with none of something.
+pub(crate) fn at_least_one(what: &'static str, count: usize) -> Result<(), Error> {
+    if count > 0 { Ok(()) } else { Err(Error::Empty { what }) }
 }

@@ -92,9 +92,8 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
 /// $$ e_f = \Big[\sum_i \Big(\frac{f_{Fi} - f_{Gi}}{f_{Gi}}\Big)^2\Big]^{1/2}, \qquad
 ///    e_v = \Big[\sum_i \sum_{j=1}^{d} \frac{(V_{Fij} - V_{Gij})^2}{d}\Big]^{1/2} $$
 ///
-/// with every shape scaled to unit largest component and the analysis shape signed like its test mode. The
-/// frequency error is relative: the paper prints a difference but its tables hold the relative one
-/// (`paper/errata.md`).
+/// with every shape scaled to unit largest component and the analysis shape signed like its test mode. The frequency
+/// error is relative: the paper prints a difference but its tables hold the relative one (`paper/errata.md`).
 ///
 /// # Errors
 /// Those of [`mode_errors`].

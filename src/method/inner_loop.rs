@@ -107,17 +107,13 @@ pub struct InnerRun {
 
 /// Runs the inner loop from the last exact modes.
 ///
-/// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product,
-/// both with one entry per parameter.
-///
-/// At least one step is tried even when the start is within tolerance: the tolerance is a reason to stop
-/// stepping, and the outer loop decides whether to begin.
+/// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product. At least
+/// one step is tried even when the start is within tolerance, for the outer loop decides whether to begin.
 ///
 /// # Errors
-/// [`Error::Setting`] or [`Error::Limits`] for settings and bounds out of range; [`Error::WrongShape`] when the lists
-/// do not match the parameters; those of [`error_changes`] and [`stiffness_changes`]. A trial step too far for the perturbation (modes that
-/// coalesce, a lost root, roots that do not settle) is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
-/// [`Error::UnsettledRoots`] is returned when that is so of the first step and of every one of its halvings.
+/// [`Error::Setting`], [`Error::Limits`], [`Error::WrongShape`] for settings, bounds and lists; those of [`error_changes`]
+/// and [`stiffness_changes`]. A step too far for the perturbation is halved like one that raises $e_S$;
+/// [`Error::CoalescingModes`] or [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
 pub fn run(
     model: &ModalModel,
     base: &[f64],

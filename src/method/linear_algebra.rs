@@ -1,6 +1,6 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use faer::{Mat, MatRef, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
@@ -8,14 +8,16 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 /// A congruence transformation leaves about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
 
+/// A real or complex number.
+pub trait Number: ComplexField<RealField = f64> + Copy {}
+
+impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
+
 /// Refuses matrices, real or complex, with NaN or infinite entries.
 ///
 /// # Errors
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
-pub fn check_finite<T>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error>
-where
-    T: ComplexField<RealField = f64> + Copy,
-{
+pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
     let Some(index) = matrix.iter().position(|value| !value.is_finite()) else { return Ok(()) };
     let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
     let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
@@ -140,9 +142,7 @@ pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) 
 /// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
-    if matrix.is_empty() {
-        return Err(Error::Empty { what });
-    }
+    at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
     let largest = matrix.amax();
     let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };

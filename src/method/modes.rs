@@ -1,6 +1,6 @@
 //! Natural modes: the symmetric-definite eigenproblem, its order, scale and sign.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, pencil_eigen};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -27,9 +27,7 @@ impl ModeSet {
     /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency that is not
     /// positive or a shape that is zero.
     pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
-        if frequencies_hz.is_empty() {
-            return Err(Error::Empty { what: "test modes" });
-        }
+        at_least_one("test modes", frequencies_hz.len())?;
         check_shape("test mode shapes", shapes, shapes.nrows(), frequencies_hz.len())?;
         check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
@@ -63,9 +61,7 @@ impl ModeSet {
 
     /// Generalized masses $v_i^t M v_i$ of test modes (n), after refusing modes that have none.
     pub(crate) fn generalized_masses(&self, mass: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
-        if self.is_empty() {
-            return Err(Error::Empty { what: "test modes" });
-        }
+        at_least_one("test modes", self.len())?;
         check_shape("dynamic mass", mass, mass.nrows(), mass.nrows())?;
         check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
         check_finite("test mode shapes", &self.shapes)?;
@@ -153,8 +149,7 @@ pub(crate) fn check_count(what: &'static str, requested: usize, available: usize
 /// With $M = L L^t$ it becomes the symmetric problem of $L^{-1} K L^{-t}$.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
-/// [`Error::NotPositiveDefinite`] naming the DOF for a mass that is not; [`Error::NotAVibration`] for a mode with
+/// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass; [`Error::NotAVibration`] for a mode with
 /// $\omega^2 \le 0$; [`Error::Empty`] or [`Error::TooMany`] for a bad `count`.
 pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {
     check_symmetric("dynamic stiffness", stiffness)?;

@@ -44,11 +44,11 @@ pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f6
 ///
 /// $$ \mathrm{MAC}_{ij} = \frac{(v_i^t w_j)^2}{(v_i^t v_i)(w_j^t w_j)} $$
 ///
+/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
+///
 /// # Errors
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero;
 /// [`Error::NotFinite`].
-///
-/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
 pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {

@@ -77,9 +77,8 @@ impl ModalState {
     /// $$ \beta = \sum_{stiffness} (c_e - 1) V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1) V^t M_e V $$
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is one factor per parameter and the model is whole; those of the rule's own function:
-    /// [`recursive_1_converged`], [`general::recursive_1_converged`] with changes of mass, [`eigensolution`]; those of
-    /// [`normalize_with_mass`].
+    /// [`Error::WrongShape`] for factors or a model that do not fit; those of [`recursive_1_converged`], with changes of mass
+    /// [`general::recursive_1_converged`], or [`eigensolution`]; those of [`normalize_with_mass`].
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
         model.check()?;
         check_length("parameter factors", factors.len(), model.shares.len())?;

@@ -1,6 +1,6 @@
 //! The structure: grid points, materials, elements, and which motions are constrained.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one, setting};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
@@ -54,10 +54,8 @@ impl Material {
 
     fn check(&self) -> Result<(), Error> {
         positive("Young's modulus", material, self.youngs_modulus)?;
-        let found = self.poissons_ratio;
-        if !(-1.0..=0.5).contains(&found) || found == -1.0 {
-            return Err(Error::Setting { name: "Poisson's ratio", expected: "more than -1 and at most 0.5", found });
-        }
+        let nu = self.poissons_ratio;
+        setting("Poisson's ratio", "more than -1 and at most 0.5", nu, nu > -1.0 && nu <= 0.5)?;
         positive("shear modulus", material, self.shear_modulus)?;
         if self.density == 0.0 { Ok(()) } else { positive("density", material, self.density) }
     }
@@ -155,9 +153,7 @@ impl Structure {
     /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
     /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or number of grids.
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
-        if elements.is_empty() {
-            return Err(Error::Empty { what: "elements" });
-        }
+        at_least_one("elements", elements.len())?;
         let (mut index_of_grid, mut free, mut free_index) = (HashMap::new(), Vec::new(), HashMap::new());
         for (row, &Grid { label, position, constrained }) in grids.iter().enumerate() {
             if index_of_grid.insert(label, row).is_some() {

@@ -4,8 +4,10 @@ use crate::cases::error::CaseError;
 use crate::files::error::FileError;
 use crate::method::error::Error;
 
-/// An error of tables, figures, pages and the files they are written to.
+/// An error of tables, figures, pages and the files they are written to. The message above a variant is the documentation of its
+/// fields.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "a variant's message says what its fields are")]
 pub enum PresentError {
     /// What is to be shown cannot be computed.
     #[error(transparent)]
@@ -18,12 +20,7 @@ pub enum PresentError {
     Files(#[from] FileError),
     /// A figure that cannot be drawn.
     #[error("figure {figure}: expected to draw it, found {found}")]
-    Drawing {
-        /// The figure's name.
-        figure: String,
-        /// The drawing library's own message.
-        found: String,
-    },
+    Drawing { figure: String, found: String },
     /// A document that cannot be written as JSON.
     #[error("JSON: expected to write the document, found an error: {0}")]
     Json(#[from] serde_json::Error),

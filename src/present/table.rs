@@ -54,7 +54,7 @@ pub struct Row {
 }
 
 /// A table.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Table {
     /// Short name for files and for CSV, such as `table_3`.
     pub name: String,
@@ -117,14 +117,7 @@ impl Cell {
 impl Table {
     /// A table without columns and rows.
     pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
-        Self {
-            name: name.into(),
-            title: title.into(),
-            label_heading: label,
-            columns: Vec::new(),
-            rows: Vec::new(),
-            notes: Vec::new(),
-        }
+        Self { name: name.into(), title: title.into(), label_heading: label, ..Self::default() }
     }
 
     /// The table with one more column.

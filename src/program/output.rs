@@ -56,14 +56,9 @@ impl OutputArguments {
 
 /// The box of a file, or the reconstructed one.
 pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, PresentError> {
-    Ok(match box_file {
-        None => Reconstruction::embedded()?,
-        Some(path) => Reconstruction::parse(&path.display().to_string(), &read(path)?)?,
-    })
-}
-
-fn read(path: &Path) -> Result<String, PresentError> {
-    Ok(std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?)
+    let Some(path) = box_file else { return Ok(Reconstruction::embedded()?) };
+    let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    Ok(Reconstruction::parse(&path.display().to_string(), &text)?)
 }
 
 /// Says something on standard error, with control characters shown. Nobody may be there to hear it.

@@ -1,6 +1,7 @@
 //! Settings of the loops from the command line, so that a reader tries another reading without writing Rust.
 
 use clap::Args;
+use corfem::method::linear_algebra::check_length;
 use corfem::method::model::Range;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::{Accumulation, StepRule};
@@ -65,16 +66,7 @@ impl SettingsArguments {
 
 /// The two numbers of an option.
 fn pair(option: &'static str, values: Option<&[f64]>) -> Result<Option<(f64, f64)>, PresentError> {
-    match values {
-        None => Ok(None),
-        Some(&[first, second]) => Ok(Some((first, second))),
-        Some(others) => Err(corfem::method::error::Error::WrongShape {
-            what: option,
-            expected_rows: 2,
-            expected_columns: 1,
-            rows: others.len(),
-            columns: 1,
-        }
-        .into()),
-    }
+    let Some(values) = values else { return Ok(None) };
+    check_length(option, values.len(), 2)?;
+    Ok(Some((values[0], values[1])))
 }

@@ -1,6 +1,6 @@
 //! Pairing of all modes at once, where the method's own (4) takes the closest pair first and may leave a bad one for the last.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_finite;
 use nalgebra::DMatrix;
 
@@ -9,19 +9,16 @@ use nalgebra::DMatrix;
 ///
 /// $$ \max_a \sum_j c_{a(j) j}, \qquad c_{a(j) j} \ge \mathrm{floor} \ge 0, $$
 ///
-/// with no analysis mode in two pairs; g may exceed n. Test modes enter in their order, each by the shortest path that makes room for
-/// it; of equal ones by that to the lowest analysis mode, or else without taking an earlier test mode's pair. So the same numbers always
-/// give the same pairs.
+/// with no analysis mode in two pairs; g may exceed n. Test modes enter in their order, each by the shortest path that
+/// makes room for it; of equal ones by that to the lowest analysis mode, or else without taking an earlier test mode's
+/// pair. So the same numbers always give the same pairs. Source: Kuhn, *Naval Research Logistics Quarterly* 2 (1955),
+/// 83; shortest paths by Jonker and Volgenant, *Computing* 38 (1987), 325.
 ///
 /// # Errors
 /// [`Error::NotFinite`]; [`Error::Setting`] for a floor that is negative or not finite.
-///
-/// Source: Kuhn, *Naval Research Logistics Quarterly* 2 (1955), 83; shortest paths by Jonker and Volgenant, *Computing* 38 (1987), 325.
 pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option<usize>>, Error> {
     check_finite("closeness", closeness)?;
-    if !(0.0..f64::INFINITY).contains(&floor) {
-        return Err(Error::Setting { name: "floor of closeness", expected: "a number from zero up", found: floor });
-    }
+    setting("floor of closeness", "a number from zero up", floor, (0.0..f64::INFINITY).contains(&floor))?;
     // Behind the analysis modes every test mode has a place of its own, the last one first, which stands for none and counts nothing.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;

@@ -15,14 +15,13 @@ use nalgebra::{Complex, DMatrix};
 /// $$ \tan 2 \theta = \frac{2 S_{xy}}{S_{xx} - S_{yy}}, \qquad \mathrm{MPC} = \frac{(\mu_1 - \mu_2)^2}{(\mu_1 + \mu_2)^2}
 ///    = \frac{(S_{xx} - S_{yy})^2 + 4 S_{xy}^2}{(S_{xx} + S_{yy})^2} . $$
 ///
-/// A complex factor of the shape changes neither, up to the real shape's scale. The mean of the components is not taken off.
-/// Where MPC is zero every phase does as well, and the real part stays as it is.
+/// A complex factor of the shape changes neither, up to the real shape's scale. The mean of the components is not taken
+/// off. Where MPC is zero every phase does as well, and the real part stays as it is. Source: Pappa, Elliott and
+/// Schenk, *Journal of Guidance, Control, and Dynamics* 16 (1993), 852; Heylen, Lammens and Sas, *Modal Analysis Theory
+/// and Testing* (1997).
 ///
 /// # Errors
 /// [`Error::NotFinite`]; [`Error::NotPositive`] naming a shape that is zero.
-///
-/// Source: Pappa, Elliott and Schenk, *Journal of Guidance, Control, and Dynamics* 16 (1993), 852; Heylen, Lammens and Sas, *Modal
-/// Analysis Theory and Testing* (1997).
 pub fn realize(shapes: &DMatrix<Complex<f64>>) -> Result<(DMatrix<f64>, Vec<f64>), Error> {
     check_finite("complex mode shapes", shapes)?;
     let (mut real, mut collinearity) = (DMatrix::zeros(shapes.nrows(), shapes.ncols()), Vec::new());

@@ -4,7 +4,7 @@
 //! not exist for, and a lumped mass leaves some degrees of freedom without any. Both are ordinary eigenvalues of the pencil, zero
 //! and infinite ones, and must neither be lost nor counted as vibrations.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part};
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
@@ -27,15 +27,14 @@ pub struct CountedModes {
 ///
 /// $$ F^t (K + \sigma M)^{-1} F y = \mu y, \qquad \omega^2 = \frac{1}{\mu} - \sigma, \qquad v = \frac{1}{\mu} (K + \sigma M)^{-1} F y , $$
 ///
-/// so that rigid-body modes are the roots $\mu = 1/\sigma$ and massless motions do not enter. The number found is compared with
-/// [`count_below`] a bound twice the highest, and that of the rigid-body modes below the lowest vibration.
+/// so that rigid-body modes are the roots $\mu = 1/\sigma$ and massless motions do not enter. The number found is
+/// compared with [`count_below`] a bound twice the highest, and that of the rigid-body modes below the lowest
+/// vibration. Source: Sylvester's law of inertia; Parlett, *The Symmetric Eigenvalue Problem* (1980), chapter 3 and
+/// section 15.
 ///
 /// # Errors
-/// [`Error::NotSymmetric`], [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::Empty`] without mass;
-/// [`Error::NotPositiveDefinite`] for a motion that has neither stiffness nor mass, or a matrix that is not semidefinite;
-/// [`Error::Miscounted`] when a count by inertia differs.
-///
-/// Source: Sylvester's law of inertia; Parlett, *The Symmetric Eigenvalue Problem* (1980), chapter 3 and section 15.
+/// Those of [`check_symmetric`]; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a motion that has neither
+/// stiffness nor mass, or a matrix that is not semidefinite; [`Error::Miscounted`] when a count by inertia differs.
 pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<CountedModes, Error> {
     check_symmetric("stiffness", stiffness)?;
     check_shape("mass", mass, stiffness.nrows(), stiffness.nrows())?;
@@ -45,9 +44,7 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
         return Err(Error::NotPositiveDefinite { what: "mass", dof });
     }
     let massive: Vec<usize> = (0..values.len()).filter(|&row| values[row] > ZERO * largest).collect();
-    if massive.is_empty() {
-        return Err(Error::Empty { what: "degrees of freedom with mass" });
-    }
+    at_least_one("degrees of freedom with mass", massive.len())?;
     let mut f = directions.select_columns(&massive);
     f.column_iter_mut().zip(&massive).for_each(|(mut column, &row)| column *= values[row].sqrt());
     // A shift of the size of the lower frequencies: a thousandth of the mean of all.

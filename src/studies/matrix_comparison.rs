@@ -89,11 +89,10 @@ pub struct MatrixComparison {
 
 /// Corrects a case by elements and by matrices with its lowest `test_modes` test modes, and compares.
 ///
-/// The element factors come from [`correlate`] with the case's settings, the library's own rule of the step, and all analysis
-/// modes. Baruch's correction is
-/// given the exact test shapes. Berman and Nagy's is given them rounded to two digits, because with exact ones there
-/// would be no mass to correct. The design change reaches the matrices as all that is known without elements: the
-/// change of $K_D$ in the uncorrected model.
+/// The element factors come from [`correlate`] with the case's settings, the library's own rule of the step, and all
+/// analysis modes. Baruch's correction is given the exact test shapes. Berman and Nagy's is given them rounded to two
+/// digits, because with exact ones there would be no mass to correct. The design change reaches the matrices as all
+/// that is known without elements: the change of $K_D$ in the uncorrected model.
 ///
 /// # Errors
 /// Those of the model, the loops and the corrections.

@@ -9,7 +9,7 @@
 //! Journal* 21 (1983), 1168–1173.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, symmetric_part};
+use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, reduced, symmetric_part};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -48,9 +48,8 @@ pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Mo
 /// with $\Phi^t M \Phi = I$ it is the one of smallest [`weighted_norm`] of $M - M_A$.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
-/// [`Error::NotPositiveDefinite`] for a mass that is not; [`Error::Dependent`] naming the first shape that is a
-/// combination of those before it.
+/// Those of [`cholesky`], [`check_shape`] and [`check_finite`] for bad matrices; [`Error::Dependent`] naming the first shape
+/// that is a combination of those before it.
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     check_shape("test mode shapes", shapes, mass.nrows(), shapes.ncols())?;
@@ -98,8 +97,7 @@ pub fn berman_nagy_stiffness(
 /// For a change of stiffness in lbf/in it is in rad²/s², for a change of mass a fraction.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotPositiveDefinite`] for bad
-/// matrices.
+/// Those of [`check_symmetric`] and [`cholesky`].
 pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, Error> {
     Ok(mass_weighted(change, mass)?.norm())
 }
@@ -109,12 +107,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
 pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
-    let lower = cholesky("dynamic mass", mass, 0.0)?;
-    let mut weighted = change.clone();
-    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
-    weighted.transpose_mut();
-    lower.solve_lower_triangular_unchecked_mut(&mut weighted);
-    Ok(weighted)
+    Ok(reduced(&cholesky("dynamic mass", mass, 0.0)?, change))
 }
 
 fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<(), Error> {

@@ -3,7 +3,7 @@
 //!
 //! AutoMAC is the modal assurance of a set of shapes with itself: what it has beside its diagonal, sensors cannot tell apart.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, finite};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
@@ -13,10 +13,10 @@ use nalgebra::{DMatrix, DVector};
 ///
 /// $$ \mathrm{POC}_{ij} = \frac{v_i^t M w_j}{\sqrt{v_i^t M v_i} \sqrt{w_j^t M w_j}} $$
 ///
+/// Source: Ewins, *Modal Testing: Theory, Practice and Application*, 2nd edition (2000), chapter 5.
+///
 /// # Errors
 /// [`Error::NotSymmetric`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a generalized mass.
-///
-/// Source: Ewins, *Modal Testing: Theory, Practice and Application*, 2nd edition (2000), chapter 5.
 pub fn pseudo_orthogonality(
     analysis: &DMatrix<f64>,
     test: &DMatrix<f64>,
@@ -34,10 +34,10 @@ pub fn pseudo_orthogonality(
 ///
 /// $$ \mathrm{MSF}_{ij} = \frac{v_i^t w_j}{v_i^t v_i} . $$
 ///
+/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
+///
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::NotFinite`]; [`Error::NotPositive`] for an analysis shape whose square is zero.
-///
-/// Source: Allemang and Brown, *Proc. 1st International Modal Analysis Conference* (1982), 110.
 pub fn modal_scale_factors(analysis: &DMatrix<f64>, test: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("test mode shapes", test, analysis.nrows(), test.ncols())?;
     let mut factors = analysis.tr_mul(test);
@@ -53,15 +53,15 @@ pub fn modal_scale_factors(analysis: &DMatrix<f64>, test: &DMatrix<f64>) -> Resu
 ///
 /// $$ c_p = \frac{(\sum_l |v_{pl} w_{pl}|)^2}{\sum_l v_{pl}^2 \sum_l w_{pl}^2} $$
 ///
-/// for shapes of unit length, so that scale and sign of none matter. `pairs` has the analysis mode of every test mode, or none, as
-/// [`pair_optimally`](crate::studies::assignment::pair_optimally) gives it. A DOF that does not move on either side has 1, one that
-/// moves on one side only has 0. A low value names a sensor at fault or a place where the model is wrong, or one that moves little.
+/// for shapes of unit length, so that scale and sign of none matter. `pairs` has the analysis mode of every test mode,
+/// or none, as [`pair_optimally`](crate::studies::assignment::pair_optimally) gives it. A DOF that does not move on
+/// either side has 1, one that moves on one side only has 0. A low value names a sensor at fault or a place where the
+/// model is wrong, or one that moves little. Source: Lieven and Ewins, *Proc. 6th International Modal Analysis
+/// Conference* (1988), 690.
 ///
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::Empty`] without a pair; [`Error::Unknown`] for a pair with a mode that is not there;
 /// [`Error::NotFinite`]; [`Error::NotPositive`] for a shape that is zero.
-///
-/// Source: Lieven and Ewins, *Proc. 6th International Modal Analysis Conference* (1988), 690.
 pub fn coordinate_assurance(
     analysis: &DMatrix<f64>,
     test: &DMatrix<f64>,
@@ -73,9 +73,8 @@ pub fn coordinate_assurance(
         pairs.iter().enumerate().filter_map(|(j, mode)| Some((j, (*mode)?))).unzip();
     if let Some(&label) = modes.iter().find(|mode| **mode >= analysis.ncols()) {
         return Err(Error::Unknown { owner: "pairs".to_owned(), what: "analysis mode (from zero)", label });
-    } else if modes.is_empty() {
-        return Err(Error::Empty { what: "pairs" });
     }
+    at_least_one("pairs", modes.len())?;
     let v = scaled("paired analysis", &analysis.select_columns(&modes), DVector::norm_squared)?;
     let w = scaled("paired test", &test.select_columns(&tests), DVector::norm_squared)?;
     let assurance = v.row_iter().zip(w.row_iter()).map(|(v, w)| match (v.norm(), w.norm()) {

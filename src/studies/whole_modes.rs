@@ -1,7 +1,7 @@
 //! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
 
 use crate::method::assembly::{ElementMatrix, FactorizedStiffness, lumped_mass};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::structure::{StructuralDof, Structure};
@@ -32,9 +32,7 @@ impl MassDof {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, sizes, free.len())?;
         let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
-        if rows.is_empty() {
-            return Err(Error::Empty { what: "degrees of freedom with mass" });
-        }
+        at_least_one("degrees of freedom with mass", rows.len())?;
         Ok(Self {
             dof: rows.iter().map(|&row| free[row]).collect(),
             load_distribution: DMatrix::identity(free.len(), free.len()).select_columns(&rows),

@@ -72,6 +72,11 @@ impl Card {
         }
     }
 
+    /// Refuses a field for which something that is expected of it does not hold.
+    pub fn require(&self, is_met: bool, field: usize, expected: &str) -> Result<(), FileError> {
+        if is_met { Ok(()) } else { Err(self.error(field, expected)) }
+    }
+
     /// A positive integer of at most eight digits.
     pub fn label(&self, field: usize) -> Result<usize, FileError> {
         match self.text(field).parse() {
@@ -105,20 +110,15 @@ impl Card {
     /// Refuses what the crate's elements do not have, `meaning`: the field must be blank or zero.
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
-        match text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0) {
-            true => Ok(()),
-            false => Err(self.error(field, format!("a blank or zero, for the crate has no {meaning}"))),
-        }
+        let is_zero = text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0);
+        self.require(is_zero, field, &format!("a blank or zero, for the crate has no {meaning}"))
     }
 
     /// Directions x, y, z among components such as `123`; the rotations, 4 to 6, are allowed and left out.
     pub fn directions(&self, field: usize) -> Result<[bool; 3], FileError> {
         let components = self.text(field);
-        if components.chars().all(|c| ('1'..='6').contains(&c)) {
-            Ok(['1', '2', '3'].map(|component| components.contains(component)))
-        } else {
-            Err(self.error(field, "components from 1 to 6"))
-        }
+        self.require(components.chars().all(|c| ('1'..='6').contains(&c)), field, "components from 1 to 6")?;
+        Ok(['1', '2', '3'].map(|component| components.contains(component)))
     }
 
     /// The one direction, 0 to 2, of a component 1, 2 or 3.

@@ -24,17 +24,15 @@ struct Sets {
 impl Sets {
     /// Keeps the cards of the selected set, or of the sets that it joins, and returns the others.
     fn select(&mut self, selected: Option<usize>) -> Result<Vec<Card>, FileError> {
-        let (chosen, others): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.unions).into_iter().partition(|(set, _)| Some(*set) == selected);
+        let chosen: Vec<_> = self.unions.extract_if(.., |(set, _)| Some(*set) == selected).collect();
         let known: BTreeSet<usize> = self.cards.iter().map(|(set, _)| *set).collect();
         let mut sets = BTreeSet::new();
         for (_, card) in &chosen {
             card.label(3)?;
             for field in card.filled().into_iter().filter(|&field| field > 2) {
                 let set = card.label(field)?;
-                if !known.contains(&set) {
-                    return Err(card.error(field, format!("the set of an {} card", card.name.replace("ADD", "1"))));
-                }
+                let expected = format!("the set of an {} card", card.name.replace("ADD", "1"));
+                card.require(known.contains(&set), field, &expected)?;
                 sets.insert(set);
             }
         }
@@ -42,10 +40,8 @@ impl Sets {
         if chosen.is_empty() {
             sets.extend(selected);
         }
-        let (kept, left_out): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.cards).into_iter().partition(|(set, _)| sets.contains(set));
-        self.cards = kept;
-        Ok(left_out.into_iter().chain(others).map(|(_, card)| card).collect())
+        let left_out = self.cards.extract_if(.., |(set, _)| !sets.contains(set));
+        Ok(left_out.chain(self.unions.drain(..)).map(|(_, card)| card).collect())
     }
 }
 
@@ -85,27 +81,19 @@ impl Constraints {
     pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
         for (_, card) in &self.supports.cards {
             let directions = card.directions(3)?;
-            if card.text(3).is_empty() {
-                return Err(card.error(3, "components from 1 to 6"));
-            }
+            card.require(!card.text(3).is_empty(), 3, "components from 1 to 6")?;
             let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
-            if fields.peek().is_none() {
-                return Err(card.error(4, "a grid"));
-            }
+            card.require(fields.peek().is_some(), 4, "a grid")?;
             while let Some(field) = fields.next() {
                 let first = card.label(field)?;
                 let mut last = first;
                 if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
                     let end = fields.next().ok_or_else(|| card.error(after(word), "a grid after THRU"))?;
                     last = card.label(end)?;
-                    if last < first {
-                        return Err(card.error(end, format!("a grid after {first}")));
-                    }
+                    card.require(last >= first, end, &format!("a grid after {first}"))?;
                 }
                 let mut run = grids.range_mut(first..=last).peekable();
-                if run.peek().is_none() {
-                    return Err(card.error(field, "the number of a GRID card"));
-                }
+                card.require(run.peek().is_some(), field, "the number of a GRID card")?;
                 for (_, grid) in run {
                     grid.constrained = std::array::from_fn(|d| grid.constrained[d] || directions[d]);
                 }
@@ -121,12 +109,9 @@ impl Constraints {
             let mut terms = terms(card, grids)?.into_iter();
             let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
             let key = (dependent.grid, dependent.direction);
-            if coefficient == 0.0 {
-                return Err(card.error(5, "a coefficient that is not zero"));
-            }
-            if grids.get(&key.0).is_some_and(|g| g.constrained[key.1]) {
-                return Err(card.error(3, "a degree of freedom that no SPC1 card constrains"));
-            }
+            card.require(coefficient != 0.0, 5, "a coefficient that is not zero")?;
+            let is_constrained = grids.get(&key.0).is_some_and(|grid| grid.constrained[key.1]);
+            card.require(!is_constrained, 3, "a degree of freedom that no SPC1 card constrains")?;
             let tie = Tie { dependent, coefficient, terms: terms.collect() };
             if let Some((_, first)) = ties.insert(key, (tie, card)) {
                 return Err(card.error(3, format!("a degree of freedom that line {} does not tie", first.line)));

@@ -136,9 +136,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
     })?;
     let shear_modulus = if g.is_some() { card.positive(4)? } else { derived.shear_modulus };
     let density = card.real(6)?;
-    if density < 0.0 {
-        return Err(card.error(6, "a density that is not negative"));
-    }
+    card.require(density >= 0.0, 6, "a density that is not negative")?;
     Ok(Material { shear_modulus, density, ..derived })
 }
 

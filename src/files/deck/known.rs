@@ -6,20 +6,9 @@ use std::collections::BTreeMap;
 
 /// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
 /// eigenvalues, which is no part of the model and needs no note.
+#[rustfmt::skip]
 const READ: [&str; 13] = [
-    "GRID",
-    "GRDSET",
-    "CONROD",
-    "MAT1",
-    "CMASS2",
-    "CONM2",
-    "SPC1",
-    "SPCADD",
-    "MPC",
-    "MPCADD",
-    "PARAM WTMASS",
-    "EIGR",
-    "EIGRL",
+    "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
 ];
 /// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
 /// damping, output, the order of equations and other solutions' methods.

@@ -105,9 +105,7 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     let factor = card.positive(3)?;
     for mass in masses.filter(|mass| **mass > 0.0) {
         *mass = nearest_in_field(factor * *mass);
-        if !mass.is_normal() {
-            return Err(card.error(3, "a factor that leaves every mass within the range of numbers"));
-        }
+        card.require(mass.is_normal(), 3, "a factor that leaves every mass within the range of numbers")?;
     }
     Ok(())
 }

@@ -31,12 +31,8 @@ pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found
 fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     let is_symmetric = header.text(4) == "6";
     let is_square = is_symmetric || header.text(4) == "1";
-    if !is_square && !["2", "9"].contains(&header.text(4)) {
-        return Err(header.error(4, "form 1, 2, 6 or 9"));
-    }
-    if !["1", "2"].contains(&header.text(5)) {
-        return Err(header.error(5, "type 1 or 2, a real matrix"));
-    }
+    header.require(is_square || ["2", "9"].contains(&header.text(4)), 4, "form 1, 2, 6 or 9")?;
+    header.require(["1", "2"].contains(&header.text(5)), 5, "type 1 or 2, a real matrix")?;
     let (mut entries, mut places) = (Vec::new(), HashSet::new());
     let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
     for card in cards {
@@ -51,9 +47,7 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
             let value = card.optional_real(start + 2)?.ok_or_else(|| card.error(start + 2, "a real number"))?;
             card.absent(start + 3, "complex matrices")?;
             let place = if is_symmetric { (row.min(column), row.max(column)) } else { (row, column) };
-            if !places.insert(place) {
-                return Err(card.error(start, "a place of the matrix that no other entry has"));
-            }
+            card.require(places.insert(place), start, "a place of the matrix that no other entry has")?;
             rows.extend(if is_square { [row, column] } else { [row; 2] });
             columns.extend(if is_square { [row, column] } else { [column; 2] });
             entries.push((row, column, value));

@@ -54,6 +54,10 @@ impl Lines<'_> {
         FileError::line(self.file, at + 1, expected, found)
     }
 
+    fn require(&self, is_met: bool, at: usize, expected: &'static str) -> Result<(), FileError> {
+        if is_met { Ok(()) } else { Err(self.wrong(at, expected)) }
+    }
+
     /// One of the integers of a header.
     fn integer(&self, at: usize, place: usize) -> Result<usize, FileError> {
         let field = self.lines.get(at).and_then(|line| {
@@ -75,12 +79,9 @@ impl Lines<'_> {
         let rows = rows.filter(|rows| *rows != 0).ok_or_else(|| self.wrong(*at, "a number of rows"))?;
         let is_large = rows < 0 || rows >= ROWS_IN_HEADER as i64;
         let rows = rows.unsigned_abs() as usize;
-        if ![1, 2, 6, 9].contains(&form) || form == 6 && rows != columns {
-            return Err(self.wrong(*at, "a matrix of form 1, 2, 6 or 9, square if it is 6"));
-        }
-        if ![1, 2].contains(&kind) {
-            return Err(self.wrong(*at, "a matrix of type 1 or 2, which is real"));
-        }
+        let has_form = [1, 2, 6, 9].contains(&form) && (form != 6 || rows == columns);
+        self.require(has_form, *at, "a matrix of form 1, 2, 6 or 9, square if it is 6")?;
+        self.require([1, 2].contains(&kind), *at, "a matrix of type 1 or 2, which is real")?;
         let format = header.get(5 * INTEGER..).and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
         let width = format.and_then(|(_, width)| width.split('.').next()?.parse().ok()).filter(|width| *width > 0);
         let width = width.ok_or_else(|| self.wrong(*at, "a format such as 1P,5E16.9"))?;
@@ -93,9 +94,7 @@ impl Lines<'_> {
                 *at += 2; // The last record has one number, which says nothing.
                 break;
             }
-            if column <= last_column {
-                return Err(self.wrong(*at, "a column after the one before"));
-            }
+            self.require(column > last_column, *at, "a column after the one before")?;
             last_column = column;
             let (head, before, mut next_row, mut strings) = (*at, entries.len(), 1, Vec::new());
             if first > 0 {
@@ -111,17 +110,14 @@ impl Lines<'_> {
                     let both = both.ok_or_else(|| self.wrong(string, "the one integer of a string"))?;
                     (both / ROWS_IN_HEADER, both % ROWS_IN_HEADER)
                 };
-                if row < next_row {
-                    return Err(self.wrong(string, "a string after the one before"));
-                }
+                self.require(row >= next_row, string, "a string after the one before")?;
                 let count = self.numbers(at, width, (row, rows, column), &mut entries)?;
                 next_row = row + count;
                 strings.push((string, words, count));
             }
             let all = entries.len() - before;
-            if first > 0 && all != words || first == 0 && strings.is_empty() {
-                return Err(self.wrong(head, "a column with as many numbers as it says"));
-            }
+            let is_whole = if first > 0 { all == words } else { !strings.is_empty() };
+            self.require(is_whole, head, "a column with as many numbers as it says")?;
             // A number has one word or two. Some programs count one in any case, or all of the column for every string.
             let counts = |count: usize| [count, 2 * count, 2 * all].map(|words| words + 1);
             if let Some((string, ..)) = strings.iter().find(|(_, words, count)| !counts(*count).contains(words)) {
@@ -150,9 +146,7 @@ impl Lines<'_> {
             for field in line.as_bytes().chunks(width) {
                 let value = std::str::from_utf8(field).ok().and_then(|text| parse_real(text.trim()));
                 let value = value.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))?;
-                if row > rows {
-                    return Err(self.wrong(*at, "no more numbers than rows"));
-                }
+                self.require(row <= rows, *at, "no more numbers than rows")?;
                 entries.push((row - 1, column - 1, value));
                 row += 1;
             }

@@ -1,6 +1,6 @@
 //! Balance of forces and moments in each test mode (B.1 to B.4), and the rigid-body motions on which they do work.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, finite, pencil_eigen};
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, Unit, Vector3};
@@ -41,10 +41,9 @@ pub struct Balanced {
 /// (`paper/interpretation.md`); `rigid_body` $= \Phi$ (d × m), see [`super::rigid_body_vectors`].
 ///
 /// # Errors
-/// [`Error::Empty`] without modes or vectors; [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
-/// [`Error::NotPositive`], [`Error::NotPositiveDefinite`] for bad data; [`Error::Dependent`] when the balance
-/// equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a
-/// mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
+/// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] when the balance equations are
+/// singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
+/// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 pub fn balance(
     raw: &ModeSet,
     stiffness: &DMatrix<f64>,
@@ -55,9 +54,7 @@ pub fn balance(
     let generalized_masses = raw.generalized_masses(mass)?;
     check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    if rigid_body.ncols() == 0 {
-        return Err(Error::Empty { what: "rigid-body vectors" });
-    }
+    at_least_one("rigid-body vectors", rigid_body.ncols())?;
     check_shape("rigid-body vectors", rigid_body, mass.nrows(), rigid_body.ncols())?;
     check_finite("rigid-body vectors", rigid_body)?;
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
@@ -140,11 +137,8 @@ impl Motion {
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
 pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
-    if motions.is_empty() || dofs.is_empty() {
-        return Err(Error::Empty {
-            what: if motions.is_empty() { "rigid-body motions" } else { "dynamic degrees of freedom" },
-        });
-    }
+    at_least_one("rigid-body motions", motions.len())?;
+    at_least_one("dynamic degrees of freedom", dofs.len())?;
     let displacement = |i: usize, j: usize| motions[j].displacement(dofs[i].position);
     let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| dofs[i].direction.dot(&displacement(i, j)));
     finite("rigid-body vectors", vectors)

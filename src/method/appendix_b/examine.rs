@@ -2,7 +2,7 @@
 
 use super::balance::{Balanced, balance};
 use super::orthogonalize::{Movement, Orthogonalized, orthogonalize};
-use crate::method::error::{Error, positive_setting};
+use crate::method::error::{Error, at_least_one, positive_setting, setting};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -27,10 +27,8 @@ impl Default for MovementLimits {
 
 impl MovementLimits {
     fn check(&self) -> Result<(), Error> {
-        let found = self.balance;
-        if !(found > 0.0 && found < 1.0) {
-            return Err(Error::Setting { name: "balance", expected: "a number between 0 and 1", found });
-        }
+        let is_met = self.balance > 0.0 && self.balance < 1.0;
+        setting("balance", "a number between 0 and 1", self.balance, is_met)?;
         positive_setting("frequency", self.frequency)?;
         positive_setting("shape", self.shape)
     }
@@ -120,9 +118,7 @@ pub fn examine(
         }
     }
     let mut kept: Vec<usize> = (0..raw.len()).filter(|&mode| reports[mode].verdict == ModeVerdict::Kept).collect();
-    if kept.is_empty() {
-        return Err(Error::Empty { what: "test modes within the limits" });
-    }
+    at_least_one("test modes within the limits", kept.len())?;
     loop {
         let result = orthogonalize(&balanced.select(&kept), mass).map_err(|error| match error {
             Error::Dependent { what, index } => Error::Dependent { what, index: kept[index] },

@@ -55,9 +55,8 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`],
-/// [`Error::NotPositiveDefinite`], [`Error::NotPositive`] for bad data; [`Error::Dependent`] for a shape that
-/// is a combination of those before it.
+/// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] for a shape that is a combination
+/// of those before it.
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;

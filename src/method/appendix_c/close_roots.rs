@@ -13,7 +13,7 @@
 use super::general::{ModalChange, Pencil, QUIET_ORDERS};
 use super::recursive::check_order;
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_part};
 use crate::method::modes::{apply_sign_rule, solve};
 use nalgebra::{DMatrix, DVector};
@@ -54,16 +54,13 @@ pub struct SolvedInBlocks {
 /// is [`super::general::recursive_1_converged`] but for the scale of the shapes.
 ///
 /// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::LostStiffness`] for
-/// bad input; [`Error::Setting`] for a separation outside 0 to 1 or no orders; [`Error::NotPositiveDefinite`] when the
-/// changed mass is not; [`Error::UnsettledRoots`]; [`Error::LostRoot`] when a root loses its sign;
-/// [`Error::CoalescingModes`] when the recursion itself brings roots together that were apart.
+/// [`Error::Setting`] for a separation outside 0 to 1 or no orders; those of [`check_symmetric`] and [`cholesky`] for the
+/// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
+/// recursion itself brings roots together that were apart.
 pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> Result<SolvedInBlocks, Error> {
     let CloseRootsSettings { separation, tolerance, orders } = settings;
     check_order(orders)?;
-    if !(0.0..=1.0).contains(&separation) {
-        return Err(Error::Setting { name: "separation", expected: "between 0 and 1", found: separation });
-    }
+    setting("separation", "between 0 and 1", separation, (0.0..=1.0).contains(&separation))?;
     let pencil = change.pencil()?;
     check_symmetric("generalized stiffness change", &change.beta)?;
     check_symmetric("generalized mass change", &change.alpha)?;

@@ -4,7 +4,7 @@
 //! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$, both in rad²/s².
 
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one, setting};
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
 
@@ -106,14 +106,12 @@ fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now
 }
 
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
-    if order > 0 { Ok(()) } else { Err(Error::Setting { name: "order", expected: "at least 1", found: 0.0 }) }
+    setting("order", "at least 1", order as f64, order > 0)
 }
 
 /// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.
 pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
-    if k.is_empty() {
-        return Err(Error::Empty { what: "modes" });
-    }
+    at_least_one("modes", k.len())?;
     check_shape("generalized stiffness change", beta, k.len(), k.len())?;
     check_finite("generalized stiffness change", beta)?;
     match k.iter().position(|&value| value <= 0.0 || !value.is_finite()) {

@@ -12,12 +12,11 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///    \begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
 ///
 /// $B$ maps the nine translations (x, y, z of each corner, inches) to the three strains in the triangle's plane; motion
-/// out of the plane meets no resistance. Rank three.
+/// out of the plane meets no resistance. Rank three. Source: Turner, Clough, Martin and Topp, *Journal of the
+/// Aeronautical Sciences* 23 (1956), 805.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.
-///
-/// Source: Turner, Clough, Martin and Topp, *Journal of the Aeronautical Sciences* 23 (1956), 805.
 pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
     let [a, b, c] = corners;
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
@@ -58,12 +57,10 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// Two triangulations lie over each other, each with half the thickness, so that neither diagonal is favored. Every
 /// triangle keeps its true corners in space, so that a rigid-body motion costs no energy even when the panel is warped.
-/// Rank 5 when flat, 6 when warped.
+/// Rank 5 when flat, 6 when warped. Source: the QDMEM element of NASTRAN, NASA SP-222; formulas rederived.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-///
-/// Source: the QDMEM element of NASTRAN, NASA SP-222; formulas rederived.
 pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     mean_plane(corners)?;
     let mut stiffness = DMatrix::zeros(12, 12);

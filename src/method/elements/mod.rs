@@ -8,7 +8,7 @@ pub mod panel;
 pub mod shear;
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::finite;
+use crate::method::linear_algebra::{finite, finite_list};
 use crate::method::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -32,12 +32,11 @@ pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Ma
 ///
 /// $$ K = \frac{E}{L} b b^t, \qquad b = (-n, n), \qquad n = (x_2 - x_1)/L $$
 ///
-/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching.
+/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching. Source: Przemieniecki, *Theory
+/// of Matrix Structural Analysis*, section 5.2.
 ///
 /// # Errors
 /// [`Error::ZeroLength`] when the ends coincide to working precision; [`Error::NotFinite`].
-///
-/// Source: Przemieniecki, *Theory of Matrix Structural Analysis*, section 5.2.
 pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>, Error> {
     let along = ends[1] - ends[0];
     let length = along.norm();
@@ -57,12 +56,11 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
 /// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
 ///
 /// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ the
-/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$.
+/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$. Source:
+/// the lumped masses of NASTRAN, NASA SP-222, and for warped quadrilaterals its routine EMADTQ.
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind; [`Error::NotFinite`].
-///
-/// Source: the lumped masses of NASTRAN, NASA SP-222, and for warped quadrilaterals its routine EMADTQ.
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
     let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
     let volumes = match (kind, corners) {
@@ -75,5 +73,5 @@ pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec
         }
         _ => return Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
     };
-    finite("element volumes", DMatrix::from_vec(volumes.len(), 1, volumes)).map(|volumes| volumes.as_slice().to_vec())
+    finite_list("element volumes", volumes)
 }

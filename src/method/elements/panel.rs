@@ -21,14 +21,13 @@ pub struct MeanPlane {
 
 /// Projects the corners of a (possibly warped) panel on its mean plane and checks that it is convex.
 ///
-/// With diagonals $d_{13}$ and $d_{24}$ the unit normal is $k = d_{13} \times d_{24} / 2A$ with
-/// $A = |d_{13} \times d_{24}|/2$; axis $i$ is side 1-2 projected on the plane, $j = k \times i$.
+/// With diagonals $d_{13}$ and $d_{24}$ the unit normal is $k = d_{13} \times d_{24} / 2A$ with $A = |d_{13} \times
+/// d_{24}|/2$; axis $i$ is side 1-2 projected on the plane, $j = k \times i$. Source: geometry of the NASTRAN shear
+/// panel, NASA SP-222 and SP-223.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the diagonals are parallel or one has no length;
 /// [`Error::NotConvex`] naming the first corner with an interior angle of 180° or more or at the place of a neighbor.
-///
-/// Source: geometry of the NASTRAN shear panel, NASA SP-222 and SP-223.
 pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     let d13 = corners[2] - corners[0];
     let d24 = corners[3] - corners[1];

@@ -15,12 +15,11 @@ const QUADRATURE_POINTS: usize = 12;
 /// $$ K = \frac{a a^t}{2 Z}, \qquad U = q_1^2 Z $$
 ///
 /// with $a$ the [`corner_forces`] and $Z$ the [`energy_coefficient`] for a unit mean shear flow $q_1$ on side 1-2. The
-/// panel resists a single pattern of motion: rank one.
+/// panel resists a single pattern of motion: rank one. Source: Garvey, "The Quadrilateral Shear Panel", *Aircraft
+/// Engineering* 23 (1951), 134; NASA SP-222.
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-///
-/// Source: Garvey, "The Quadrilateral Shear Panel", *Aircraft Engineering* 23 (1951), 134; NASA SP-222.
 pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
@@ -29,8 +28,7 @@ pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<D
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.
 ///
-/// In mean-plane coordinates with corner 1 at the origin, $X_2$ the length of side 1-2 and
-/// $\tau = X_4 Y_3 - X_3 Y_4$,
+/// In mean-plane coordinates with corner 1 at the origin, $X_2$ the length of side 1-2 and $\tau = X_4 Y_3 - X_3 Y_4$,
 ///
 /// $$ f_1 = -\frac{X_2 Y_4}{2\tau} d_{13} = -f_3, \qquad
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$

@@ -72,9 +72,8 @@ impl FiniteElementModel {
     /// with a density add to it.
     ///
     /// # Errors
-    /// [`Error::WrongShape`], [`Error::NotFinite`] for bad matrices; [`Error::NotPositiveDefinite`] naming the DOF of a
-    /// zero or negative mass; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for
-    /// bad parameters; the geometry errors of the elements.
+    /// Those of [`check_finite`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
+    /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -105,8 +104,7 @@ impl FiniteElementModel {
     /// element's free DOF, lbf/in, in the structure's order.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for another number of matrices or one that does not fit its element; [`Error::NotFinite`] and
-    /// [`Error::NotSymmetric`].
+    /// Those of [`check_length`] for their number, of [`check_shape`] and [`check_symmetric`] for each.
     pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
         check_length("element matrices", units.len(), self.element_matrices.len())?;
         let mut model = self.clone();

@@ -4,7 +4,7 @@
 //! parameter's generalized stiffness or mass. Analysis, scaling of the test modes, pairing and comparison all happen in
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
@@ -169,9 +169,7 @@ impl ModalModel {
     ) -> Result<Self, Error> {
         let pairing = pair(&cross)?;
         let (shares, on_test) = shares(&pairing);
-        if shares.is_empty() {
-            return Err(Error::Empty { what: "parameters" });
-        }
+        at_least_one("parameters", shares.len())?;
         let omega = test.omega_squared.map(f64::sqrt);
         let relative = |share: Share| match share {
             Share::Stiffness(matrix) => matrix.component_div(&(&omega * omega.transpose())),

@@ -1,6 +1,6 @@
 //! What a correlation may change: the stiffness of elements, their mass, or point masses, alone or in groups.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::structure::Structure;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -31,13 +31,8 @@ impl Range {
 
     /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.
     pub(crate) fn clamp(&self, value: f64) -> f64 {
-        if value < self.lower {
-            self.lower
-        } else if value > self.upper {
-            self.upper
-        } else {
-            value
-        }
+        // What is no number stays none.
+        if value.is_nan() { value } else { value.max(self.lower).min(self.upper) }
     }
 }
 
@@ -96,16 +91,12 @@ pub(crate) fn member_rows<'a>(
     dynamic_dof: usize,
     parameters: &'a [Parameter],
 ) -> Result<Vec<Vec<usize>>, Error> {
-    if parameters.is_empty() {
-        return Err(Error::Empty { what: "parameters" });
-    }
+    at_least_one("parameters", parameters.len())?;
     let elements = structure.elements().iter().enumerate();
     let row_of: HashMap<usize, usize> = elements.map(|(row, element)| (element.label, row)).collect();
     let mut first_with: HashMap<(Scaled, usize), &'a str> = HashMap::new();
     let rows_of = |parameter: &'a Parameter| {
-        if parameter.members.is_empty() {
-            return Err(Error::Empty { what: "members of a parameter" });
-        }
+        at_least_one("members of a parameter", parameter.members.len())?;
         let row = |&label: &usize| {
             let (what, row) = match parameter.scaled {
                 Scaled::PointMass => ("dynamic degree of freedom", Some(label).filter(|&dof| dof < dynamic_dof)),

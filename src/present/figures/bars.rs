@@ -1,8 +1,6 @@
 //! Percent errors as groups of bars: of panels stage by stage, and of modes model by model.
 
 use super::canvas::*;
-use crate::present::PresentError;
-use plotters::style::{RGBColor, WHITE};
 
 /// Bars of one color: what they are, and one value a group with the published one to mark on it, if there is any.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,9 +4,7 @@ use super::canvas::*;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
 use crate::method::structure::{Element, ElementKind};
-use crate::present::PresentError;
 use nalgebra::Vector3;
-use plotters::style::WHITE;
 
 /// One of the three layers the box is taken apart into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,13 +4,14 @@
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
 pub(super) use super::colors::{BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on};
-use crate::present::PresentError;
+pub(super) use crate::present::PresentError;
 use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+pub(super) use plotters::style::{RGBColor, WHITE};
 
 /// Units to a pixel.
 const UNITS: f64 = 10.0;

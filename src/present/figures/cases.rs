@@ -43,7 +43,7 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
     let subject = Subject::of_case(result)?;
     let case = result.case.number;
     let mut all = subject_figures(&subject)?;
-    let kept = |what: &str| {
+    let mut kept = |what: &str| {
         let papers = [("errors", ["5", "7", "8"]), ("node_lines", ["6", "", ""])];
         let number = papers.iter().find(|(name, _)| *name == what).and_then(|(_, numbers)| numbers.get(case - 1));
         let at = all.iter().position(|figure| figure.name == format!("case_{case}_{what}"))?;
@@ -64,10 +64,9 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         let svg = drawn.draw("case_4_factors", "Case 4: unlimited stiffness change factors")?;
         let caption = "Case 4: what the first iteration asks of every panel before any limit, on a linear scale.";
         figures.push(Figure::new("case_4_factors", caption, svg));
-        figures.extend(["derivatives"].into_iter().filter_map(kept));
+        figures.extend(kept("derivatives"));
         return Ok(());
     }
-    let mut kept = kept;
     figures.extend(kept("errors"));
     let name = format!("case_{case}_readings");
     let svg = reading_bars(result)?.draw(&name, &format!("Case {case}: gage errors by readings of the step"))?;

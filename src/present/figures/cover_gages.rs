@@ -5,9 +5,7 @@ use super::view::View;
 use crate::cases::Case;
 use crate::cases::torque_box::{Panel, TEST_GAGE};
 use crate::method::structure::ElementKind;
-use crate::present::PresentError;
 use nalgebra::Vector3;
-use plotters::style::{RGBColor, WHITE};
 
 /// A cover panel of one configuration.
 #[derive(Debug, Clone, PartialEq)]

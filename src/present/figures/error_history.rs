@@ -2,9 +2,8 @@
 
 use super::canvas::*;
 use crate::method::error_sum::Errors;
-use crate::present::PresentError;
 use crate::present::subject::{Stage, Subject};
-use plotters::prelude::{BindKeyPoints, IntoLogRange, RGBColor, WHITE};
+use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 /// The SRSS errors of one stage, fractions.
 #[derive(Debug, Clone, PartialEq)]

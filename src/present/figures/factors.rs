@@ -2,9 +2,7 @@
 
 use super::canvas::*;
 use crate::method::model::Range;
-use crate::present::PresentError;
 use crate::present::table::Digits;
-use plotters::style::WHITE;
 
 /// Margins of the plot: left at least, right, top, bottom, px.
 const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];

@@ -1,9 +1,7 @@
 //! Matrices as colored cells with their numbers in them.
 
 use super::canvas::*;
-use crate::present::PresentError;
 use nalgebra::DMatrix;
-use plotters::style::WHITE;
 
 /// A matrix with the names of its rows and columns.
 #[derive(Debug, Clone, PartialEq)]

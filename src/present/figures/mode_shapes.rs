@@ -5,11 +5,9 @@ use super::frame::Frame;
 use super::view::{Room, View, extents};
 use crate::method::linear_algebra::check_shape;
 use crate::method::pairing;
-use crate::present::PresentError;
 use crate::present::subject::Subject;
 use crate::present::table::Digits;
 use nalgebra::Vector3;
-use plotters::style::WHITE;
 
 /// Lines so wide that each is seen where all three lie on each other.
 fn pens() -> [(&'static str, Pen); 3] {
@@ -107,9 +105,7 @@ impl Modes {
             let still = (nodes, Pen::solid(PALE, 1.0));
             let states = moved.iter().zip(pens()).map(|(nodes, (_, pen))| (nodes, pen));
             for (nodes, pen) in std::iter::once(still).chain(states) {
-                for chain in &self.frame.lines {
-                    line(area, &chain.iter().map(|&node| view.place(nodes[node])).collect::<Vec<_>>(), pen)?;
-                }
+                view.lines(area, &self.frame.lines, nodes, pen)?;
                 for &node in self.frame.known.keys().filter(|_| self.frame.lines.is_empty()) {
                     mark(area, view.place(nodes[node]), Mark(Form::Circle, 0.5 + pen.1, None, Pen(pen.0, 1.2, pen.2)))?;
                 }
@@ -124,10 +120,7 @@ impl Modes {
         let view = View::flat(nodes).map_or_else(|| View::plan(nodes), |(_, view)| view);
         self.each(name, title, "node lines:", |area, mode, room| {
             let view = view.fitted(nodes, room);
-            for chain in &self.frame.lines {
-                let points: Vec<Place> = chain.iter().map(|&node| view.place(nodes[node])).collect();
-                line(area, &points, Pen::solid(SILVER, 0.8))?;
-            }
+            view.lines(area, &self.frame.lines, nodes, Pen::solid(SILVER, 0.8))?;
             for (moved, (_, pen)) in mode.moved.iter().zip(pens()) {
                 for segment in self.frame.node_lines(&normal, moved) {
                     line(area, &segment.map(|at| view.place(at)), pen)?;

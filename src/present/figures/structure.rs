@@ -3,10 +3,8 @@
 use super::canvas::*;
 use super::frame::Frame;
 use super::view::View;
-use crate::present::PresentError;
 use crate::present::subject::Subject;
 use nalgebra::Vector3;
-use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 
 const SENSOR: Mark = Mark(Form::Square, 3.6, Some(VERMILION), Pen(VERMILION, 1.2, Dash::Solid));
@@ -81,10 +79,7 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
     }
     let height = DRAWING + 30.0 + LINE * list.len() as f64;
     svg(name, title, height, |area| {
-        for chain in &frame.lines {
-            let points: Vec<Place> = chain.iter().map(|&node| view.place(frame.nodes[node])).collect();
-            line(area, &points, Pen::solid(SILVER, 1.1))?;
-        }
+        view.lines(area, &frame.lines, &frame.nodes, Pen::solid(SILVER, 1.1))?;
         let mut x = 14.0;
         for (form, words) in [(SENSOR, "sensor"), (support(true), "held"), (support(false), "grid")] {
             marked(area, (x, 18.0), form, words)?;

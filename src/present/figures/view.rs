@@ -1,6 +1,6 @@
 //! How a structure falls on the paper: a quasi-isometric view or a plan, scaled to the room it is given.
 
-use super::canvas::Place;
+use super::canvas::{Area, Drawn, Pen, Place, line};
 use nalgebra::Vector3;
 
 /// How many times the box's depth is drawn, which is a twentieth of its span.
@@ -98,6 +98,12 @@ impl View {
         };
         let named = ["x", "y", "z"].into_iter().zip((0..3).map(ways)).filter(|(_, ways)| !ways.is_empty());
         named.map(|(axis, ways)| format!("{axis} {ways}")).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Draws lines through nodes, each by its places among them.
+    pub fn lines(&self, area: &Area, lines: &[Vec<usize>], nodes: &[Vector3<f64>], pen: Pen) -> Drawn {
+        let points = |nodes_of: &Vec<usize>| nodes_of.iter().map(|&node| self.place(nodes[node])).collect::<Vec<_>>();
+        lines.iter().try_for_each(|nodes_of| line(area, &points(nodes_of), pen))
     }
 
     pub fn place(&self, at: Vector3<f64>) -> Place {

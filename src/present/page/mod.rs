@@ -63,7 +63,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         named("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
         named("cost", "Iterations", "Iterations", cost),
         named("differences", "Differences", why, differences),
-        named("made", "How it was made", "How it was made", made_section(contents)),
+        named("made", "How it was made", "How it was made", made("Units: inch, pound-force, second", contents.command)),
     ]);
     let bodies = parts.iter().map(|(.., body)| body.as_str());
     let tables = bodies.flat_map(|body| body.split("<table id=\"").skip(1)).filter_map(|rest| rest.split('"').next());
@@ -115,11 +115,6 @@ pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result
     let summary = words + &table(&paired_table(subject)?);
     let derivatives = derivative_table(subject).as_ref().map(table).unwrap_or_default();
     let others: String = extra.iter().map(table).collect();
-    let made = format!(
-        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units are the model's own; frequency in hertz. \
-         The same command gives the same page.</p>\n",
-        escaped(command)
-    );
     let parts = [
         ("summary", "Summary", summary),
         ("factors", "Factors", table(&factor_table(subject)) + &drawn(&["factors"])),
@@ -128,7 +123,7 @@ pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result
         ("history", "History", table(&history_table(subject)) + &drawn(&["errors"])),
         ("derivatives", "Derivatives", derivatives + &drawn(&["derivatives"])),
         ("others", "Further results", others),
-        ("made", "How it was made", made),
+        ("made", "How it was made", made("Units are the model's own", command)),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
     let parts = parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
@@ -214,11 +209,12 @@ fn matrices_section(contents: &Contents) -> Result<String, PresentError> {
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["matrices_"]))
 }
 
-fn made_section(contents: &Contents) -> String {
+/// How a page was made, with words about its units.
+fn made(units: &str, command: &str) -> String {
     format!(
-        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>Units: inch, pound-force, second; \
-        frequency in hertz. The same command gives the same page.</p>\n",
-        escaped(contents.command)
+        "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>{units}; frequency in hertz. The same command \
+         gives the same page.</p>\n",
+        escaped(command)
     )
 }
 

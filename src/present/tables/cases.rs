@@ -4,7 +4,7 @@ use super::readings::{case_readings, detection_table};
 use super::stages::Stages;
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
-use super::{KINDS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
+use super::{Cell, Digits, KINDS, PERCENT, PresentError, RMS_PERCENT, Table, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
@@ -14,8 +14,6 @@ use crate::method::error_sum::Errors;
 use crate::method::model::Check;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table};
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
 fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, PresentError> {

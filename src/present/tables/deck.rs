@@ -1,8 +1,9 @@
 //! The modes of a deck as tables.
 
+use super::{Cell, Digits, Table};
 use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
-use crate::present::table::{Cell, Digits, Table, counted};
+use crate::present::table::counted;
 use crate::studies::whole_modes::WholeModes;
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.

@@ -1,11 +1,9 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
 use super::subject::{history_table, paired_table};
-use super::{PERCENT, RMS_PERCENT};
+use super::{Cell, Digits, PERCENT, PresentError, RMS_PERCENT, Table};
 use crate::cases::published::PublishedTable;
-use crate::present::PresentError;
 use crate::present::subject::Subject;
-use crate::present::table::{Cell, Digits, Table};
 use crate::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 

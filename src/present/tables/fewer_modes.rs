@@ -1,12 +1,10 @@
 //! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
 
 use super::stages::Stages;
-use super::{KINDS, PERCENT, RMS_PERCENT, remarks};
+use super::{Cell, Digits, KINDS, PERCENT, PresentError, RMS_PERCENT, Table, remarks};
 use crate::cases::Case;
 use crate::cases::fewer_modes::{Agreement, FewerModesRun};
 use crate::cases::published::PublishedTable;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The paper's frequencies with fewer modes are those of five test modes.

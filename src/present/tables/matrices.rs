@@ -1,8 +1,7 @@
 //! Why elements and not matrices, as tables.
 
-use super::{HERTZ, PERCENT, RMS_PERCENT, kind_letter, rms};
+use super::{Cell, Digits, HERTZ, PERCENT, RMS_PERCENT, Table, kind_letter, rms};
 use crate::cases::Case;
-use crate::present::table::{Cell, Digits, Table};
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
 
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.

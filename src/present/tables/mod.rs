@@ -16,7 +16,8 @@ pub mod table_1;
 pub mod unlimited;
 pub mod weighted;
 
-use super::table::Digits;
+use super::PresentError;
+use super::table::{Cell, Digits, Table};
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
 

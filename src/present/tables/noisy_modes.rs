@@ -1,8 +1,7 @@
 //! What noise of the test modes does to the gages, with Appendix B and without, as tables.
 
-use super::{PERCENT, RMS_PERCENT};
+use super::{Cell, Digits, PERCENT, RMS_PERCENT, Table};
 use crate::method::appendix_b::LARGEST_SUSPENSION_RATIO;
-use crate::present::table::{Cell, Digits, Table};
 use crate::studies::noisy_modes::{Found, NoisyModes, NoisyRun};
 
 /// A quantity of a correlation: its name, its unit, how it is written, and its value in that unit.

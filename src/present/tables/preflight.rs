@@ -1,6 +1,6 @@
 //! The pre-flight as tables: what is found, and how often mistakes made on purpose are.
 
-use crate::present::table::{Cell, Table};
+use super::{Cell, Table};
 use crate::studies::noisy_modes::Noise;
 use crate::studies::preflight::rates::{Rate, Rates};
 use crate::studies::preflight::{Finding, MISTAKES, Mistake};

@@ -1,10 +1,8 @@
 //! The paper's own tables, with nothing computed beside them.
 
 use super::stages::stage_title;
-use super::{in_words, remarks};
+use super::{Cell, PresentError, Table, in_words, remarks};
 use crate::cases::published::PublishedTable;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Table};
 
 /// Ends of column headings, and the units that they stand for.
 const UNITS: [(&str, &str); 4] = [("_hz", "Hz"), ("_in", "in"), ("_percent", "%"), ("_seconds", "s")];

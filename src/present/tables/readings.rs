@@ -1,13 +1,11 @@
 //! What each reading of the step makes of the paper's gages, beside the print.
 
-use super::{PERCENT, RMS_PERCENT};
+use super::{Cell, Digits, PERCENT, PresentError, RMS_PERCENT, Table};
 use crate::cases::published::PublishedTable;
 use crate::cases::readings::{Detection, READINGS, ReadingColumn};
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::cases::{ANOMALY_RATIO, CASES, published_reading};
 use crate::method::step::StepRule;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table};
 
 const COEFFICIENT: Digits = Digits::Fixed(2);
 

@@ -1,9 +1,8 @@
 //! Values beside their targets, from the first model to the last: frequencies or gages, pass by pass.
 
-use super::{HERTZ, INCHES, PERCENT, in_words, kind_letter};
+use super::{Cell, Digits, HERTZ, INCHES, PERCENT, Table, in_words, kind_letter};
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Panel, TEST_GAGE};
-use crate::present::table::{Cell, Digits, Table};
 
 /// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), and its values in the
 /// order of the rows.

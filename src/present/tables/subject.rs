@@ -1,11 +1,10 @@
 //! Tables of any correlation: paired modes, factors, and its history.
 
-use super::{HERTZ, RMS_PERCENT};
+use super::{Cell, Digits, HERTZ, RMS_PERCENT, Table};
 use crate::cases::BUILT_IN;
 use crate::method::error::Error;
 use crate::method::model::Check;
 use crate::present::subject::{Agreement, Subject};
-use crate::present::table::{Cell, Digits, Table};
 
 /// Three decimals, of criteria between zero and one and of factors.
 const THREE: Digits = Digits::Fixed(3);

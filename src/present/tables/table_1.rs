@@ -1,8 +1,7 @@
 //! Table 1 for a reader: root errors of the perturbation formulae by order.
 
+use super::{Cell, Digits, PresentError, Table};
 use crate::cases::table_1::{Formula, problems, table_1};
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table};
 
 /// Orders shown.
 const ORDERS: usize = 6;

@@ -49,6 +49,7 @@ pub const LARGEST_TOLERANCE: f64 = 0.2;
 /// Something that looks wrong. Places count from zero here and from one in [`std::fmt::Display`]'s words.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "a variant's own sentence says what its fields are")]
 pub enum Finding {
     /// All frequencies are wrong by one factor.
     CommonFactor(CommonFactor),
@@ -56,58 +57,23 @@ pub enum Finding {
     Mended(Mended),
     /// Two frequencies stand beside each other's shapes.
     FrequenciesExchanged(FrequenciesExchanged),
-    /// Two test modes have nearly the same shape.
-    NearlySame {
-        /// Which.
-        modes: [usize; 2],
-        /// Their modal assurance.
-        assurance: f64,
-        /// The second frequency over the first; close to one, the mode was measured twice.
-        frequency_ratio: f64,
-    },
-    /// A pair agrees badly, after the change named if there is one.
-    LowPair {
-        /// The test mode.
-        test: usize,
-        /// Its analysis mode.
-        analysis: usize,
-        /// The magnitude of their cross-orthogonality.
-        cross: f64,
-    },
-    /// There are more test modes than their shapes at the measured points tell apart.
-    TooManyModes {
-        /// Test modes.
-        modes: usize,
-        /// Measured points.
-        points: usize,
-        /// Singular values of the shapes, at unit generalized mass, that are not small.
-        distinct: usize,
-        /// The smallest singular value.
-        smallest: f64,
-    },
-    /// A tolerance looks like percent.
-    Percent {
-        /// Name of the setting.
-        setting: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A parameter may not keep its first value.
-    ExcludesStart {
-        /// Which parameter.
-        parameter: usize,
-        /// Bounds on its factor.
-        range: Range,
-    },
+    /// Two test modes have nearly the same shape, by their modal assurance. Where the second frequency over the first is close to
+    /// one, the mode was measured twice.
+    NearlySame { modes: [usize; 2], assurance: f64, frequency_ratio: f64 },
+    /// A test mode and its analysis mode agree badly, by the magnitude of their cross-orthogonality, after the change named if there
+    /// is one.
+    LowPair { test: usize, analysis: usize, cross: f64 },
+    /// There are more test modes than their shapes at the measured points tell apart: `distinct` is how many singular values of the
+    /// shapes, at unit generalized mass, are not small.
+    TooManyModes { modes: usize, points: usize, distinct: usize, smallest: f64 },
+    /// The value of a tolerance looks like percent.
+    Percent { setting: &'static str, value: f64 },
+    /// A parameter may not keep its first value, for the bounds on its factor.
+    ExcludesStart { parameter: usize, range: Range },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
     /// Condensation to the measured points makes a mode of the model itself too stiff.
-    CoarseCondensation {
-        /// The mode of the condensed model.
-        mode: usize,
-        /// What condensation does to it.
-        error: CondensationError,
-    },
+    CoarseCondensation { mode: usize, error: CondensationError },
 }
 
 /// The lowest `count` modes that condensation to the measured points raises by more than

@@ -35,18 +35,10 @@ pub enum Mistake {
 }
 
 /// All mistakes.
-pub const MISTAKES: [Mistake; 10] = [
-    Mistake::Factor,
-    Mistake::Reversed,
-    Mistake::Exchanged,
-    Mistake::Reordered,
-    Mistake::TwoColumns,
-    Mistake::Columns,
-    Mistake::Transposed,
-    Mistake::Frequencies,
-    Mistake::Repeated,
-    Mistake::FewPoints,
-];
+pub const MISTAKES: [Mistake; 10] = {
+    use Mistake::*;
+    [Factor, Reversed, Exchanged, Reordered, TwoColumns, Columns, Transposed, Frequencies, Repeated, FewPoints]
+};
 
 /// Numbers below a bound, from a seed.
 struct Draw(u64);

@@ -81,15 +81,13 @@ impl Specimen {
     pub fn spring_chain() -> Result<Self, Error> {
         let count = SPRING_ERRORS.len();
         let spring = |s: usize, error: f64| spring_stiffness(count, s, 1e6 * error * (1.0 - 0.08 * s as f64));
-        let sum =
-            |springs: &[DMatrix<f64>]| springs.iter().fold(DMatrix::zeros(count, count), |sum, spring| sum + spring);
-        let right: Vec<_> = (0..count).map(|s| spring(s, 1.0)).collect();
-        let wrong: Vec<_> = SPRING_ERRORS.iter().enumerate().map(|(s, &error)| spring(s, error)).collect();
+        let right: DMatrix<f64> = (0..count).map(|s| spring(s, 1.0)).sum();
+        let wrong = SPRING_ERRORS.iter().enumerate().map(|(s, &error)| spring(s, error)).sum();
         let mass = DMatrix::from_diagonal(&DVector::from_fn(count, |point, _| 1.0 - 0.06 * point as f64));
         Ok(Self {
             name: "Spring chain".to_owned(),
-            test: solve(&sum(&right), &mass, count)?.into(),
-            model: DynamicModel { stiffness: sum(&wrong), mass, shares: Vec::new() },
+            test: solve(&right, &mass, count)?.into(),
+            model: DynamicModel { stiffness: wrong, mass, shares: Vec::new() },
             settings: Settings::default(),
             ranges: vec![None; count],
             condensation: Vec::new(),

@@ -46,11 +46,9 @@ impl Display for Finding {
                 write!(f, "Test frequencies are {median:.4} times the model's, by no mistake known here.")
             }
             Self::Mended(Mended { change, before, after, next }) => {
-                write!(
-                    f,
-                    "{}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}",
-                    Upper(change)
-                )?;
+                let words = change.to_string();
+                let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
+                write!(f, "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}")?;
                 match next {
                     Some((next, agreement)) => write!(f, "; the next best, {next}, to {agreement:.3}."),
                     None => write!(f, "."),
@@ -95,16 +93,5 @@ impl Display for Finding {
             ),
             Self::Unbounded(parameters) => write!(f, "Parameters without bounds: {}.", list(parameters)),
         }
-    }
-}
-
-/// A change with a capital letter.
-struct Upper<'a>(&'a Change);
-
-impl Display for Upper<'_> {
-    fn fmt(&self, f: &mut Formatter) -> Result {
-        let words = self.0.to_string();
-        let (first, rest) = words.split_at(1);
-        write!(f, "{}{rest}", first.to_uppercase())
     }
 }

@@ -119,14 +119,13 @@ struct Place {
 /// quadratic model promised, $\mu$ is multiplied by $\max(\frac{1}{3}, 1 - (2\rho - 1)^3)$ then, and by 2, 4, 8, ... in
 /// rejections on end. Test modes are paired anew at every place.
 ///
-/// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`].
+/// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`]. Source: Marquardt, *SIAM Journal* 11
+/// (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05, Technical University of Denmark
+/// (1999).
 ///
 /// # Errors
 /// Those of `analyze`, [`residuals`] and [`identifiability`]; [`Error::Setting`], [`Error::Limits`] and [`Error::WrongShape`] for
 /// settings and lists out of range.
-///
-/// Source: Marquardt, *SIAM Journal* 11 (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05,
-/// Technical University of Denmark (1999).
 pub fn gauss_newton<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     first: &[f64],

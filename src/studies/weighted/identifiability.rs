@@ -1,6 +1,6 @@
 //! What the test modes can see of the parameters, and how sure the factors are.
 
-use crate::method::error::{Error, positive_setting};
+use crate::method::error::{Error, at_least_one, positive_setting};
 use crate::method::linear_algebra::{check_finite, check_length};
 use crate::method::model::Range;
 use nalgebra::DMatrix;
@@ -37,20 +37,18 @@ pub struct Identifiability {
 
 /// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
 ///
-/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero with
-/// $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated tests.
+/// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero
+/// with $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated
+/// tests. Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix
+/// Computations*.
 ///
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
-///
-/// Source: Friswell and Mottershead, *Finite Element Model Updating* (1995); Golub and Van Loan, *Matrix Computations*.
 pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;
     let count = jacobian.ncols();
-    if jacobian.is_empty() {
-        return Err(Error::Empty { what: "parameters or residuals" });
-    }
+    at_least_one("parameters or residuals", jacobian.len())?;
     let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
     singular_values.resize(count, 0.0);
     let smallest = singular_values[count - 1];

@@ -1,7 +1,7 @@
 //! Left and right modes of the general pencil (C.1), whose $G$ may be complex and unsymmetric, such as mass with
 //! aerodynamic terms.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_shape, cholesky, reduced, to_faer};
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -44,14 +44,11 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices;
-/// [`Error::NotPositiveDefinite`] naming the DOF for a stiffness that is not; [`Error::Empty`] without DOF;
-/// [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
+/// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
+/// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
 pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let size = stiffness.nrows();
-    if size == 0 {
-        return Err(Error::Empty { what: "degrees of freedom" });
-    }
+    at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
     let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;

@@ -13,21 +13,17 @@
 pub mod complex_modes;
 mod modal_change;
 
+pub use crate::method::linear_algebra::Number;
 pub use modal_change::ModalChange;
 
 use super::recursive::check_order;
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_finite;
-use nalgebra::{ComplexField, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 
 /// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
 pub(super) const QUIET_ORDERS: usize = 2;
-
-/// A real or complex number.
-pub trait Number: ComplexField<RealField = f64> + Copy {}
-
-impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 
 /// The changed pencil in modal coordinates, $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n).
 pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);

@@ -3,7 +3,7 @@
 use super::complex_modes::LeftRightModes;
 use super::{Number, Pencil};
 use crate::method::appendix_c::SMALLEST_SEPARATION;
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_shape};
 use nalgebra::{DMatrix, DVector};
 
@@ -88,9 +88,7 @@ impl<T: Number> ModalChange<T> {
     /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
     pub(crate) fn pencil(&self) -> Result<Pencil<T>, Error> {
         let size = self.len();
-        if size == 0 {
-            return Err(Error::Empty { what: "modes" });
-        }
+        at_least_one("modes", size)?;
         let k = &self.generalized_stiffness;
         let column = |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
         for (what, matrix, columns) in [
