@@ -56,8 +56,8 @@ impl Prepared {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Job`] for modes that the test does not have, and when no test mode has a partner;
-    /// those of the first analysis.
+    /// Those of the files; [`FileError::Job`] for modes that the test does not have or that are named twice, and when no test mode has
+    /// a partner; those of the first analysis and of [`Prepared::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = beside(path, &job.test.file);
