@@ -107,7 +107,8 @@ impl Verdict {
             ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
             100.0 * self.error_sum,
             self.worst_mode + 1,
-            100.0 * self.worst.frequency,
+            // Rounded first, so that no zero has a minus sign.
+            (1e4 * self.worst.frequency).round() / 100.0 + 0.0,
             100.0 * self.worst.shape
         );
         if !self.at_bound.is_empty() {

@@ -6,7 +6,7 @@ use super::place::{check, put};
 use super::signals;
 use clap::Args;
 use corfem::files::error::FileError;
-use corfem::files::job::{Prepared, TEMPLATE, TEST_TEMPLATE, run};
+use corfem::files::job::{Method, Prepared, TEMPLATE, TEST_TEMPLATE, run};
 use corfem::present::page::subject_page;
 use corfem::present::subject::Subject;
 use corfem::present::tables::deck::not_read;
@@ -37,6 +37,12 @@ pub struct CorrelateArguments {
     /// Also write report.html, factors.csv, correlation.json and the corrected deck into this folder, made if it is new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
+    /// Try so many first points by Gauss-Newton steps, the model's own and others drawn from the seed
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    starts: Option<u32>,
+    /// The seed of the first points
+    #[arg(long, value_name = "S", requires = "starts")]
+    seed: Option<u64>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -75,7 +81,13 @@ pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), 
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
     arguments.output.check()?;
     arguments.folder.as_deref().map_or(Ok(()), check_folder)?;
-    let prepared = Prepared::new(&arguments.job)?;
+    let mut prepared = Prepared::new(&arguments.job)?;
+    if let Some(starts) = arguments.starts {
+        let compare = &mut prepared.job.compare;
+        compare.method = Method::GaussNewton;
+        compare.starts = Some(starts as usize);
+        compare.seed = arguments.seed.unwrap_or(compare.seed);
+    }
     for card in prepared.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
         say(format_args!("corfem: {}: {}", prepared.title, not_read(card)));
     }

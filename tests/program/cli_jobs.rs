@@ -1,6 +1,6 @@
 //! `corfem correlate`, `corfem check JOB` and `corfem init` from outside: what they print, write and leave alone.
 
-use crate::common::tolerances::FIELD_ROUNDING;
+use crate::common::tolerances::{FIELD_ROUNDING, WEIGHTED_FACTOR};
 use crate::program::cli::{corfem, text};
 use corfem::files::job::{Job, Prepared, read};
 use serde_json::Value;
@@ -317,6 +317,18 @@ fn a_signal_keeps_the_best_so_far() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
+    // Until it has taken the signal over, and then for some analyses.
+    let takes_it = || {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_none_or(|mask| mask & 2 != 0)
+    };
+    for _ in 0..600 {
+        std::thread::sleep(Duration::from_millis(100));
+        if takes_it() {
+            break;
+        }
+    }
     std::thread::sleep(Duration::from_secs(3));
     assert!(child.try_wait().expect("a state").is_none(), "it lasts");
     send(&child, Signal::INT);
@@ -327,4 +339,21 @@ fn a_signal_keeps_the_best_so_far() {
     assert_eq!(names(&out), ["corrected.bdf", "correlation.json", "factors.csv", "report.html"]);
     let factors = numbers(&json(&out.join("correlation.json"))["factors"]);
     assert!(factors.iter().any(|factor| (factor - 1.0).abs() > FIELD_ROUNDING), "better than the first model");
+}
+
+/// Starts and seed of the command line stand for those of the job.
+#[test]
+fn starts_and_seed_are_taken_from_the_command_line() {
+    let job = folder_of("building").join("job.toml");
+    let report = |more: &[&str]| {
+        let output = correlate(&job, &[&["--format", "json"], more].concat());
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    };
+    let (paper, once, twice) = (report(&[]), report(&["--starts", "1"]), report(&["--starts", "2", "--seed", "5"]));
+    assert!(paper["passes"][0]["iterations"].as_u64().is_some_and(|count| count > 1));
+    // Of an exact test both starts find the same building.
+    for (a, b) in numbers(&once["factors"]).iter().zip(numbers(&twice["factors"])) {
+        assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{a} {b}");
+    }
+    assert_eq!(correlate(&job, &["--seed", "5"]).status.code(), Some(2), "a seed without starts");
 }

@@ -7,10 +7,13 @@
 use crate::program::cli::text;
 use rustix::process::geteuid;
 use std::fs::{self, Permissions};
+use std::io::ErrorKind;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::Duration;
 use tempfile::TempDir;
 
 /// A user who owns nothing.
@@ -44,7 +47,14 @@ impl Place {
         if geteuid().is_root() {
             command.uid(NOBODY).gid(NOBODY);
         }
-        command.output().expect("it starts")
+        // Another test may start a program of its own while the copy is still open for writing, and hold it open for a moment.
+        for _ in 0..200 {
+            match command.output() {
+                Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => sleep(Duration::from_millis(50)),
+                done => return done.expect("it starts"),
+            }
+        }
+        panic!("the program stays busy")
     }
 }
 
