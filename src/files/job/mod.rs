@@ -3,6 +3,7 @@
 //! [`read`] reads the file alone; [`Prepared::new`] reads what it names, puts model and test together, and is what a correlation
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
+mod matrices;
 mod model;
 mod prepare;
 mod run;
