@@ -228,7 +228,7 @@ impl FactorizedStiffness {
         };
         let mut solved = to_faer(&scaled(loads.clone()));
         self.factor.solve(&mut solved);
-        Ok(scaled(from_faer(solved.as_ref())))
+        finite("deflections", scaled(from_faer(solved.as_ref())))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{ErrorMeasure, Errors};
-use crate::method::linear_algebra::check_length;
+use crate::method::linear_algebra::{check_length, finite_list};
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
@@ -128,6 +128,7 @@ pub fn run(
     check_length("parameter limits", total_ranges.len(), model.shares.len())?;
     let is_range = |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
     total_ranges.iter().flatten().try_for_each(is_range)?;
+    model.check()?;
     let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
     let start = state.errors;
     let scale = settings.measure.scale(model.test.len());
@@ -140,7 +141,10 @@ pub fn run(
         let changes = error_changes(model, &state, settings.derivatives)?;
         let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step)?;
         let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
-        let unlimited = unlimited_factors(&changes, &stiffnesses, scale * state.errors.sum(), relaxation);
+        let unlimited = finite_list(
+            "unlimited factors",
+            unlimited_factors(&changes, &stiffnesses, scale * state.errors.sum(), relaxation),
+        )?;
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }

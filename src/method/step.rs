@@ -79,7 +79,8 @@ pub fn unlimited_factors(
     relaxation: f64,
 ) -> Vec<f64> {
     let factor = |(&error, &stiffness): (&f64, &f64)| match stiffness > 0.0 {
-        true => 1.0 - relaxation * error_sum * error / stiffness,
+        // One beyond the range of numbers is limited all the same.
+        true => (1.0 - relaxation * error_sum * error / stiffness).clamp(-f64::MAX, f64::MAX),
         false => 1.0,
     };
     error_changes.iter().zip(stiffness_changes).map(factor).collect()

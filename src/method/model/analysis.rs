@@ -4,6 +4,7 @@ use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Sha
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::FactorizedStiffness;
 use crate::method::error::Error;
+use crate::method::linear_algebra::finite;
 use crate::method::modes::{ModeSet, Modes, solve};
 use nalgebra::DMatrix;
 
@@ -46,6 +47,7 @@ impl FiniteElementModel {
                 mass += size * generalized_mass(&transformation, element);
             }
         }
+        let (stiffness, mass) = (finite("dynamic stiffness", stiffness)?, finite("dynamic mass", mass)?);
         Ok(CondensedModel { stiffness, mass, transformation, sizes, mass_sizes, point_mass })
     }
 

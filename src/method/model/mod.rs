@@ -10,7 +10,7 @@ pub use parameters::{Parameter, Range, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list};
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
 use parameters::member_rows;
@@ -216,6 +216,6 @@ impl FiniteElementModel {
                 rows.iter().for_each(|&row| values[row] *= factor);
             }
         }
-        Ok(values)
+        finite_list("scaled sizes or masses", values)
     }
 }

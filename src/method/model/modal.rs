@@ -186,6 +186,10 @@ impl ModalModel {
     /// Refuses a model whose parts do not fit together.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let (count, test_count) = (self.exact.modes.len(), self.test.len());
+        let value = self.exact.errors.sum();
+        if !value.is_finite() {
+            return Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value });
+        }
         self.exact.pairing.check(&self.exact.modes, test_count)?;
         check_shape("test mode shapes", &self.test.shapes, self.exact.modes.shapes.nrows(), test_count)?;
         check_shape("cross-orthogonality", &self.cross, count, test_count)?;
