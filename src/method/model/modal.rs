@@ -129,7 +129,8 @@ impl ModalModel {
         let of_test = |share: &Share| share.map(|matrix| block(matrix, count, test_count));
         let test_shares = through_both.iter().map(of_test).collect();
         let shares = through_both.iter().map(|share| share.map(|matrix| block(matrix, 0, count))).collect();
-        Self::compared(modes, test, cross, pair_modes, |_| (shares, test_shares))
+        let pairing = pair_modes(&cross)?;
+        Self::compared((modes, test), cross, (pair_modes, pairing), shares, test_shares)
     }
 
     /// The same of exact modes that some sensors see (d × n), without a mass there.
@@ -148,27 +149,24 @@ impl ModalModel {
             let partner = modes.shapes.column(pairing.analysis_mode[j]);
             shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
         }
-        Self::compared(modes, scaled, cross, pair, |Pairing { analysis_mode, sign }| {
-            let of_pairs = |matrix: &DMatrix<f64>| {
-                let entry = |j: usize, k: usize| sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
-                DMatrix::from_fn(sign.len(), sign.len(), entry)
-            };
-            let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
-            (shares, test_shares)
-        })
+        let Pairing { analysis_mode, sign } = &pairing;
+        let of_pairs = |matrix: &DMatrix<f64>| {
+            let entry = |j: usize, k: usize| sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
+            DMatrix::from_fn(sign.len(), sign.len(), entry)
+        };
+        let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
+        Self::compared((modes, scaled), cross, (pair, pairing), shares, test_shares)
     }
 
-    /// The modal model of compared modes: their pairs, their distance, and the shares, which `shares` gives in the exact modes and
-    /// on the test shapes for a pairing.
+    /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the exact modes and on the
+    /// test shapes.
     fn compared(
-        modes: Modes,
-        test: ModeSet,
+        (modes, test): (Modes, ModeSet),
         cross: DMatrix<f64>,
-        pair: Pair,
-        shares: impl FnOnce(&Pairing) -> (Vec<Share>, Vec<Share>),
+        (pair, pairing): (Pair, Pairing),
+        shares: Vec<Share>,
+        on_test: Vec<Share>,
     ) -> Result<Self, Error> {
-        let pairing = pair(&cross)?;
-        let (shares, on_test) = shares(&pairing);
         at_least_one("parameters", shares.len())?;
         let omega = test.omega_squared.map(f64::sqrt);
         let relative = |share: Share| match share {
