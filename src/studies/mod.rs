@@ -15,3 +15,4 @@ pub mod preflight;
 pub mod weighted;
 pub mod whole_modes;
 pub mod whole_model;
+pub mod wing;

@@ -231,3 +231,7 @@ pub const JOB_BOX: f64 = 0.25;
 /// Gages of the delta wing by its condensed and by its whole model: condensation raises its ten modes by up to 6e-5, which the least
 /// seen of its groups magnify some thirty times.
 pub const CONDENSED_GAGES: f64 = 2e-3;
+/// First bending of a slender wing box with posts and webs against a beam that only bends: shear makes it 0.09 % softer.
+pub const SLENDER_BEAM: f64 = 2e-3;
+/// Lowest frequencies of a wing of nine bays against one of eighteen: 0.7 % in the first, 3.8 % in the fourth.
+pub const COARSE_WING: f64 = 0.04;

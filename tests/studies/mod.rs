@@ -25,3 +25,5 @@ pub mod preflight_rates;
 pub mod whole_model;
 pub mod weighted;
 pub mod weighted_coverage;
+
+pub mod wing;
