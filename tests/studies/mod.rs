@@ -26,4 +26,6 @@ pub mod whole_model;
 pub mod weighted;
 pub mod weighted_coverage;
 
+pub mod eigensolutions;
+pub mod linearization;
 pub mod wing;
