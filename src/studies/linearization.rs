@@ -16,6 +16,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// What predicts modes, in the order of [`Prediction::errors`].
 pub const METHODS: [&str; 4] = ["first order", "Recursive 1, order 4", "Taylor in ω²", "Taylor in 1/ω²"];
+/// A kind of error by name.
+pub type Measure = (&'static str, fn(&Errors) -> f64);
+/// RMS errors over all modes, fractions.
+pub const MEASURES: [Measure; 2] = [("frequencies", Errors::frequency_rms), ("shapes", Errors::shape_rms)];
 /// The order of Recursive 1.
 const ORDER: usize = 4;
 

@@ -1,8 +1,7 @@
 //! Errors of predicted modes against the size of the step, on logarithmic scales.
 
 use super::canvas::*;
-use crate::method::error_sum::Errors;
-use crate::studies::linearization::{METHODS, Prediction};
+use crate::studies::linearization::{MEASURES, METHODS, Prediction};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 const HEIGHT: f64 = 620.0;
@@ -29,10 +28,8 @@ fn on(area: &Area, structures: &[(&str, Vec<Prediction>)]) -> Drawn {
         write(area, words, (x + 41.0, 18.0), START)?;
         x += 62.0 + 7.4 * words.chars().count() as f64;
     }
-    let measures: [(&str, fn(&Errors) -> f64); 2] =
-        [("frequencies", Errors::frequency_rms), ("shapes", Errors::shape_rms)];
     for (row, (structure, predictions)) in structures.iter().enumerate() {
-        for (column, (what, measure)) in measures.iter().enumerate() {
+        for (column, (what, measure)) in MEASURES.iter().enumerate() {
             let (top, left) = (70.0 + 280.0 * row as f64, 66.0 + 370.0 * column as f64);
             let margins = [left, WIDTH - left - 310.0, top, HEIGHT - top - 220.0];
             let error_axis = (ENDS[0]..ENDS[1]).log_scale().with_key_points(vec![1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0]);

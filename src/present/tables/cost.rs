@@ -3,7 +3,7 @@
 use crate::method::error_sum::Errors;
 use crate::present::table::{Cell, Digits, Table};
 use crate::studies::eigensolutions::Counted;
-use crate::studies::linearization::{Exact, METHODS, Prediction};
+use crate::studies::linearization::{Exact, MEASURES, METHODS, Prediction};
 
 /// Full eigensolutions to an exact error sum, by perturbation and with an analysis after every step.
 pub fn eigensolution_table(counted: &[Counted]) -> Table {
@@ -36,10 +36,8 @@ pub fn linearization_table(structures: &[(&str, Vec<Prediction>)], exact: Exact)
     };
     let title = format!("Errors of modes predicted for a step, beside exact ones {against}");
     let mut table = Table::new(name, title, "Structure, step").columns(METHODS, "%");
-    let measures: [(&str, fn(&Errors) -> f64); 2] =
-        [("frequencies", Errors::frequency_rms), ("shapes", Errors::shape_rms)];
     for (structure, predictions) in structures {
-        for (what, measure) in measures {
+        for (what, measure) in MEASURES {
             for of in predictions.iter().step_by(2).take(3) {
                 let cell = |error: &Option<Errors>| {
                     error.as_ref().map_or(Cell::Blank, |error| Cell::percent(measure(error), Digits::Scientific(1)))
