@@ -1,12 +1,16 @@
 //! Appendix A: from structural to dynamic degrees of freedom.
 
-use crate::method::assembly::{ElementMatrix, FactorizedStiffness};
-use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_shape, cholesky, symmetric_part};
+use crate::method::assembly::ElementMatrix;
+use crate::method::error::Error;
+use crate::method::factorization::FactorizedStiffness;
+use crate::method::linear_algebra::{check_shape, cholesky, finite, solve_lower, symmetric_part};
+use crate::method::load_distribution::LoadDistribution;
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
+/// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
+const SMALLEST_DEFORMATION: f64 = 1e-14;
 
 /// The stiffness at the dynamic DOF and the transformation that brought it there.
 #[derive(Debug, Clone)]
@@ -29,39 +33,120 @@ pub struct Condensed {
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
-    condense_deflections(load_distribution, structural.solve(load_distribution)?)
+    let loads = LoadDistribution::of(load_distribution)?;
+    let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
+    Ok(Condensed { transformation: transposed_deflections(structural, &loads, &stiffness)?.transpose(), stiffness })
 }
 
-/// The same from the deflections $K_S^{-1} T$, whatever solved for them.
+/// The dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
+///
+/// # Errors
+/// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
+pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    let lower = cholesky("dynamic flexibility", flexibility, SMALLEST_FLEXIBILITY_PIVOT)
+        .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
+    let inverse_factor = solve_lower(&lower, DMatrix::identity(flexibility.nrows(), flexibility.nrows()));
+    finite("dynamic stiffness", inverse_factor.tr_mul(&inverse_factor))
+}
+
+/// Structural deflections $K_S^{-1} T Q_D$ of dynamic loads $Q_D$ (d × m, lbf), transposed (m × free SDOF, in); of
+/// $Q_D = K_D V$ they are $B^t V$.
+///
+/// # Errors
+/// Those of [`FactorizedStiffness::solve`].
+pub(crate) fn transposed_deflections(
+    structural: &FactorizedStiffness,
+    load_distribution: &LoadDistribution,
+    loads: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    structural.solve_transposed(&load_distribution.times(loads))
+}
+
+/// The same as [`condense`] from the deflections $K_S^{-1} T$, whatever solved for them.
 ///
 /// # Errors
 /// Those of [`condense`].
 pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
     check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
-    at_least_one("dynamic degrees of freedom", t.ncols())?;
-    let flexibility = symmetric_part(&t.tr_mul(&deflections));
-    let lower = cholesky("dynamic flexibility", &flexibility, SMALLEST_FLEXIBILITY_PIVOT)
-        .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
-    let mut inverse_factor = DMatrix::identity(t.ncols(), t.ncols());
-    lower.solve_lower_triangular_unchecked_mut(&mut inverse_factor);
-    let stiffness = inverse_factor.tr_mul(&inverse_factor);
+    let stiffness = dynamic_stiffness(&symmetric_part(&t.tr_mul(&deflections)))?;
     Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }
 
-/// Generalized stiffness of an element for unit size, $V_e^t K_e V_e$ with $V_e$ the rows of `shapes` (free SDOF × m)
-/// at the element's own DOF, lbf/in per unit size for deflections in inches (m × m).
+/// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
+/// $V_e$ are the columns of `transposed_shapes` (m × free SDOF) at an element's own DOF.
 ///
-/// For `shapes` $= B^t$ it is the element's share of $K_D$, $B K_e B^t$ (A.9); the shares, times the sizes, sum to
-/// $K_D$ exactly. For $V_S = B^t V$ it is that share seen through dynamic shapes $V$.
-pub(crate) fn generalized_stiffness(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
-    let rows = shapes.select_rows(&element.dof);
-    symmetric_part(&rows.tr_mul(&(&element.unit * &rows)))
+/// For `transposed_shapes` $= B$ it is their share of $K_D$, $\sum_e s_e B K_e B^t$ (A.9); the shares sum to $K_D$ exactly. For
+/// $V_S = B^t V$ it is that share seen through dynamic shapes $V$. An element deforms in few ways, a rod and a shear panel in one: by
+/// Cholesky steps with pivots, $K_e = \sum_r a_r a_r^t/p_r$ and $V_e^t K_e V_e = \sum_r (V_e^t a_r)(V_e^t a_r)^t/p_r$.
+pub(crate) fn generalized_stiffness<'a>(
+    transposed_shapes: &DMatrix<f64>,
+    members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
+) -> DMatrix<f64> {
+    let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
+    let (mut sum, mut force, mut rest, mut deformation) =
+        (DMatrix::zeros(count, count), vec![0.0; count], Vec::new(), Vec::new());
+    for (ElementMatrix { dof, unit, .. }, size) in members {
+        let through = |weights: &[f64], force: &mut [f64]| {
+            force.fill(0.0);
+            for (&dof, &weight) in dof.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+                let motion = &shapes[dof * count..][..count];
+                force.iter_mut().zip(motion).for_each(|(sum, motion)| *sum += weight * motion);
+            }
+        };
+        rest.clear();
+        rest.extend_from_slice(unit.as_slice());
+        // The largest entry of a semidefinite matrix stands on its diagonal.
+        let smallest = SMALLEST_DEFORMATION * unit.diagonal().amax();
+        while let Some(pivot) = take_deformation(&mut rest, dof.len(), smallest, &mut deformation) {
+            through(&deformation, &mut force);
+            add_upper(&mut sum, size / pivot, &force, &force);
+        }
+        // A matrix that is not semidefinite leaves something that no pivot explains.
+        for (&dof, column) in dof.iter().zip(rest.chunks(dof.len().max(1))) {
+            if column.iter().any(|entry| entry.abs() > smallest) {
+                through(column, &mut force);
+                add_upper(&mut sum, size, &force, &shapes[dof * count..][..count]);
+            }
+        }
+    }
+    sum.fill_lower_triangle_with_upper_triangle();
+    sum
 }
 
-/// Generalized mass of an element for unit size in the same way, $V_e^t M_e V_e$ with the lumped $M_e$ (m × m).
-pub(crate) fn generalized_mass(shapes: &DMatrix<f64>, element: &ElementMatrix) -> DMatrix<f64> {
-    let rows = shapes.select_rows(&element.dof);
-    let mut weighted = rows.clone();
-    weighted.column_iter_mut().for_each(|mut column| column.component_mul_assign(&element.unit_mass));
-    symmetric_part(&rows.tr_mul(&weighted))
+/// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
+fn take_deformation(matrix: &mut [f64], order: usize, smallest: f64, column: &mut Vec<f64>) -> Option<f64> {
+    let diagonal = |at: usize| matrix[at * (order + 1)];
+    let pivot = (0..order).max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
+    let value = Some(diagonal(pivot)).filter(|value| *value > smallest && value.is_finite())?;
+    column.clear();
+    column.extend_from_slice(&matrix[pivot * order..][..order]);
+    for (entries, factor) in matrix.chunks_exact_mut(order).zip(column.iter()).filter(|(_, factor)| **factor != 0.0) {
+        entries.iter_mut().zip(column.iter()).for_each(|(entry, of)| *entry -= of * factor / value);
+    }
+    Some(value)
+}
+
+/// Their generalized mass in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
+pub(crate) fn generalized_mass<'a>(
+    transposed_shapes: &DMatrix<f64>,
+    members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
+) -> DMatrix<f64> {
+    let count = transposed_shapes.nrows();
+    let mut sum = DMatrix::zeros(count, count);
+    for (ElementMatrix { dof, unit_mass, .. }, size) in members {
+        for (&dof, unit) in dof.iter().zip(unit_mass).filter(|(_, unit)| **unit != 0.0) {
+            let motion = transposed_shapes.column(dof);
+            add_upper(&mut sum, size * unit, motion.as_slice(), motion.as_slice());
+        }
+    }
+    sum.fill_lower_triangle_with_upper_triangle();
+    sum
+}
+
+/// Adds the upper triangle of $s f v^t$.
+fn add_upper(sum: &mut DMatrix<f64>, scale: f64, force: &[f64], motion: &[f64]) {
+    for (j, (column, motion)) in sum.as_mut_slice().chunks_mut(force.len().max(1)).zip(motion).enumerate() {
+        let motion = scale * motion;
+        column[..=j].iter_mut().zip(force).for_each(|(entry, force)| *entry += force * motion);
+    }
 }

@@ -1,7 +1,8 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
 use crate::method::error::{Error, at_least_one};
-use faer::{Mat, MatRef, Side};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Mat, MatMut, MatRef, Par, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
@@ -55,13 +56,16 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
-    let apart = (matrix - matrix.transpose()).abs().lower_triangle();
-    let largest = matrix.amax();
-    if apart.amax() <= LARGEST_ASYMMETRY * largest {
+    let pairs = (0..matrix.ncols()).flat_map(|column| (column..matrix.nrows()).map(move |row| (row, column)));
+    let apart = |(row, column): (usize, usize)| (matrix[(row, column)] - matrix[(column, row)]).abs();
+    let Some((row, column)) = pairs.reduce(|worst, pair| if apart(pair) > apart(worst) { pair } else { worst }) else {
+        return Ok(());
+    };
+    let (difference, largest) = (apart((row, column)), matrix.amax());
+    if difference <= LARGEST_ASYMMETRY * largest {
         return Ok(());
     }
-    let (row, column) = apart.iamax_full();
-    Err(Error::NotSymmetric { what, row, column, difference: apart[(row, column)] / largest })
+    Err(Error::NotSymmetric { what, row, column, difference: difference / largest })
 }
 
 /// Hands on a matrix whose entries are all finite.
@@ -124,14 +128,21 @@ pub fn check_solution(
     if residual <= allowed { Ok(()) } else { Err(Error::WrongSolution { what, residual, allowed }) }
 }
 
+/// $L^{-1} R$ for a lower triangular $L$ with nonzero diagonal.
+pub(crate) fn solve_lower<T: Number + faer::traits::ComplexField>(
+    lower: &DMatrix<T>,
+    mut right: DMatrix<T>,
+) -> DMatrix<T> {
+    let (rows, columns) = right.shape();
+    let lower = MatRef::from_column_major_slice(lower.as_slice(), rows, rows);
+    let solved = MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, columns);
+    solve_lower_triangular_in_place(lower, solved, Par::Seq);
+    right
+}
+
 /// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal.
-pub(crate) fn reduced<T: ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
-    let mut reduced = matrix.clone();
-    for _ in 0..2 {
-        lower.solve_lower_triangular_unchecked_mut(&mut reduced);
-        reduced.transpose_mut();
-    }
-    reduced
+pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
+    solve_lower(lower, solve_lower(lower, matrix.clone()).transpose()).transpose()
 }
 
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
@@ -151,16 +162,18 @@ pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVe
     Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
 }
 
-/// Eigenvalues (ascending) and vectors of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, scaled to
-/// $V^t L L^t V = I$, from the symmetric problem of $L^{-1} A L^{-t}$ for $L^t v$.
+/// Eigenvalues (ascending) of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, and the vectors of the lowest
+/// `count`, scaled to $V^t L L^t V = I$, from the symmetric problem of $L^{-1} A L^{-t}$ for $L^t v$.
 pub(crate) fn pencil_eigen(
     what: &'static str,
     matrix: &DMatrix<f64>,
     lower: &DMatrix<f64>,
+    count: usize,
 ) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
-    let (values, mut vectors) = symmetric_eigen(what, &symmetric_part(&reduced(lower, matrix)))?;
-    lower.tr_solve_lower_triangular_unchecked_mut(&mut vectors);
-    Ok((values, vectors))
+    let (values, vectors) = symmetric_eigen(what, &symmetric_part(&reduced(lower, matrix)))?;
+    let mut lowest = vectors.columns(0, count).into_owned();
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut lowest);
+    Ok((values, lowest))
 }
 
 /// The same matrix, real or complex, for faer.

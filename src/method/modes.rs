@@ -156,11 +156,11 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
     check_count("modes", count, stiffness.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
-    let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower)?;
+    let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower, count)?;
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
         return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
     }
-    Modes::ascending(omega_squared, shapes).lowest(count)
+    Ok(Modes::ascending(omega_squared.rows(0, count).into_owned(), shapes))
 }
 
 /// Makes the first of the largest components of every column positive.

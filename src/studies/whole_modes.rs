@@ -1,7 +1,8 @@
 //! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
 
-use crate::method::assembly::{ElementMatrix, FactorizedStiffness, lumped_mass};
+use crate::method::assembly::{ElementMatrix, lumped_mass};
 use crate::method::error::{Error, at_least_one};
+use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::structure::{StructuralDof, Structure};

@@ -6,7 +6,8 @@ use crate::common::tolerances::{NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, 
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::method::appendix_a::condense;
-use corfem::method::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
+use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::modes;
 use corfem::method::structure::Structure;
 use nalgebra::DMatrix;

@@ -1,7 +1,8 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
-use corfem::method::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
+use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use corfem::studies::wing::Wing;

@@ -23,7 +23,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
     let kaa =
         corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, free.len()).expect("stiffness");
-    let t = model.load_distribution();
+    let t = &model.load_distribution().dense();
     let mut maa = t * model.mass() * t.transpose();
     // Stiffness factors leave every element the mass of its first size.
     for (element, first) in model.element_matrices().iter().zip(structure.elements()) {

@@ -56,7 +56,7 @@ fn a_deck_holds_point_masses_alone() {
     let model = disordered();
     let coupled = FiniteElementModel::new(
         model.structure().clone(),
-        model.load_distribution().clone(),
+        model.load_distribution().dense(),
         mass,
         model.parameters().to_vec(),
     )

@@ -5,8 +5,8 @@ use crate::common::strategies::{orthogonal, positive_definite};
 use crate::common::structures::as_element;
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::assembly::FactorizedStiffness;
 use corfem::method::error::Error;
+use corfem::method::factorization::FactorizedStiffness;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -153,9 +153,12 @@ fn a_bad_load_distribution_is_refused_by_name() {
     let refused = condensed(&stiffness, &DMatrix::zeros(3, 0)).unwrap_err();
     assert!(matches!(refused, Error::Empty { what: "dynamic degrees of freedom" }), "{refused:?}");
     let refused = condensed(&stiffness, &DMatrix::zeros(4, 2)).unwrap_err();
-    assert!(matches!(refused, Error::WrongShape { what: "loads", expected_rows: 3, rows: 4, .. }), "{refused:?}");
+    assert!(
+        matches!(refused, Error::WrongShape { what: "load distribution", expected_rows: 3, rows: 4, .. }),
+        "{refused:?}"
+    );
     let refused = condensed(&stiffness, &DMatrix::from_element(3, 1, f64::NAN)).unwrap_err();
-    assert!(matches!(refused, Error::NotFinite { what: "loads", row: 0, column: 0, .. }), "{refused:?}");
+    assert!(matches!(refused, Error::NotFinite { what: "load distribution", row: 0, column: 0, .. }), "{refused:?}");
     // A dynamic DOF that no load reaches is a combination of none.
     let refused = condensed(&stiffness, &DMatrix::zeros(3, 1)).unwrap_err();
     assert!(matches!(refused, Error::Dependent { what: "dynamic degree of freedom", index: 0 }), "{refused:?}");

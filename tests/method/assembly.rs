@@ -7,9 +7,10 @@ use crate::common::structures::{
 };
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::cases::Case;
-use corfem::method::assembly::{FactorizedStiffness, dense_stiffness, element_matrices};
+use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use nalgebra::DMatrix;
 use proptest::prelude::*;

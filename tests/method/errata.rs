@@ -11,8 +11,8 @@ use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_a::{Condensed, condense};
 use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-use corfem::method::assembly::FactorizedStiffness;
 use corfem::method::derivatives::by_definition;
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
@@ -50,7 +50,7 @@ fn transformation_of_2_is_right_as_printed() {
 fn print_of_a_7_and_a_8_has_a_transpose_too_many() {
     // (A.7), (A.8) print Bᵗ = K_S⁻¹ Tᵗ K_D, where Tᵗ has not as many rows as K_S.
     let model = Case::new(1).expect("a case").model().expect("a model");
-    let t = model.load_distribution();
+    let t = &model.load_distribution().dense();
     assert_eq!(t.nrows(), model.structure().free_dof().len());
     assert_ne!(t.transpose().nrows(), t.nrows());
     // Where it has as many, the product exists and is not the inverse of q_D = Tᵗ q_S (A.4), as q_S = Bᵗ q_D has to be.

@@ -6,10 +6,11 @@ use approx::assert_relative_eq;
 use corfem::cases::Case;
 use corfem::method::appendix_a::condense;
 use corfem::method::appendix_c::general::{ModalChange, first_order};
-use corfem::method::assembly::{FactorizedStiffness, element_matrices};
+use corfem::method::assembly::element_matrices;
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::elements::corner_volumes;
 use corfem::method::error::Error;
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, Scaled, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
@@ -32,7 +33,7 @@ pub fn boxed(parameters: Vec<Parameter>, density: f64, point_factors: [f64; 9]) 
     for (dof, factor) in point_factors.iter().enumerate() {
         mass[(dof, dof)] *= factor;
     }
-    FiniteElementModel::new(structure, model.load_distribution().clone(), mass, parameters)
+    FiniteElementModel::new(structure, model.load_distribution().dense(), mass, parameters)
 }
 
 pub fn point_masses() -> Vec<Parameter> {
@@ -56,7 +57,7 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
     let matrices = element_matrices(structure).expect("good panels");
     let sizes: Vec<f64> = structure.elements().iter().map(|element| element.size).collect();
     let stiffness = FactorizedStiffness::new(&matrices, &sizes, structure.free_dof()).expect("held");
-    let b_t = condense(&stiffness, model.load_distribution()).expect("independent").transformation;
+    let b_t = condense(&stiffness, &model.load_distribution().dense()).expect("independent").transformation;
     let mut structural = DMatrix::zeros(36, 36);
     for element in structure.elements() {
         let volumes = corner_volumes(element.kind, &structure.corners(element)).expect("fits");

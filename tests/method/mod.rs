@@ -14,6 +14,7 @@ pub mod panel_geometry;
 pub mod quadrature;
 
 pub mod assembly;
+pub mod factorization;
 
 pub mod appendix_a;
 pub mod appendix_a_box;

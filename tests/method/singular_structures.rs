@@ -3,8 +3,8 @@
 use crate::common::nastran95::boxes;
 use crate::common::structures::{as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
-use corfem::method::assembly::FactorizedStiffness;
 use corfem::method::error::Error;
+use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::structure::{DIRECTIONS, Structure};
 use nalgebra::DMatrix;
 use proptest::prelude::*;

@@ -219,7 +219,7 @@ fn columns_of_t_in_another_order_are_named() {
     let ones = [1.0; PANEL_COUNT];
     // Rear, mid, front of each rib written station by station, and two exchanged.
     for order in [[0, 3, 6, 1, 4, 7, 2, 5, 8], [0, 1, 2, 7, 4, 5, 6, 3, 8]] {
-        let t = model.load_distribution().select_columns(&order);
+        let t = model.load_distribution().dense().select_columns(&order);
         let parameters = model.parameters().to_vec();
         let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
         let wrong = Specimen { model: wrong.matrices(&ones).unwrap(), ..case(2) };
@@ -232,7 +232,7 @@ fn columns_of_t_in_another_order_are_named() {
     // The wing's masses are made with T and take its order: to the test it is the points that have another.
     let model = correlation::first_model(&DeltaWing::embedded().unwrap()).unwrap();
     let order: Vec<usize> = (0..19).map(|place| (7 * place + 3) % 19).collect();
-    let t = model.load_distribution().select_columns(&order);
+    let t = model.load_distribution().dense().select_columns(&order);
     let parameters = model.parameters().to_vec();
     let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
     let wrong = Specimen { model: wrong.matrices(&[1.0; 21]).unwrap(), ..wing() };

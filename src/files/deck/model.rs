@@ -90,7 +90,7 @@ impl BulkData {
     pub fn of(model: &FiniteElementModel, factors: &[f64], points: &[Vector3<f64>]) -> Result<Self, FileError> {
         let structure = model.structure();
         let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
-        check_length("positions of dynamic points", points.len(), t.ncols())?;
+        check_length("positions of dynamic points", points.len(), t.columns().len())?;
         let mut all = Self::of_structure(structure);
         let sizes = model.sizes(factors)?.into_iter().zip(model.mass_sizes(factors)?);
         for (element, (size, mass_size)) in all.elements.iter_mut().zip(sizes) {
@@ -105,8 +105,7 @@ impl BulkData {
             let label = base + column;
             all.grids.push(Grid { label, position, constrained: [0, 1, 2].map(|d| d != DYNAMIC_DIRECTION) });
             let dependent = StructuralDof { grid: label, direction: DYNAMIC_DIRECTION };
-            let terms = (0..).zip(structure.free_dof()).map(|(row, dof)| (*dof, t[(row, column)]));
-            let terms = terms.filter(|(_, factor)| *factor != 0.0).collect();
+            let terms = t.columns()[column].iter().map(|&(row, factor)| (structure.free_dof()[row], factor)).collect();
             all.ties.push(Tie { dependent, coefficient: -1.0, terms });
             let own = mass[(column, column)];
             let point = PointMass { label, grid: label, direction: Some(DYNAMIC_DIRECTION), mass: own };

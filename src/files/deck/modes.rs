@@ -2,9 +2,10 @@
 
 use super::model::BulkData;
 use crate::files::error::FileError;
-use crate::method::assembly::{ElementMatrix, FactorizedStiffness, dense_stiffness, element_matrices};
+use crate::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
+use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure, positive};
 use crate::studies::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};

@@ -78,9 +78,9 @@ pub(super) fn check_assembled(model: &FiniteElementModel, factors: &[f64], answe
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
-    let t = model.load_distribution();
+    let t = model.load_distribution().dense();
     let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len())?;
-    let mass = t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
+    let mass = &t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));

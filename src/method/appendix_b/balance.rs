@@ -62,7 +62,7 @@ pub fn balance(
         .map_err(|error| error.or_dependent("rigid-body vector"))?;
     // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
     let rigid_stiffness = rigid_body.tr_mul(&(stiffness * rigid_body));
-    let (suspension, from_suspension) = pencil_eigen("rigid-body stiffness", &rigid_stiffness, &lower)?;
+    let (suspension, from_suspension) = pencil_eigen("rigid-body stiffness", &rigid_stiffness, &lower, lower.ncols())?;
     let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
     if let Some(mode) = raw.omega_squared.iter().position(|omega_squared| stiffest > limit * omega_squared) {
         return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });

@@ -1,10 +1,11 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
 use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Share};
-use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
-use crate::method::assembly::FactorizedStiffness;
+use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness, transposed_deflections};
 use crate::method::error::Error;
-use crate::method::linear_algebra::finite;
+use crate::method::factorization::FactorizedStiffness;
+use crate::method::linear_algebra::{check_shape, finite};
+use crate::method::load_distribution::LoadDistribution;
 use crate::method::modes::{ModeSet, Modes, solve};
 use nalgebra::DMatrix;
 
@@ -15,14 +16,30 @@ pub struct CondensedModel {
     pub stiffness: DMatrix<f64>,
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
-    /// $B^t$: structural deflections for unit dynamic ones (free SDOF × d).
-    pub transformation: DMatrix<f64>,
+    structural: FactorizedStiffness,
+    loads: LoadDistribution,
     /// Gage or area of every element as its stiffness has it.
     sizes: Vec<f64>,
     /// Gage or area of every element as its mass has it.
     mass_sizes: Vec<f64>,
     /// Point masses, lbf·s²/in (d × d).
     point_mass: DMatrix<f64>,
+}
+
+impl CondensedModel {
+    /// Structural deflections $V_S = B^t V = K_S^{-1} T K_D V$ (free SDOF × m) of shapes $V$ at the dynamic DOF (d × m), by m solutions
+    /// and not by all of $B^t$, which it is for the identity.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
+    pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        check_shape("mode shapes", shapes, self.stiffness.nrows(), shapes.ncols())?;
+        self.transposed_shapes(shapes).map(|transposed| transposed.transpose())
+    }
+
+    fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        transposed_deflections(&self.structural, &self.loads, &(&self.stiffness * shapes))
+    }
 }
 
 impl FiniteElementModel {
@@ -35,20 +52,18 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
-        let sizes = self.sizes(factors)?;
-        let mass_sizes = self.mass_sizes(factors)?;
+        let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let point_mass = self.point_masses(factors)?;
-        let free = self.structure.free_dof();
-        let structural = FactorizedStiffness::new(&self.element_matrices, &sizes, free)?;
-        let Condensed { stiffness, transformation } = condense(&structural, &self.load_distribution)?;
+        let (elements, loads) = (&self.element_matrices, self.load_distribution.clone());
+        let structural = FactorizedStiffness::planned(&self.plan, elements, &sizes, self.structure.free_dof())?;
+        let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = point_mass.clone();
-        for (element, &size) in self.element_matrices.iter().zip(&mass_sizes) {
-            if element.unit_mass.amax() > 0.0 {
-                mass += size * generalized_mass(&transformation, element);
-            }
+        if elements.iter().any(|element| element.unit_mass.amax() > 0.0) {
+            let b = transposed_deflections(&structural, &loads, &stiffness)?;
+            mass += generalized_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
         }
-        let (stiffness, mass) = (finite("dynamic stiffness", stiffness)?, finite("dynamic mass", mass)?);
-        Ok(CondensedModel { stiffness, mass, transformation, sizes, mass_sizes, point_mass })
+        let mass = finite("dynamic mass", mass)?;
+        Ok(CondensedModel { stiffness, mass, structural, loads, sizes, mass_sizes, point_mass })
     }
 
     /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m), by the rows of each element's own DOF alone:
@@ -56,19 +71,27 @@ impl FiniteElementModel {
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Vec<Share> {
-        let structural = &condensed.transformation * shapes;
-        // A parameter has at least one member.
-        let sum = |rows: &[usize], of: &dyn Fn(usize) -> DMatrix<f64>| rows.iter().map(|&row| of(row)).sum();
-        let stiffness = |row| condensed.sizes[row] * generalized_stiffness(&structural, &self.element_matrices[row]);
-        let mass = |row| condensed.mass_sizes[row] * generalized_mass(&structural, &self.element_matrices[row]);
-        let point_mass = |row| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
-        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| match parameter.scaled {
-            Scaled::Stiffness => Share::Stiffness(sum(rows, &stiffness)),
-            Scaled::ElementMass => Share::Mass(sum(rows, &mass)),
-            Scaled::PointMass => Share::Mass(sum(rows, &point_mass)),
+    fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+        let transposed = condensed.transposed_shapes(shapes)?;
+        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
+            let member = |row: usize| &self.element_matrices[row];
+            match parameter.scaled {
+                Scaled::Stiffness => {
+                    let members = rows.iter().map(|&row| (member(row), condensed.sizes[row]));
+                    Share::Stiffness(generalized_stiffness(&transposed, members))
+                }
+                Scaled::ElementMass => {
+                    let members = rows.iter().map(|&row| (member(row), condensed.mass_sizes[row]));
+                    Share::Mass(generalized_mass(&transposed, members))
+                }
+                // A parameter has at least one member.
+                Scaled::PointMass => {
+                    let of = |&row: &usize| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
+                    Share::Mass(rows.iter().map(of).sum())
+                }
+            }
         };
-        self.parameters.iter().zip(&self.rows).map(of_parameter).collect()
+        Ok(self.parameters.iter().zip(&self.rows).map(of_parameter).collect())
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: what the loops are handed.
@@ -96,7 +119,7 @@ impl FiniteElementModel {
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
-        let shares = self.shares(&condensed, &identity);
+        let shares = self.shares(&condensed, &identity)?;
         Ok(DynamicModel { stiffness: condensed.stiffness, mass: condensed.mass, shares })
     }
 

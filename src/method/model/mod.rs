@@ -10,10 +10,13 @@ pub use parameters::{Parameter, Range, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list};
+use crate::method::factorization::FactorizationPlan;
+use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, cholesky, finite_list};
+use crate::method::load_distribution::LoadDistribution;
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
 use parameters::member_rows;
+use std::sync::Arc;
 
 /// A structure with its dynamic degrees of freedom, mass, and parameters.
 ///
@@ -58,7 +61,8 @@ use parameters::member_rows;
 pub struct FiniteElementModel {
     structure: Structure,
     element_matrices: Vec<ElementMatrix>,
-    load_distribution: DMatrix<f64>,
+    plan: Arc<FactorizationPlan>,
+    load_distribution: LoadDistribution,
     mass: DMatrix<f64>,
     parameters: Vec<Parameter>,
     /// Rows of every parameter's members among the elements or the dynamic DOF.
@@ -72,7 +76,7 @@ impl FiniteElementModel {
     /// with a density add to it.
     ///
     /// # Errors
-    /// Those of [`check_finite`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
+    /// Those of [`LoadDistribution::of`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
     /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
     pub fn new(
         structure: Structure,
@@ -80,9 +84,23 @@ impl FiniteElementModel {
         mass: DMatrix<f64>,
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
-        let dof_count = load_distribution.ncols();
-        check_shape("load distribution", &load_distribution, structure.free_dof().len(), dof_count)?;
-        check_finite("load distribution", &load_distribution)?;
+        let free = structure.free_dof().len();
+        check_shape("load distribution", &load_distribution, free, load_distribution.ncols())?;
+        Self::with_loads(structure, LoadDistribution::of(&load_distribution)?, mass, parameters)
+    }
+
+    /// The same from the coefficients of $T$ alone, for structures of any size.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_loads(
+        structure: Structure,
+        load_distribution: LoadDistribution,
+        mass: DMatrix<f64>,
+        parameters: Vec<Parameter>,
+    ) -> Result<Self, Error> {
+        let dof_count = load_distribution.columns().len();
+        check_length("load distribution", load_distribution.rows(), structure.free_dof().len())?;
         check_shape("dynamic mass", &mass, dof_count, dof_count)?;
         check_symmetric("dynamic mass", &mass)?;
         if structure.elements().iter().all(|element| element.material.density == 0.0) {
@@ -97,7 +115,8 @@ impl FiniteElementModel {
             }
         }
         let element_matrices = element_matrices(&structure)?;
-        Ok(Self { structure, element_matrices, load_distribution, mass, parameters, rows })
+        let plan = Arc::new(FactorizationPlan::new(&structure, &element_matrices)?);
+        Ok(Self { structure, element_matrices, plan, load_distribution, mass, parameters, rows })
     }
 
     /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
@@ -128,7 +147,7 @@ impl FiniteElementModel {
     }
 
     /// The load distribution $T$ (free SDOF × d).
-    pub fn load_distribution(&self) -> &DMatrix<f64> {
+    pub fn load_distribution(&self) -> &LoadDistribution {
         &self.load_distribution
     }
 

@@ -63,7 +63,7 @@ impl DynamicModel {
         }
         ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, |shapes| {
             let through = |matrix: &DMatrix<f64>| symmetric_part(&shapes.tr_mul(&(matrix * shapes)));
-            self.shares.iter().map(|share| share.map(through)).collect()
+            Ok(self.shares.iter().map(|share| share.map(through)).collect())
         })
     }
 }
@@ -115,7 +115,7 @@ impl ModalModel {
         mass: &DMatrix<f64>,
         test: &ModeSet,
         analysis_modes: Option<usize>,
-        shares: impl FnOnce(&DMatrix<f64>) -> Vec<Share>,
+        shares: impl FnOnce(&DMatrix<f64>) -> Result<Vec<Share>, Error>,
     ) -> Result<Self, Error> {
         let modes = solve(stiffness, mass, analysis_modes.unwrap_or(stiffness.nrows()))?;
         let test = test.scaled_with(mass)?;
@@ -124,7 +124,7 @@ impl ModalModel {
         let (count, test_count) = (modes.len(), test.len());
         let mut both = modes.shapes.clone().resize_horizontally(count + test_count, 0.0);
         both.columns_mut(count, test_count).copy_from(&test.shapes);
-        let through_both = shares(&both);
+        let through_both = shares(&both)?;
         let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
         let of_test = |share: &Share| share.map(|matrix| block(matrix, count, test_count));
         let test_shares = through_both.iter().map(of_test).collect();

@@ -62,7 +62,7 @@ impl Known {
             parameters.push(Parameter::group(&format!("{} and {}", bay[0], bay[1]), &bay));
             truth.push(known.truth[bay[0] - 1]);
         }
-        let model = FiniteElementModel::new(structure.clone(), t.clone(), mass.clone(), parameters)?;
+        let model = FiniteElementModel::with_loads(structure.clone(), t.clone(), mass.clone(), parameters)?;
         Ok(Self { name: "Case 2 by bays".to_owned(), model, test: known.test, truth })
     }
 

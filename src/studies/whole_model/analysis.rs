@@ -167,14 +167,7 @@ impl WholeModel {
         count: Option<usize>,
     ) -> Result<ModalModel, Error> {
         let (Condensed { stiffness, transformation }, mass) = self.condensed(factors, sensors)?;
-        let mut failed = None;
-        let model = ModalModel::new(&stiffness, &mass, test, count, |shapes| {
-            self.shares(factors, &(&transformation * shapes)).unwrap_or_else(|error| {
-                failed = Some(error);
-                Vec::new()
-            })
-        });
-        failed.map_or(model, Err)
+        ModalModel::new(&stiffness, &mass, test, count, |shapes| self.shares(factors, &(&transformation * shapes)))
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.

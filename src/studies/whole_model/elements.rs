@@ -4,7 +4,6 @@ use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, Scaled};
-use nalgebra::DMatrix;
 
 /// The entries (row, column, value) of an element's stiffness for its size.
 pub(crate) fn stiffness_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
@@ -18,9 +17,9 @@ pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, us
     element.dof.iter().zip(&element.unit_mass).map(|(&row, unit)| (row, row, size * unit)).collect()
 }
 
-/// Those of $m t t^t$, a mass that moves with the degrees of freedom by the coefficients $t$.
-pub(crate) fn moving_mass_entries(motion: &[(usize, f64)], mass: f64) -> Vec<(usize, usize, f64)> {
-    let pairs = motion.iter().flat_map(|a| motion.iter().map(move |b| (a, b)));
+/// Those of $m t_1 t_2^t$, a mass that couples two motions of the degrees of freedom, or is that of one.
+pub(crate) fn moving_mass_entries(motions: (&[(usize, f64)], &[(usize, f64)]), mass: f64) -> Vec<(usize, usize, f64)> {
+    let pairs = motions.0.iter().flat_map(|a| motions.1.iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| (a.0, b.0, mass * a.1 * b.1)).collect()
 }
 
@@ -37,19 +36,15 @@ impl WholeModel {
         let (elements, structure) = (model.element_matrices(), model.structure());
         let count = structure.free_dof().len();
         let sizes: Vec<f64> = structure.elements().iter().map(|element| element.size).collect();
-        let (t, points) = (model.load_distribution(), model.point_masses(&vec![1.0; model.parameters().len()])?);
+        let (t, points) =
+            (model.load_distribution().columns(), model.point_masses(&vec![1.0; model.parameters().len()])?);
         let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
-        let places = |matrix: &DMatrix<f64>| {
-            let all = (0..matrix.ncols()).flat_map(|column| (0..matrix.nrows()).map(move |row| (row, column)));
-            let all = all.map(|at| (at.0, at.1, matrix[at])).filter(|entry| entry.2 != 0.0);
-            all.collect::<Vec<_>>()
-        };
-        let motion =
-            |dof: usize| (0..count).map(|row| (row, t[(row, dof)])).filter(|term| term.1 != 0.0).collect::<Vec<_>>();
+        let couplings = (0..t.len()).flat_map(|i| (0..t.len()).map(move |j| (i, j))).filter(|&at| points[at] != 0.0);
+        let moving = couplings.flat_map(|at| moving_mass_entries((&t[at.0], &t[at.1]), points[at]));
         let all = || elements.iter().zip(&sizes);
         let stiffness = all().flat_map(|(element, &size)| stiffness_entries(element, size)).collect();
         let lumped = all().flat_map(|(element, &size)| mass_entries(element, size));
-        let mass = lumped.chain(places(&(t * &points * t.transpose()))).collect();
+        let mass = lumped.chain(moving).collect();
         let parameters = model.parameters().iter().zip(model.rows()).zip(model.factor_ranges()?);
         let parameters = parameters.map(|((parameter, rows), range)| {
             let of = |entries_of: &dyn Fn(usize) -> Vec<(usize, usize, f64)>| {
@@ -59,7 +54,7 @@ impl WholeModel {
                 Scaled::Stiffness => WholeShare::Stiffness(of(&|row| stiffness_entries(&elements[row], sizes[row]))?),
                 Scaled::ElementMass => WholeShare::Mass(of(&|row| mass_entries(&elements[row], sizes[row]))?),
                 Scaled::PointMass => {
-                    WholeShare::Mass(of(&|dof| moving_mass_entries(&motion(dof), points[(dof, dof)]))?)
+                    WholeShare::Mass(of(&|dof| moving_mass_entries((&t[dof], &t[dof]), points[(dof, dof)]))?)
                 }
             };
             Ok(WholeParameter { name: parameter.name.clone(), share, range })
@@ -69,6 +64,7 @@ impl WholeModel {
             sparse("mass", mass)?,
             parameters.collect::<Result<_, Error>>()?,
         )?;
-        Ok((whole, SparseMatrix::new("sensors", t.ncols(), count, places(&t.transpose()))?))
+        let sensors = t.iter().enumerate().flat_map(|(i, terms)| terms.iter().map(move |&(dof, term)| (i, dof, term)));
+        Ok((whole, SparseMatrix::new("sensors", t.len(), count, sensors.collect())?))
     }
 }

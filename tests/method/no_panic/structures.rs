@@ -3,14 +3,18 @@
 use super::{Entry, entries, modes};
 use corfem::method::appendix_a;
 use corfem::method::appendix_b::MovementLimits;
-use corfem::method::assembly::{FactorizedStiffness, dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::panel::mean_plane;
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
 use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
+use corfem::method::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::method::load_distribution::LoadDistribution;
 use corfem::method::model::{FiniteElementModel, Range};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::studies::whole_model::WholeModel;
+use nalgebra::DMatrix;
+use std::sync::Arc;
 
 pub const STRUCTURES: &[Entry] = &[
     ("elements::rod", |d| {
@@ -120,6 +124,28 @@ pub const STRUCTURES: &[Entry] = &[
         let (rows, columns) = (d.about(free.len()), d.size());
         FactorizedStiffness::new(&elements, &sizes, &free)?.solve(&d.matrix(rows, columns)).map(|found| entries(&found))
     }),
+    ("FactorizationPlan::new", |d| {
+        let structure = d.structure()?;
+        let (elements, ..) = d.elements()?;
+        FactorizationPlan::new(&structure, &elements).map(|plan| vec![plan.factor_entries() as f64])
+    }),
+    ("FactorizedStiffness::planned", |d| {
+        let structure = d.structure()?;
+        let plan = Arc::new(FactorizationPlan::new(&structure, &element_matrices(&structure)?)?);
+        let (elements, sizes, free) = d.elements()?;
+        FactorizedStiffness::planned(&plan, &elements, &sizes, &free).map(|_| Vec::new())
+    }),
+    ("FactorizedStiffness::flexibility", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let loads = LoadDistribution::of(&d.load_distribution(free.len()))?;
+        FactorizedStiffness::new(&elements, &sizes, &free)?.flexibility(&loads).map(|found| entries(&found))
+    }),
+    ("LoadDistribution::new", |d| {
+        let terms = (0..d.size()).map(|_| vec![(d.below(6), d.number())]).collect();
+        LoadDistribution::new(d.size(), terms).map(|found| entries(&found.dense()))
+    }),
+    ("LoadDistribution::of", |d| LoadDistribution::of(&d.load_distribution(6)).map(|_| Vec::new())),
+    ("LoadDistribution::dense", |d| LoadDistribution::of(&d.load_distribution(6)).map(|found| entries(&found.dense()))),
     ("appendix_a::condense", |d| {
         let (elements, sizes, free) = d.elements()?;
         let structural = FactorizedStiffness::new(&elements, &sizes, &free)?;
@@ -132,6 +158,17 @@ pub const STRUCTURES: &[Entry] = &[
         let load_distribution = d.load_distribution(structure.free_dof().len());
         let mass = d.symmetric(load_distribution.ncols());
         FiniteElementModel::new(structure, load_distribution, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("FiniteElementModel::with_loads", |d| {
+        let structure = d.structure()?;
+        let loads = LoadDistribution::of(&d.load_distribution(structure.free_dof().len()))?;
+        let mass = d.symmetric(loads.columns().len());
+        FiniteElementModel::with_loads(structure, loads, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("CondensedModel::structural_shapes", |d| {
+        let (model, factors) = d.finite_element()?;
+        let (rows, columns) = (d.about(model.mass().nrows()), d.size());
+        model.condense(&factors)?.structural_shapes(&d.matrix(rows, columns)).map(|found| entries(&found))
     }),
     ("FiniteElementModel::with_unit_stiffness", |d| {
         let (model, factors) = d.finite_element()?;
@@ -160,7 +197,8 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::condense", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.condense(&factors)?;
-        Ok([entries(&found.stiffness), entries(&found.mass), entries(&found.transformation)].concat())
+        let shapes = found.structural_shapes(&DMatrix::identity(found.mass.nrows(), found.mass.nrows()))?;
+        Ok([entries(&found.stiffness), entries(&found.mass), entries(&shapes)].concat())
     }),
     ("FiniteElementModel::analyze", |d| {
         let (model, factors) = d.finite_element()?;

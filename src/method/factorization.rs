@@ -1,0 +1,418 @@
+//! Factorization of the structural stiffness: planned once, made anew for every set of sizes, solved many times.
+
+use crate::method::assembly::{ElementMatrix, check_elements, dense_stiffness};
+use crate::method::error::{Error, at_least_one};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_solution, cholesky, finite};
+use crate::method::load_distribution::LoadDistribution;
+use crate::method::ordering::Mesh;
+use crate::method::structure::{DIRECTIONS, StructuralDof, Structure, positive};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular_matmul};
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side, Spec};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
+/// smallest eigenvalues; when the matrix is singular the first step already gains ten decades.
+const INVERSE_ITERATIONS: usize = 4;
+/// Shift of the unit-diagonal stiffness that makes a singular one factorizable to find its free motion.
+const SINGULAR_SHIFT: f64 = 1e-10;
+
+/// Rows of $W$ that are multiplied at once: as many as a processor's cache holds.
+const PANEL: usize = 512;
+
+/// What does not change with the sizes: in which order the DOF are eliminated, where the stiffness has entries, and where its
+/// factor then has them.
+#[derive(Debug)]
+pub struct FactorizationPlan {
+    /// When each DOF is eliminated; everything below counts the DOF in that order.
+    turn: Vec<usize>,
+    /// The lower triangle, column by column; the first entry of a column is the diagonal.
+    pattern: SymbolicSparseColMat<usize>,
+    /// Place among the entries of every entry of every element's own lower triangle.
+    places: Vec<u32>,
+    symbolic: SymbolicCholesky<usize>,
+    /// Of the DOF that the elements had.
+    fingerprint: u64,
+}
+
+/// A number that other DOF do not have, by the Fowler–Noll–Vo hash.
+fn fingerprint(elements: &[ElementMatrix]) -> u64 {
+    let (offset, prime) = (0xcbf2_9ce4_8422_2325_u64, 0x0100_0000_01b3);
+    let all = elements.iter().flat_map(|element| element.dof.iter().copied().chain([usize::MAX]));
+    all.fold(offset, |hash, dof| (hash ^ dof as u64).wrapping_mul(prime))
+}
+
+impl FactorizationPlan {
+    /// The plan for a structure's elements: nested dissection by its grids' positions.
+    ///
+    /// # Errors
+    /// Those of [`FactorizedStiffness::new`] for elements that do not fit the DOF; [`Error::TooMany`] for more entries than are
+    /// counted here; [`Error::NoConvergence`] when there is no memory for it.
+    pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
+        let position: HashMap<usize, Vector3<f64>> =
+            structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
+        Self::of(elements, structure.free_dof(), |grid| position.get(&grid).copied())
+    }
+
+    /// The same with positions where they are known.
+    fn of(
+        elements: &[ElementMatrix],
+        free: &[StructuralDof],
+        position: impl Fn(usize) -> Option<Vector3<f64>>,
+    ) -> Result<Self, Error> {
+        check_elements(elements, &vec![1.0; elements.len()], free.len())?;
+        let count = free.len();
+        let dof_of: Vec<&[StructuralDof]> = free.chunk_by(|a, b| a.grid == b.grid).collect();
+        let points: Vec<_> = dof_of.iter().map(|dof| position(dof[0].grid).unwrap_or_default()).collect();
+        let point_of: Vec<usize> = dof_of.iter().enumerate().flat_map(|(point, dof)| vec![point; dof.len()]).collect();
+        let points_of: Vec<Vec<usize>> =
+            elements.iter().map(|element| element.dof.iter().map(|&dof| point_of[dof]).collect()).collect();
+        let mut first = 0;
+        let first_dof: Vec<usize> = dof_of
+            .iter()
+            .map(|dof| {
+                first += dof.len();
+                first - dof.len()
+            })
+            .collect();
+        let order = Mesh::new(points, points_of).nested_dissection();
+        let order = order.into_iter().flat_map(|point| first_dof[point]..first_dof[point] + dof_of[point].len());
+        let mut turn = vec![0; count];
+        order.enumerate().for_each(|(place, dof)| turn[dof] = place);
+        let (column_starts, rows) = lower_pattern(elements, &turn);
+        let available = u32::MAX as usize;
+        if rows.len() > available {
+            return Err(Error::TooMany { what: "entries of the stiffness", available, requested: rows.len() });
+        }
+        let place = |row: usize, column: usize| {
+            let (from, to) = (column_starts[column], column_starts[column + 1]);
+            (from + rows[from..to].partition_point(|&other| other < row)) as u32
+        };
+        let mut places = Vec::new();
+        for ElementMatrix { dof, .. } in elements {
+            let turns: Vec<usize> = dof.iter().map(|&dof| turn[dof]).collect();
+            for (column, &other) in turns.iter().enumerate() {
+                places.extend(turns[column..].iter().map(|&turn| place(turn.max(other), turn.min(other))));
+            }
+        }
+        let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let failed = |_| Error::NoConvergence("sparse assembly");
+        // In the order given the library reads the upper triangle here, and the lower one when it factorizes.
+        let upper = pattern.as_ref().transpose().to_col_major().map_err(failed)?;
+        let symbolic =
+            factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters);
+        let symbolic = symbolic.map_err(failed)?;
+        Ok(Self { turn, pattern, places, symbolic, fingerprint: fingerprint(elements) })
+    }
+
+    /// How many numbers the factor holds.
+    pub fn factor_entries(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
+    /// The lower triangle's entries of $\sum_e s_e K_e$.
+    fn assembled(&self, elements: &[ElementMatrix], sizes: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; self.pattern.row_idx().len()];
+        let mut places = self.places.iter();
+        for (ElementMatrix { unit, .. }, size) in elements.iter().zip(sizes) {
+            for (column, entries) in unit.column_iter().enumerate() {
+                for (entry, &place) in entries.iter().skip(column).zip(places.by_ref()) {
+                    values[place as usize] += size * entry;
+                }
+            }
+        }
+        values
+    }
+
+    /// The rows of a column's entries and the range of their places.
+    fn column(&self, column: usize) -> (&[usize], Range<usize>) {
+        let range = self.pattern.col_ptr()[column]..self.pattern.col_ptr()[column + 1];
+        (&self.pattern.row_idx()[range.clone()], range)
+    }
+
+    /// The product of the matrix of given entries with a vector.
+    fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
+        let mut product = DVector::zeros(x.len());
+        for column in 0..x.len() {
+            let (rows, range) = self.column(column);
+            let (mut sum, own) = (0.0, x[column]);
+            for (&row, entry) in rows.iter().zip(&entries[range]) {
+                product[row] += entry * own;
+                sum += entry * x[row];
+            }
+            // The diagonal, which comes first in a column, is counted twice by now.
+            product[column] += sum - entries[self.pattern.col_ptr()[column]] * own;
+        }
+        product
+    }
+
+    /// The Cholesky factor of given entries, in one thread whatever the library's global setting: its parallel kernels have open
+    /// reports of wrong results on large matrices. None for a matrix that is not positive definite to working precision.
+    fn factor(&self, entries: &[f64]) -> Result<Option<Vec<f64>>, Error> {
+        let mut values = vec![0.0; self.symbolic.len_val()];
+        let scratch = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::NoConvergence("sparse Cholesky"))?;
+        let (none, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
+        let symbolic = &self.symbolic;
+        let done =
+            symbolic.factorize_numeric_llt(&mut values, matrix, Side::Lower, none, Par::Seq, stack, Spec::default());
+        let is_definite = done.is_ok();
+        Ok(is_definite.then_some(values))
+    }
+}
+
+/// Where the columns of the lower triangle begin, and the rows of its entries, ascending in each.
+fn lower_pattern(elements: &[ElementMatrix], turn: &[usize]) -> (Vec<usize>, Vec<usize>) {
+    let mut touching = vec![Vec::new(); turn.len()];
+    for ElementMatrix { dof, .. } in elements {
+        dof.iter().for_each(|&column| touching[turn[column]].push(dof));
+    }
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    let mut of_column = Vec::new();
+    for (column, touching) in touching.iter().enumerate() {
+        of_column.clear();
+        of_column.push(column);
+        of_column.extend(touching.iter().flat_map(|dof| dof.iter().map(|&dof| turn[dof])).filter(|&row| row > column));
+        of_column.sort_unstable();
+        of_column.dedup();
+        rows.extend_from_slice(&of_column);
+        starts.push(rows.len());
+    }
+    (starts, rows)
+}
+
+/// The structural stiffness, factorized once and solved many times.
+///
+/// Held as $K_S = S^{-1} L L^t S^{-1}$ with a sparse Cholesky factor $L$, where the diagonal $S$ scales $K_S$ to unit
+/// diagonal.
+#[derive(Debug, Clone)]
+pub struct FactorizedStiffness {
+    plan: Arc<FactorizationPlan>,
+    scale: DVector<f64>,
+    values: Vec<f64>,
+}
+
+impl FactorizedStiffness {
+    /// Assembles and factorizes $K_S = \sum_e s_e K_e$.
+    ///
+    /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a bad size;
+    /// [`Error::Empty`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
+    /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
+    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
+    /// factor does not solve its own matrix.
+    pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
+        check_sizes(elements, sizes, free)?;
+        Self::planned(&Arc::new(FactorizationPlan::of(elements, free, |_| None)?), elements, sizes, free)
+    }
+
+    /// The same by a plan that was made for these elements.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; [`Error::WrongShape`] for a plan of other elements.
+    pub fn planned(
+        plan: &Arc<FactorizationPlan>,
+        elements: &[ElementMatrix],
+        sizes: &[f64],
+        free: &[StructuralDof],
+    ) -> Result<Self, Error> {
+        check_sizes(elements, sizes, free)?;
+        let count = free.len();
+        check_length("degrees of freedom of the plan", plan.pattern.ncols(), count)?;
+        if plan.fingerprint != fingerprint(elements) {
+            check_length("elements of the plan", 0, elements.len())?;
+        }
+        let mut entries = plan.assembled(elements, sizes);
+        let diagonal = DVector::from_fn(count, |turn, _| entries[plan.pattern.col_ptr()[turn]]);
+        let singular = |of: &dyn Fn(usize) -> f64, ratio| {
+            let dof = (0..count).max_by(|&a, &b| of(plan.turn[a]).total_cmp(&of(plan.turn[b])).then(b.cmp(&a)));
+            let StructuralDof { grid, direction } = free[dof.unwrap_or(0)];
+            Err(Error::SingularStiffness { grid, direction: *DIRECTIONS.get(direction).unwrap_or(&'?'), ratio })
+        };
+        if diagonal.min() <= 0.0 {
+            return singular(&|turn| f64::from(diagonal[turn] <= 0.0), 0.0);
+        }
+        let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
+        for column in 0..count {
+            let (rows, range) = plan.column(column);
+            rows.iter().zip(&mut entries[range]).for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
+        }
+        let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
+        // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
+        let mut shifted = entries.clone();
+        for shift in [0.0, SINGULAR_SHIFT] {
+            plan.pattern.col_ptr()[..count].iter().for_each(|&place| shifted[place] = entries[place] + shift);
+            let Some(values) = plan.factor(&shifted)? else { continue };
+            let factor = Self { plan: Arc::clone(plan), scale: DVector::from_element(count, 1.0), values };
+            let (smallest, motion) = factor.weakest_motion();
+            if shift == 0.0 && smallest > round_off {
+                let times = |x: &DVector<f64>| plan.times(&entries, x);
+                check_solution("structural stiffness", times, |right| factor.solved(right), &start_vector(count))?;
+                return Ok(Self { scale, ..factor });
+            }
+            return singular(&|turn| (motion[turn] * scale[turn]).abs(), smallest - shift);
+        }
+        let what = "structural stiffness";
+        cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))
+    }
+
+    /// Deflections $q_S = K_S^{-1} Q_S$ (A.2) for every column of `loads` (lbf); inches.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless `loads` has one row per free DOF; [`Error::NotFinite`].
+    pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        check_shape("loads", loads, self.scale.len(), loads.ncols())?;
+        check_finite("loads", loads)?;
+        self.solve_transposed(loads).map(|deflections| deflections.transpose())
+    }
+
+    /// The same transposed (m × free SDOF), so that the deflections of one DOF lie together.
+    pub(crate) fn solve_transposed(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        let (count, turn) = (loads.ncols(), &self.plan.turn);
+        let (mut rows, mut is_reached) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
+        for (&turn, loads) in turn.iter().zip(loads.row_iter()) {
+            is_reached[turn] = loads.iter().any(|&load| load != 0.0);
+            let row = rows[turn * count..].iter_mut().zip(loads.iter());
+            row.for_each(|(value, load)| *value = load * self.scale[turn]);
+        }
+        self.forward(&mut rows, &mut is_reached);
+        self.backward(&mut rows, count);
+        let at = |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
+        finite("deflections", DMatrix::from_fn(count, loads.nrows(), at))
+    }
+
+    /// The flexibility $T^t K_S^{-1} T$ (A.5, d × d, in/lbf) by forward substitution alone:
+    ///
+    /// $$ T^t K_S^{-1} T = W^t W, \qquad W = L^{-1} S T $$
+    ///
+    /// Where no dynamic DOF's loads reach, $W$ is zero and nothing is done.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
+    pub fn flexibility(&self, load_distribution: &LoadDistribution) -> Result<DMatrix<f64>, Error> {
+        check_length("load distribution", load_distribution.rows(), self.scale.len())?;
+        let count = load_distribution.columns().len();
+        let (mut rows, mut is_reached) = (vec![0.0; self.scale.len() * count], vec![false; self.scale.len()]);
+        for (column, terms) in load_distribution.columns().iter().enumerate() {
+            for &(dof, coefficient) in terms {
+                let turn = self.plan.turn[dof];
+                is_reached[turn] = true;
+                rows[turn * count + column] += coefficient * self.scale[turn];
+            }
+        }
+        self.forward(&mut rows, &mut is_reached);
+        let mut sum = Mat::zeros(count, count);
+        let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+        for (rows, _) in
+            rows.chunks(PANEL * count).zip(is_reached.chunks(PANEL)).filter(|(_, reached)| reached.contains(&true))
+        {
+            let w = MatRef::from_column_major_slice(rows, count, rows.len() / count);
+            triangular_matmul(&mut sum, lower, Accum::Add, w, full, w.transpose(), full, 1.0, Par::Seq);
+        }
+        let symmetric = |row: usize, column: usize| sum[(row.max(column), row.min(column))];
+        finite("dynamic flexibility", DMatrix::from_fn(count, count, symmetric))
+    }
+
+    /// $L^{-1}$ times right-hand sides in place, a DOF's values together in the order of elimination; blocks of DOF that are not
+    /// reached are left alone.
+    fn forward(&self, rows: &mut [f64], is_reached: &mut [bool]) {
+        let (count, mut scratch) = (rows.len() / is_reached.len(), Vec::new());
+        for block in self.blocks() {
+            let end = block.start() + block.val().ncols();
+            if !is_reached[block.start()..end].contains(&true) {
+                continue;
+            }
+            let (done, later) = rows.split_at_mut(end * count);
+            let own = &mut done[block.start() * count..];
+            let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
+            let (diagonal, below) = block.val().split_at_row(block.val().ncols());
+            solve_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
+            scratch.resize(count * below.nrows(), 0.0);
+            let mut change = MatMut::from_column_major_slice_mut(&mut scratch, count, below.nrows());
+            matmul(change.as_mut(), Accum::Replace, own.as_ref(), below.transpose(), 1.0, Par::Seq);
+            for (&row, change) in block.pattern().iter().zip(scratch.chunks_exact(count.max(1))) {
+                is_reached[row] = true;
+                let values = later[(row - end) * count..].iter_mut().zip(change);
+                values.for_each(|(value, change)| *value -= change);
+            }
+        }
+    }
+
+    /// $L^{-t}$ times right-hand sides in the same way.
+    fn backward(&self, rows: &mut [f64], count: usize) {
+        let mut scratch = Vec::new();
+        for block in self.blocks().rev() {
+            let end = block.start() + block.val().ncols();
+            let (before, later) = rows.split_at_mut(end * count);
+            let own = &mut before[block.start() * count..];
+            let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
+            let (diagonal, below) = block.val().split_at_row(block.val().ncols());
+            scratch.clear();
+            block.pattern().iter().for_each(|&row| scratch.extend_from_slice(&later[(row - end) * count..][..count]));
+            let solved = MatRef::from_column_major_slice(&scratch, count, below.nrows());
+            matmul(own.as_mut(), Accum::Add, solved, below, -1.0, Par::Seq);
+            solve_upper_triangular_in_place(diagonal.transpose(), own.transpose_mut(), Par::Seq);
+        }
+    }
+
+    /// The factor by blocks of columns with the same rows, which the plan always asks for.
+    fn blocks(&self) -> impl DoubleEndedIterator<Item = SupernodeRef<'_, usize, f64>> {
+        let factor = match self.plan.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(symbolic) => Some(SupernodalLltRef::new(symbolic, &self.values)),
+            SymbolicCholeskyRaw::Simplicial(_) => None,
+        };
+        factor.into_iter().flat_map(|factor| (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at)))
+    }
+
+    /// The solution of the scaled problem for one column, both in the order of elimination.
+    fn solved(&self, right: &DVector<f64>) -> DVector<f64> {
+        let mut column = right.clone();
+        self.forward(column.as_mut_slice(), &mut vec![true; right.len()]);
+        self.backward(column.as_mut_slice(), 1);
+        column
+    }
+
+    /// Smallest eigenvalue and its vector of the scaled stiffness, by inverse iteration.
+    fn weakest_motion(&self) -> (f64, DVector<f64>) {
+        let (mut motion, mut smallest) = (start_vector(self.scale.len()), 1.0);
+        for _ in 0..INVERSE_ITERATIONS {
+            motion = self.solved(&motion);
+            smallest = 1.0 / motion.normalize_mut();
+        }
+        (smallest, motion)
+    }
+}
+
+/// Refuses sizes that are not positive and a structure without DOF.
+fn check_sizes(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<(), Error> {
+    for (element, &size) in elements.iter().zip(sizes) {
+        positive("size", || format!("element {}", element.label), size)?;
+    }
+    at_least_one("free degrees of freedom", free.len())?;
+    check_elements(elements, sizes, free.len())
+}
+
+/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
+fn start_vector(size: usize) -> DVector<f64> {
+    let golden = 0.618_033_988_749_894_8;
+    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
+}
