@@ -64,11 +64,12 @@ pub fn write(folder: &Path, model: &FiniteElementModel, modal: &ModalModel) -> R
         numbers(&at(&format!("{name}_size")), &[count], of_kind().map(|((_, element), _)| element.size))?;
         integers(&at(&format!("{name}_group")), &[count], of_kind().map(|((row, _), _)| group_of[row]))?;
     }
-    let t = model.load_distribution();
-    let entries = || (0..t.ncols()).flat_map(|j| (0..t.nrows()).map(move |i| (i, j))).filter(|&place| t[place] != 0.0);
+    let columns = model.load_distribution().columns();
+    let entries =
+        || columns.iter().enumerate().flat_map(|(j, terms)| terms.iter().map(move |&(i, value)| (i, j, value)));
     let count = entries().count();
-    integers(&at("t_place"), &[count, 2], entries().flat_map(|(row, column)| [row, column]))?;
-    numbers(&at("t_value"), &[count], entries().map(|place| t[place]))?;
+    integers(&at("t_place"), &[count, 2], entries().flat_map(|(row, column, _)| [row, column]))?;
+    numbers(&at("t_value"), &[count], entries().map(|(.., value)| value))?;
     matrix(&at("mass"), model.mass())?;
     matrix(&at("test_shapes"), &modal.test.shapes)?;
     let frequencies = modal.exact.modes.frequencies_hz();

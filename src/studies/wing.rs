@@ -4,6 +4,7 @@
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
 use crate::method::error::{Error, at_least_one};
+use crate::method::load_distribution::LoadDistribution;
 use crate::method::model::{FiniteElementModel, Parameter};
 use crate::method::modes::check_count;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
@@ -147,17 +148,14 @@ impl Wing {
     /// The wing as a model: a parameter per group, the measured points as dynamic DOF with the mass on them.
     ///
     /// # Errors
-    /// Those of [`Self::structure`] and [`FiniteElementModel::new`]; [`Error::Empty`], [`Error::TooMany`] for zones and measured points.
+    /// Those of [`Self::structure`] and [`FiniteElementModel::with_loads`]; [`Error::Empty`], [`Error::TooMany`] for zones and measured points.
     pub fn model(&self) -> Result<FiniteElementModel, Error> {
         let ([ribs, chord, _], [on_span, on_rib], zones) = (self.bays, self.measured, self.zones);
         check_count("zones", zones, ribs)?;
         check_count("measured ribs", on_span, ribs)?;
         check_count("measured points of a rib", on_rib, chord + 1)?;
         let (structure, points) = (self.structure()?, self.points());
-        let mut t = DMatrix::zeros(structure.free_dof().len(), points.len());
-        for (point, column) in self.load_distribution(&structure, &points).iter().enumerate() {
-            column.iter().for_each(|&(row, entry)| t[(row, point)] = entry);
-        }
+        let loads = LoadDistribution::new(structure.free_dof().len(), self.load_distribution(&structure, &points))?;
         let mass = DMatrix::from_diagonal_element(points.len(), points.len(), self.mass / points.len() as f64);
         let mut groups = vec![Vec::new(); SORTS.len() * zones];
         for (sort, bay, element) in self.members() {
@@ -165,6 +163,6 @@ impl Wing {
         }
         let name = |group: usize| format!("{} {}", SORTS[group / zones], group % zones + 1);
         let parameters = groups.iter().enumerate().map(|(group, labels)| Parameter::group(&name(group), labels));
-        FiniteElementModel::new(structure, t, mass, parameters.collect())
+        FiniteElementModel::with_loads(structure, loads, mass, parameters.collect())
     }
 }
