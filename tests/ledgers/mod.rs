@@ -8,6 +8,8 @@ pub mod formulas;
 pub mod places;
 pub mod rooms;
 pub mod routes;
+pub mod tour;
+pub mod tour_figures;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,15 @@
+//! A guided tour of the method: ten chapters, ten minutes each, in which every number is computed where it stands.
+//!
+//! Every chapter has its derivation, code that runs, one figure and one exercise with its answer. `cargo test --doc tour` compiles and
+//! runs all of it. Read in order; each chapter needs those before it and no other book.
+//!
+//! 1. [Two springs by hand](chapter_01_two_springs)
+//! 2. [From one row to the recursion](chapter_02_recursion)
+
+pub mod chapter_01_two_springs {
+    #![doc = include_str!("../paper/tour/01_two_springs.md")]
+}
+
+pub mod chapter_02_recursion {
+    #![doc = include_str!("../paper/tour/02_recursion.md")]
+}

@@ -1,0 +1,86 @@
+//! The figures of the tour, by the number of their chapter: what is drawn is computed here.
+
+use crate::common::sketch::{Mark, Series, Sketch};
+use corfem::cases::table_1::TwoMasses;
+use corfem::cases::{Case, run_case};
+use corfem::method::appendix_c::general::{ModalChange, recursive_2};
+use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
+use corfem::method::model::ModalModel;
+use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+
+/// Every chapter's figure as SVG.
+pub fn figures() -> BTreeMap<&'static str, String> {
+    [("01", two_springs()), ("02", orders())].into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
+}
+
+/// Numbers from one to another in equal steps.
+fn range(low: f64, high: f64, steps: usize) -> impl Iterator<Item = f64> {
+    (0..=steps).map(move |step| low + (high - low) * step as f64 / steps as f64)
+}
+
+fn two_springs() -> Sketch {
+    let exact = |mode: usize| {
+        let root = move |change: f64| (change, 1.0 / TwoMasses { coupling: 1.0, change }.exact_roots()[mode]);
+        range(-0.9, 2.0, 58).map(root)
+    };
+    let first_order = |mode: usize| {
+        let of = move |change: f64| {
+            let springs = TwoMasses { coupling: 1.0, change };
+            (change, springs.generalized_stiffness()[mode] + springs.beta()[(mode, mode)])
+        };
+        range(-0.9, 2.0, 1).map(of)
+    };
+    Sketch {
+        title: "Two masses: squared frequencies against the change of a spring",
+        labels: ["change of the first spring", "squared frequency"],
+        x: (-1.0, 2.0),
+        y: (0.0, 6.0),
+        is_logarithmic: false,
+        series: vec![
+            Series::new("mode 1, exact", Mark::Line, exact(0)),
+            Series::new("mode 1, first order", Mark::Dashed, first_order(0)),
+            Series::new("mode 2, exact", Mark::Line, exact(1)),
+            Series::new("mode 2, first order", Mark::Dashed, first_order(1)),
+        ],
+    }
+}
+
+/// A case's first model, and the change of its first pass in modal coordinates.
+fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
+    let case = Case::new(number).expect("a case");
+    let test = case.test_modes().expect("modes");
+    let modal = case.model().and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?)).expect("a model");
+    let result = run_case(&case, |_, _| {}).expect("a run");
+    let factors = &result.correlation.passes[0].inner.last.factors;
+    let beta = modal.shares.iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share.matrix()).sum();
+    (modal, beta)
+}
+
+fn orders() -> Sketch {
+    let error = |found: &Perturbed, exact: &Perturbed| {
+        100.0 * found.roots.zip_map(&exact.roots, |a, b| ((b / a).sqrt() - 1.0).abs()).max()
+    };
+    let of_case = |name, number, mark, is_first: bool| {
+        let (modal, beta) = first_pass(number);
+        let k = &modal.exact.modes.omega_squared;
+        let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
+        let exact = eigensolution(&change).expect("modes");
+        let by = |order| if is_first { recursive_1(k, &beta, order) } else { recursive_2(&change, order) };
+        let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
+        Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "Frequency errors of the recursions against their order",
+        labels: ["order", "largest error of a frequency, %"],
+        x: (1.0, 6.0),
+        y: (1e-10, 1e2),
+        is_logarithmic: true,
+        series: vec![
+            of_case("Case 1, Recursive 1", 1, Mark::Line, true),
+            of_case("Case 2, Recursive 1", 2, Mark::Line, true),
+            of_case("Case 3, Recursive 1", 3, Mark::Line, true),
+            of_case("Case 3, Recursive 2", 3, Mark::Dashed, false),
+        ],
+    }
+}
