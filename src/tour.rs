@@ -5,6 +5,7 @@
 //!
 //! 1. [Two springs by hand](chapter_01_two_springs)
 //! 2. [From one row to the recursion](chapter_02_recursion)
+//! 6. [Condensation, and two bounds](chapter_06_condensation)
 
 pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/tour/01_two_springs.md")]
@@ -12,4 +13,8 @@ pub mod chapter_01_two_springs {
 
 pub mod chapter_02_recursion {
     #![doc = include_str!("../paper/tour/02_recursion.md")]
+}
+
+pub mod chapter_06_condensation {
+    #![doc = include_str!("../paper/tour/06_condensation.md")]
 }

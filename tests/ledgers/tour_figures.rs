@@ -1,17 +1,20 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here.
 
 use crate::common::sketch::{Mark, Series, Sketch};
+use corfem::cases::published::PublishedTable;
 use corfem::cases::table_1::TwoMasses;
 use corfem::cases::{Case, run_case};
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
 use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::model::ModalModel;
+use corfem::method::modes::solve;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
 /// Every chapter's figure as SVG.
 pub fn figures() -> BTreeMap<&'static str, String> {
-    [("01", two_springs()), ("02", orders())].into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
+    let sketches = [("01", two_springs()), ("02", orders()), ("06", bounds())];
+    sketches.into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
 }
 
 /// Numbers from one to another in equal steps.
@@ -81,6 +84,38 @@ fn orders() -> Sketch {
             of_case("Case 2, Recursive 1", 2, Mark::Line, true),
             of_case("Case 3, Recursive 1", 3, Mark::Line, true),
             of_case("Case 3, Recursive 2", 3, Mark::Dashed, false),
+        ],
+    }
+}
+
+/// Frequencies of Case 2 at its published gages, by shapes and by loads of the first model, beside the exact ones.
+fn bounds() -> Sketch {
+    let model = Case::new(2).and_then(|case| case.model()).expect("a model");
+    let table = PublishedTable::number(6).expect("Table 6");
+    let gage = |panel: usize| table.required(&panel.to_string(), "pass_1_in").expect("a gage");
+    let factors: Vec<f64> = (1..=15).map(|panel| gage(panel) / 0.015).collect();
+    let first = model.matrices(&[1.0; 15]).expect("matrices");
+    let flexibility = first.stiffness.clone().try_inverse().expect("regular");
+    let (mut above, mut below) = (first.stiffness.clone(), flexibility.clone());
+    for (share, factor) in first.shares.iter().zip(&factors) {
+        above += (factor - 1.0) * share.matrix();
+        below += (1.0 / factor - 1.0) * &flexibility * share.matrix() * &flexibility;
+    }
+    let exact = model.modes(&factors).expect("modes").frequencies_hz();
+    let series = |name, mark, stiffness: DMatrix<f64>| {
+        let found = solve(&(0.5 * (&stiffness + stiffness.transpose())), &first.mass, 9).expect("modes");
+        let ratios = found.frequencies_hz().into_iter().zip(&exact).map(|(found, exact)| 100.0 * (found / exact - 1.0));
+        Series::new(name, mark, (1..).map(f64::from).zip(ratios))
+    };
+    Sketch {
+        title: "Two bounds on the frequencies of Case 2",
+        labels: ["mode", "difference from the exact frequency, %"],
+        x: (0.0, 10.0),
+        y: (-1.0, 1.0),
+        is_logarithmic: false,
+        series: vec![
+            series("shapes frozen (above)", Mark::Bars, above),
+            series("loads frozen (below)", Mark::Bars, below.try_inverse().expect("regular")),
         ],
     }
 }

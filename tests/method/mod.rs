@@ -17,6 +17,7 @@ pub mod assembly;
 
 pub mod appendix_a;
 pub mod appendix_a_box;
+pub mod condensation_bounds;
 
 pub mod modes;
 pub mod modes_bad_input;
