@@ -5,6 +5,9 @@
 //!
 //! 1. [Two springs by hand](chapter_01_two_springs)
 //! 2. [From one row to the recursion](chapter_02_recursion)
+//! 3. [Which mode is which, and how far apart](chapter_03_error_sum)
+//! 4. [The step](chapter_04_step)
+//! 5. [The inner loop](chapter_05_inner_loop)
 //! 6. [Condensation, and two bounds](chapter_06_condensation)
 
 pub mod chapter_01_two_springs {
@@ -13,6 +16,18 @@ pub mod chapter_01_two_springs {
 
 pub mod chapter_02_recursion {
     #![doc = include_str!("../paper/tour/02_recursion.md")]
+}
+
+pub mod chapter_03_error_sum {
+    #![doc = include_str!("../paper/tour/03_error_sum.md")]
+}
+
+pub mod chapter_04_step {
+    #![doc = include_str!("../paper/tour/04_step.md")]
+}
+
+pub mod chapter_05_inner_loop {
+    #![doc = include_str!("../paper/tour/05_inner_loop.md")]
 }
 
 pub mod chapter_06_condensation {

@@ -73,7 +73,11 @@ impl Sketch {
             let _ = writeln!(svg, r#"<path d="M{at:.1} {bottom:.1}v4" stroke="currentColor"/>"#);
             let _ = writeln!(svg, r#"<text x="{at:.1}" y="238" text-anchor="middle">{x:.x_decimals$}</text>"#);
         }
-        let powers = |(low, high): (f64, f64)| (low.log10().round() as i32..=high.log10().round() as i32);
+        // Every power of ten, or every other where there are many.
+        let powers = |(low, high): (f64, f64)| {
+            let (low, high) = (low.log10().round() as i32, high.log10().round() as i32);
+            (low..=high).step_by(if high - low > 7 { 2 } else { 1 })
+        };
         let ys: Vec<(f64, String)> = if self.is_logarithmic {
             powers(self.y).map(|power| (10f64.powi(power), format!("1e{power}"))).collect()
         } else {

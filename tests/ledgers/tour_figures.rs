@@ -4,16 +4,28 @@ use crate::common::sketch::{Mark, Series, Sketch};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::table_1::TwoMasses;
 use corfem::cases::{Case, run_case};
+use corfem::closed_forms::spring_chain::spring_stiffness;
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
 use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
-use corfem::method::model::ModalModel;
+use corfem::method::derivatives::{DerivativeRule, error_changes};
+use corfem::method::error_sum::{ErrorMeasure, Errors};
+use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
 /// Every chapter's figure as SVG.
 pub fn figures() -> BTreeMap<&'static str, String> {
-    let sketches = [("01", two_springs()), ("02", orders()), ("06", bounds())];
+    let sketches = [
+        ("01", two_springs()),
+        ("02", orders()),
+        ("03", crease()),
+        ("04", first_step()),
+        ("05", history()),
+        ("06", bounds()),
+    ];
     sketches.into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
 }
 
@@ -38,7 +50,7 @@ fn two_springs() -> Sketch {
         title: "Two masses: squared frequencies against the change of a spring",
         labels: ["change of the first spring", "squared frequency"],
         x: (-1.0, 2.0),
-        y: (0.0, 6.0),
+        y: (0.0, 8.0),
         is_logarithmic: false,
         series: vec![
             Series::new("mode 1, exact", Mark::Line, exact(0)),
@@ -88,6 +100,93 @@ fn orders() -> Sketch {
     }
 }
 
+/// A model of one parameter a share, beside the modes of its stiffness divided by a number.
+fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
+    let stiffness: DMatrix<f64> = shares.iter().sum();
+    let count = stiffness.nrows();
+    let mass = DMatrix::identity(count, count);
+    let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
+    let shares = shares.into_iter().map(Share::Stiffness).collect();
+    DynamicModel { stiffness, mass, shares }.analyze(&test, None).expect("a model")
+}
+
+fn crease() -> Sketch {
+    let modal = too_stiff(vec![spring_stiffness(2, 0, 1.5), spring_stiffness(2, 1, 1.5)], 1.5);
+    let at =
+        |factor: f64| ModalState::at(&modal, vec![factor, 1.0], UpdateRule::Eigensolution).expect("a state").errors;
+    let series = |name, mark, of: fn(&Errors) -> f64| {
+        Series::new(name, mark, range(0.5, 1.5, 40).map(|factor| (factor, of(&at(factor)))).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "The crease of the error sum",
+        labels: ["factor on the first spring", "error"],
+        x: (0.5, 1.5),
+        y: (0.0, 1.0),
+        is_logarithmic: false,
+        series: vec![
+            series("error sum", Mark::Line, Errors::sum),
+            series("frequency error", Mark::Dashed, |errors| errors.frequency),
+            series("shape error", Mark::Line, |errors| errors.shape),
+        ],
+    }
+}
+
+fn first_step() -> Sketch {
+    let ratio = |n: usize, rule, measure: ErrorMeasure| {
+        let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
+        let modal = too_stiff(vec![whole], 1.001);
+        let start = ModalState::start(&modal);
+        let changes = error_changes(&modal, &start, DerivativeRule::Gradient).expect("a slope");
+        let stiffness = stiffness_changes(&modal, &[1.0], &[1.0], &changes, rule).expect("a change");
+        let error = measure.scale(n) * start.errors.sum();
+        // Newton's is the step to the right factor.
+        (n as f64, (unlimited_factors(&changes, &stiffness, error, 1.0)[0] - 1.0) / (1.0 / 1.001 - 1.0))
+    };
+    let series = |name, mark, most: usize, rule, measure| {
+        Series::new(name, mark, (1..=most).map(|n| ratio(n, rule, measure)).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "The first step beside Newton's",
+        labels: ["number of modes", "step in units of Newton's"],
+        x: (0.0, 30.0),
+        y: (0.0, 3.0),
+        is_logarithmic: false,
+        series: vec![
+            series("relative", Mark::Line, 12, StepRule::Relative, ErrorMeasure::Sum),
+            series("matrix", Mark::Line, 30, StepRule::Matrix, ErrorMeasure::Sum),
+            series("matrix, as nine modes", Mark::Dashed, 30, StepRule::Matrix, ErrorMeasure::NineModes),
+        ],
+    }
+}
+
+fn history() -> Sketch {
+    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let passes = &result.correlation.passes;
+    let mut errors = vec![(0.0, result.correlation.initial.errors)];
+    let mut checks = Vec::new();
+    for pass in passes {
+        let before = errors.len();
+        errors.extend((before..).map(|n| n as f64).zip(pass.inner.iterations.iter().map(|step| step.errors)));
+        checks.push((errors.len() as f64 - 1.0, 100.0 * pass.check.errors.sum()));
+    }
+    let series = |name, mark, of: fn(&Errors) -> f64| {
+        Series::new(name, mark, errors.iter().map(|(n, errors)| (*n, 100.0 * of(errors))).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "Case 2 through both passes",
+        labels: ["iteration", "error, %"],
+        x: (0.0, 65.0),
+        y: (0.1, 1e3),
+        is_logarithmic: true,
+        series: vec![
+            series("error sum", Mark::Line, Errors::sum),
+            series("frequency error", Mark::Dashed, |errors| errors.frequency),
+            series("shape error", Mark::Dashed, |errors| errors.shape),
+            Series::new("exact error sum", Mark::Dots, checks),
+        ],
+    }
+}
+
 /// Frequencies of Case 2 at its published gages, by shapes and by loads of the first model, beside the exact ones.
 fn bounds() -> Sketch {
     let model = Case::new(2).and_then(|case| case.model()).expect("a model");
@@ -111,7 +210,7 @@ fn bounds() -> Sketch {
         title: "Two bounds on the frequencies of Case 2",
         labels: ["mode", "difference from the exact frequency, %"],
         x: (0.0, 10.0),
-        y: (-1.0, 1.0),
+        y: (-1.0, 1.5),
         is_logarithmic: false,
         series: vec![
             series("shapes frozen (above)", Mark::Bars, above),
