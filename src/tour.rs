@@ -9,6 +9,9 @@
 //! 4. [The step](chapter_04_step)
 //! 5. [The inner loop](chapter_05_inner_loop)
 //! 6. [Condensation, and two bounds](chapter_06_condensation)
+//! 7. [The box and Cases 1 to 3](chapter_07_box)
+//! 8. [Case 4: finding a mistake](chapter_08_mistake)
+//! 9. [Noise, and what cannot be seen](chapter_09_noise)
 
 pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/tour/01_two_springs.md")]
@@ -32,4 +35,16 @@ pub mod chapter_05_inner_loop {
 
 pub mod chapter_06_condensation {
     #![doc = include_str!("../paper/tour/06_condensation.md")]
+}
+
+pub mod chapter_07_box {
+    #![doc = include_str!("../paper/tour/07_box.md")]
+}
+
+pub mod chapter_08_mistake {
+    #![doc = include_str!("../paper/tour/08_mistake.md")]
+}
+
+pub mod chapter_09_noise {
+    #![doc = include_str!("../paper/tour/09_noise.md")]
 }

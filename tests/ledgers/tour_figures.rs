@@ -3,6 +3,7 @@
 use crate::common::sketch::{Mark, Series, Sketch};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::table_1::TwoMasses;
+use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{Case, run_case};
 use corfem::closed_forms::spring_chain::spring_stiffness;
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
@@ -13,6 +14,9 @@ use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::studies::noisy_modes::Noise;
+use corfem::studies::weighted::identifiability::identifiability;
+use corfem::studies::weighted::residuals::{Weights, jacobian};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -25,6 +29,9 @@ pub fn figures() -> BTreeMap<&'static str, String> {
         ("04", first_step()),
         ("05", history()),
         ("06", bounds()),
+        ("07", gages()),
+        ("08", demands()),
+        ("09", deviations()),
     ];
     sketches.into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
 }
@@ -215,6 +222,67 @@ fn bounds() -> Sketch {
         series: vec![
             series("shapes frozen (above)", Mark::Bars, above),
             series("loads frozen (below)", Mark::Bars, below.try_inverse().expect("regular")),
+        ],
+    }
+}
+
+/// Gage errors of Case 2 at its end, percent.
+fn final_gage_errors() -> Vec<f64> {
+    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let gages = result.pass_gages.last().expect("a pass");
+    gages.iter().map(|gage| 100.0 * (gage / TEST_GAGE - 1.0)).collect()
+}
+
+/// Numbers of the fifteen panels beside them.
+fn by_panel(values: Vec<f64>) -> Vec<(f64, f64)> {
+    (1..).map(f64::from).zip(values).collect()
+}
+
+fn gages() -> Sketch {
+    let table = PublishedTable::number(6).expect("Table 6");
+    let published = |panel: usize| table.required(&panel.to_string(), "pass_2_percent").expect("an error");
+    Sketch {
+        title: "Case 2: gage errors at the end",
+        labels: ["panel", "gage error, %"],
+        x: (0.0, 16.0),
+        y: (-20.0, 70.0),
+        is_logarithmic: false,
+        series: vec![
+            Series::new("computed", Mark::Bars, by_panel(final_gage_errors())),
+            Series::new("published", Mark::Dots, by_panel((1..=15).map(published).collect())),
+        ],
+    }
+}
+
+fn demands() -> Sketch {
+    let result = Case::new(4).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    Sketch {
+        title: "Case 4: unlimited factors of the first iteration",
+        labels: ["panel", "unlimited factor"],
+        x: (0.0, 16.0),
+        y: (-20.0, 70.0),
+        is_logarithmic: false,
+        series: vec![Series::new("factor asked for", Mark::Bars, by_panel(result.unlimited_factors().to_vec()))],
+    }
+}
+
+fn deviations() -> Sketch {
+    let case = Case::new(2).expect("a case");
+    let test = case.test_modes().expect("modes");
+    let model = case.model_with(&[TEST_GAGE; 15]).expect("a model").analyze(&[1.0; 15], &test, None).expect("a model");
+    let weights = Weights::uniform(Noise::USUAL, 9).expect("weights");
+    let seen = jacobian(&model, &weights).and_then(|jacobian| identifiability(&jacobian, 1.0)).expect("what is seen");
+    let percents = seen.deviations.iter().map(|deviation| 100.0 * deviation).collect();
+    let errors = final_gage_errors().into_iter().map(f64::abs).collect();
+    Sketch {
+        title: "What nine noisy modes know of the panels of Case 2",
+        labels: ["panel", "%"],
+        x: (0.0, 16.0),
+        y: (0.0, 100.0),
+        is_logarithmic: false,
+        series: vec![
+            Series::new("standard deviation of the factor", Mark::Bars, by_panel(percents)),
+            Series::new("gage error left in Case 2", Mark::Dots, by_panel(errors)),
         ],
     }
 }
