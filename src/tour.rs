@@ -12,6 +12,7 @@
 //! 7. [The box and Cases 1 to 3](chapter_07_box)
 //! 8. [Case 4: finding a mistake](chapter_08_mistake)
 //! 9. [Noise, and what cannot be seen](chapter_09_noise)
+//! 10. [Your own structure](chapter_10_own_structure)
 
 pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/tour/01_two_springs.md")]
@@ -47,4 +48,8 @@ pub mod chapter_08_mistake {
 
 pub mod chapter_09_noise {
     #![doc = include_str!("../paper/tour/09_noise.md")]
+}
+
+pub mod chapter_10_own_structure {
+    #![doc = include_str!("../paper/tour/10_own_structure.md")]
 }

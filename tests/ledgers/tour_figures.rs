@@ -12,6 +12,7 @@ use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error_sum::{ErrorMeasure, Errors};
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
+use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
 use corfem::studies::noisy_modes::Noise;
@@ -32,6 +33,7 @@ pub fn figures() -> BTreeMap<&'static str, String> {
         ("07", gages()),
         ("08", demands()),
         ("09", deviations()),
+        ("10", stories()),
     ];
     sketches.into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
 }
@@ -284,5 +286,33 @@ fn deviations() -> Sketch {
             Series::new("standard deviation of the factor", Mark::Bars, by_panel(percents)),
             Series::new("gage error left in Case 2", Mark::Dots, by_panel(errors)),
         ],
+    }
+}
+
+fn stories() -> Sketch {
+    let analyze = |factors: &[f64]| {
+        let share = |(story, factor): (usize, &f64)| Share::Stiffness(spring_stiffness(4, story, 4000.0 * factor));
+        let shares: Vec<Share> = factors.iter().enumerate().map(share).collect();
+        DynamicModel { stiffness: shares.iter().map(Share::matrix).sum(), mass: DMatrix::identity(4, 4), shares }
+    };
+    let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
+    let test = solve(&truth.stiffness, &truth.mass, 4).expect("modes").into();
+    let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.0025, ..Settings::default() };
+    let run = correlate(|factors| analyze(factors).analyze(&test, None), &[None; 4], &settings, |_, _| {});
+    let mut history = vec![vec![1.0; 4]];
+    for pass in run.expect("a run").passes {
+        let base = history.last().expect("a start").clone();
+        let product = |factors: &Vec<f64>| base.iter().zip(factors).map(|(base, factor)| base * factor).collect();
+        history.extend(pass.inner.iterations.iter().map(|step| product(&step.factors)).collect::<Vec<_>>());
+    }
+    let names = ["story 1", "story 2", "story 3", "story 4"];
+    let of = |story: usize| history.iter().enumerate().map(move |(n, factors)| (n as f64, factors[story]));
+    Sketch {
+        title: "The factors of four stories",
+        labels: ["iteration", "factor"],
+        x: (0.0, 20.0),
+        y: (0.6, 1.4),
+        is_logarithmic: false,
+        series: names.into_iter().zip(0..).map(|(name, story)| Series::new(name, Mark::Line, of(story))).collect(),
     }
 }
