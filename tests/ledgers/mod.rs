@@ -5,6 +5,7 @@ pub mod documents;
 pub mod equations;
 pub mod errata;
 pub mod formulas;
+pub mod package;
 pub mod places;
 pub mod rooms;
 pub mod routes;

@@ -1,4 +1,5 @@
 //! Appendix C: Van de Vooren's perturbation of roots and shapes, in modal coordinates.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! The modes before the change are $V$ with $V^t M V = I$ and $k = V^t K V = \mathrm{diag}(\omega^2)$. With
 //! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through

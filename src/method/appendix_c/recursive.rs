@@ -1,5 +1,6 @@
 //! First order (C.20, C.21) and Recursive 1 (C.22) for a change of stiffness alone and real mass-orthonormal modes: what the
 //! loops run on.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$, both in rad²/s².
 
