@@ -11,6 +11,7 @@ pub mod rooms;
 pub mod routes;
 pub mod tour;
 pub mod tour_figures;
+pub mod tour_figures_box;
 
 use std::fs;
 use std::path::{Path, PathBuf};
