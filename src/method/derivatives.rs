@@ -1,4 +1,5 @@
 //! Derivatives of the error sum (12): what a small change of each parameter does to it.
+//! Tour: [chapter 4](crate::tour::chapter_04_step).
 //!
 //! [`by_definition`] is the paper's way, parameter by parameter. [`gradient`] is its limit for all parameters at once: a sweep
 //! over the test modes gives the derivative by every entry of $\beta$, an inner product with $V^t K_e V$ that by a parameter.

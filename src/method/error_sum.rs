@@ -1,4 +1,5 @@
 //! The error sum (5, 6): how far the analysis modes are from the test modes.
+//! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;

@@ -1,4 +1,5 @@
 //! Where an inner loop stands: the modes after changes of stiffness and mass, by perturbation from the last exact ones.
+//! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
 use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{eigensolution, normalize_with_mass, recursive_1_converged};

@@ -2,6 +2,7 @@
 
 mod cases;
 mod deck;
+mod dump;
 mod folder;
 mod job;
 mod output;
@@ -17,6 +18,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
+use dump::DumpArguments;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::{OutputArguments, say};
 use pictures::FolderArguments;
@@ -88,6 +90,8 @@ enum Command {
     Report(FolderArguments),
     /// Write the torque box of a case as a NASTRAN deck
     Deck(DeckArguments),
+    /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
+    Dump(DumpArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck
     Modes(ModesArguments),
 }
@@ -125,6 +129,7 @@ pub fn run() -> ExitCode {
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
+        Some(Command::Dump(arguments)) => dump::dump(&arguments, quiet).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
     })
 }

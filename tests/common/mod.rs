@@ -24,6 +24,7 @@ pub mod panels;
 #[cfg(unix)]
 pub mod signals;
 pub mod strategies;
+pub mod sketch;
 pub mod structures;
 pub mod tolerances;
 pub mod torque_boxes;

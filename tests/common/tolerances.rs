@@ -109,6 +109,8 @@ pub const SAME_HISTORY: f64 = 1e-6;
 /// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
 /// which the smallest slope in the test passes from one corner to the next.
 pub const NODE_LINE: f64 = 1e-9;
+/// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
+pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
 /// tenth of one; row by row it would be seven tenths more.
 pub const FILL_ORDER: f64 = 0.1;

@@ -11,4 +11,5 @@ pub mod cli_streams;
 pub mod cli_tables;
 pub mod cli_weighted;
 pub mod deck_cli;
+pub mod dump;
 pub mod stops;

@@ -1,4 +1,5 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
+//! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 mod analysis;
 mod modal;
