@@ -25,7 +25,7 @@ use pictures::FolderArguments;
 use place::put;
 use std::process::ExitCode;
 use studies::{
-    DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments, WeightedArguments,
+    CostArguments, DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments, WeightedArguments,
 };
 
 const BAD_INPUT: u8 = 2;
@@ -82,6 +82,8 @@ enum Command {
     Localize(LocalizeArguments),
     /// Compare the paper's rule with weighted Gauss–Newton steps, and count how often their 95 % intervals hold the truth
     Weighted(WeightedArguments),
+    /// Count the eigensolutions that the method takes and saves, and compare its steps with linear Taylor steps
+    Cost(CostArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -125,6 +127,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(arguments)) => job::check_job(&arguments).map(|()| true),
         Some(Command::Localize(arguments)) => studies::localize(&arguments).map(|()| true),
         Some(Command::Weighted(arguments)) => studies::weighted(&arguments).map(|()| true),
+        Some(Command::Cost(arguments)) => studies::cost(&arguments).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `localize`, `weighted` and `delta-wing`.
+//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `localize`, `weighted`, `cost` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::settings::SettingsArguments;
@@ -12,6 +12,8 @@ use corfem::present::{PresentError, json, tables};
 use corfem::studies::coverage;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
+use corfem::studies::eigensolutions;
+use corfem::studies::linearization::{Exact, both_structures};
 use corfem::studies::localization;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
@@ -55,6 +57,15 @@ pub struct WeightedArguments {
     /// How many noisy tests of each structure
     #[arg(long, value_name = "N", default_value_t = *coverage::SEEDS.end(), value_parser = clap::value_parser!(u64).range(1..))]
     tests: u64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct CostArguments {
+    /// An error sum to be reached, percent; may be given again
+    #[arg(long, value_name = "PERCENT", default_values_t = eigensolutions::ERRORS.map(|error| 100.0 * error))]
+    error: Vec<f64>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -158,6 +169,17 @@ pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments) -> Resu
     let mut tables = tables::weighted::coverage_tables(&coverages);
     tables.insert(0, tables::weighted::rules_table(&compared));
     output.write(&tables, || json::weighted(&compared, &coverages))
+}
+
+/// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.
+pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), PresentError> {
+    output.check()?;
+    let errors: Vec<f64> = error.iter().map(|percent| percent / 100.0).collect();
+    let mut tables = vec![tables::cost::eigensolution_table(&eigensolutions::count_all(&errors)?)];
+    for exact in [Exact::SameCondensation, Exact::NewCondensation] {
+        tables.push(tables::cost::linearization_table(&both_structures(exact)?, exact));
+    }
+    output.write(&tables, || json::tables(&tables))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

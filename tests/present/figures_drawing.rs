@@ -14,8 +14,15 @@ fn figures_of_a_run_in_the_order_of_the_report() {
         }
     }
     expected.extend(
-        ["case_4_factors", "case_4_derivatives", "truncation", "matrices_stiffness", "matrices_frequencies"]
-            .map(String::from),
+        [
+            "case_4_factors",
+            "case_4_derivatives",
+            "linearization",
+            "truncation",
+            "matrices_stiffness",
+            "matrices_frequencies",
+        ]
+        .map(String::from),
     );
     assert_eq!(names, expected);
     for figure in figures() {
@@ -69,7 +76,7 @@ fn stored_figures_are_what_the_command_writes() {
         assert!(numbers.agree(&stored, &figure.svg), "{name} differs: write it again");
         compared += 1;
     }
-    assert_eq!(compared, 13, "one of every kind");
+    assert_eq!(compared, 14, "one of every kind");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Tables, figures, page.
 
+pub mod cost_tables;
 pub mod delta_wing_report;
 pub mod figures;
 pub mod figures_axes;

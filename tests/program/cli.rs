@@ -200,6 +200,7 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
         &["fewer-modes"],
         &["noise"],
         &["matrices"],
+        &["cost", "--error", "5"],
         &["delta-wing"],
         &["deck", "4"],
         &["modes", deck],

@@ -25,3 +25,7 @@ pub mod preflight_rates;
 pub mod whole_model;
 pub mod weighted;
 pub mod weighted_coverage;
+
+pub mod eigensolutions;
+pub mod linearization;
+pub mod wing;

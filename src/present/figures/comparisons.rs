@@ -1,15 +1,16 @@
-//! The figures of what is compared with the cases: fewer modes, and corrections of matrices.
+//! The figures of what is compared with the cases: steps by other formulae, fewer modes, and corrections of matrices.
 
 use super::bars::{BarFigure, Bars, Series};
 use super::matrices::{HeatMap, draw_by_twos};
-use super::{Figure, numbers};
+use super::{Figure, linearization, numbers};
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
 use crate::present::tables::fewer_modes::costs;
+use crate::studies::linearization::{Exact, both_structures};
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
 use nalgebra::DMatrix;
 
-/// Figures of what is compared with the cases: fewer modes, then corrections of matrices.
+/// Figures of what is compared with the cases: steps by other formulae, fewer modes, then corrections of matrices.
 pub fn comparison_figures(
     case: usize,
     runs: &[FewerModesRun],
@@ -40,7 +41,12 @@ pub fn comparison_figures(
         "{corrections}: frequency errors of the box as tested and with every cover thicker, a set of gages that no correction \
         was fitted to."
     );
+    let title = "Predicted modes: errors against the size of the step";
+    let steps = linearization::draw("linearization", title, &both_structures(Exact::SameCondensation)?)?;
+    let steps_caption = "Frequencies and shapes predicted for a step toward the right gages, by perturbation and by linear Taylor \
+        steps, beside the exact ones of the same condensed model.";
     Ok(vec![
+        Figure::new("linearization", steps_caption, steps),
         Figure::new("truncation", truncation_caption, truncated),
         Figure::new("matrices_stiffness", stiffness_caption, stiffness),
         Figure::new("matrices_frequencies", frequency_caption, frequencies),

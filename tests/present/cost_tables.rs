@@ -1,0 +1,54 @@
+//! The tables of what the method saves, and the figure of how far its steps can be trusted.
+
+use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::{GOLDEN_COUNT, GOLDEN_STEPS, JOB_RESULTS, ROUND_OFF_FLOOR};
+use crate::present::figures::figures;
+use corfem::present::render::{WIDTH, csv, text};
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::cost::{eigensolution_table, linearization_table};
+use corfem::studies::eigensolutions::{Counted, ERRORS, Effort, count_all};
+use corfem::studies::linearization::{Exact, METHODS, both_structures};
+
+fn fits(table: &Table) {
+    let text = text(std::slice::from_ref(table));
+    assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+    assert!(table.rows.iter().all(|row| row.cells.len() == table.columns.len()));
+}
+
+#[test]
+fn eigensolutions_are_those_of_the_golden() {
+    let table = eigensolution_table(&count_all(&ERRORS).expect("they run"));
+    fits(&table);
+    let numbers = Numbers { relative: GOLDEN_STEPS, absolute: GOLDEN_COUNT, last_digit: false };
+    assert_golden("eigensolutions", &csv(&[table]), numbers);
+}
+
+#[test]
+fn what_is_not_reached_says_so() {
+    let effort = |analyses, reached| Effort { analyses, steps: 4, reached };
+    let (perturbation, reanalysis) = (effort(3, true), effort(5, false));
+    let counted = Counted { name: "A box".to_owned(), error: 0.025, parameters: 10, perturbation, reanalysis };
+    let table = eigensolution_table(&[counted]);
+    assert_eq!(table.rows[0].label, "A box, 2.5 %");
+    let written: Vec<String> = table.rows[0].cells.iter().map(Cell::computed).collect();
+    assert_eq!(written, ["4", "3", "4", "5+", "45+"]);
+}
+
+#[test]
+fn errors_of_steps_are_those_of_the_golden() {
+    for exact in [Exact::SameCondensation, Exact::NewCondensation] {
+        let table = linearization_table(&both_structures(exact).expect("they run"), exact);
+        fits(&table);
+        assert_eq!((table.rows.len(), table.columns.len()), (12, METHODS.len()));
+        let numbers = Numbers { relative: JOB_RESULTS, absolute: 100.0 * ROUND_OFF_FLOOR, last_digit: true };
+        assert_golden(&table.name.clone(), &csv(&[table]), numbers);
+    }
+}
+
+#[test]
+fn figure_has_a_line_for_every_formula_in_every_chart() {
+    let figure = figures().iter().find(|figure| figure.name == "linearization").expect("drawn");
+    for words in METHODS.into_iter().chain(["Case 2: shapes", "Delta wing: frequencies"]) {
+        assert!(figure.svg.contains(words), "{words}");
+    }
+}
