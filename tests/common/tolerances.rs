@@ -243,3 +243,6 @@ pub const CERTIFIED_ROOT: f64 = 5e-9;
 /// Units of the last digit between a rounded number and what it stands for: half of one, and a tenth for the round-off of what was
 /// rounded.
 pub const SHOWN_UNITS: f64 = 0.6;
+/// Gradients where cases begin by two formulas, relative to the largest: modes of condition 1e5 or so, differences of whose squared
+/// frequencies divide.
+pub const EXPECTED_GRADIENT: f64 = 1e-8;
