@@ -15,7 +15,7 @@
 //! in floating point: they differ from the rows in rational numbers by round-off. `appendix_c_recursion_orders` has the same table
 //! by slopes.
 
-use crate::common::appendix_c::{Plain, of_stiffness};
+use crate::common::appendix_c::of_stiffness;
 use crate::common::rational_rows::Change;
 use crate::common::rational_series::{Found, IntegerPencil, Series};
 use crate::common::tolerances::{RATIONAL_ROUND_OFF, ROUND_OFF};
@@ -23,7 +23,6 @@ use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::{
     CloseRootsSettings, Perturbed, close_roots, eigensolution, first_order, recursive_1, recursive_1_converged,
 };
-use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use proptest::prelude::*;

@@ -29,8 +29,6 @@ pub struct Pass {
     pub gages: Vec<Dd>,
     pub omega_squared: Vec<Dd>,
     pub errors: Errors,
-    /// The inner loop's own last squared frequencies.
-    pub inner_omega_squared: Vec<Dd>,
 }
 
 pub struct History {
@@ -155,16 +153,7 @@ impl Chain<'_> {
                 break Stop::Tolerance;
             }
         };
-        let inner_omega_squared = state.modes.omega_squared;
-        Pass {
-            error_sums,
-            halvings,
-            stop,
-            gages: factors,
-            omega_squared: Vec::new(),
-            errors: state.errors,
-            inner_omega_squared,
-        }
+        Pass { error_sums, halvings, stop, gages: factors, omega_squared: Vec::new(), errors: state.errors }
     }
 
     /// Factors by (12) and (13), not limited.
