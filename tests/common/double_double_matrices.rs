@@ -30,18 +30,20 @@ pub fn solve(a: &Rows, b: &Rows) -> Rows {
             lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
         }
     }
-    let mut x = b.clone();
-    for column in 0..b[0].len() {
+    let solved = |column: usize| {
+        let mut x: Vec<Dd> = b.iter().map(|row| row[column]).collect();
         for i in 0..size {
-            let known: Dd = (0..i).map(|s| lower[i][s] * x[s][column]).sum();
-            x[i][column] = (x[i][column] - known) / lower[i][i];
+            let known: Dd = (0..i).map(|s| lower[i][s] * x[s]).sum();
+            x[i] = (x[i] - known) / lower[i][i];
         }
         for i in (0..size).rev() {
-            let known: Dd = (i + 1..size).map(|s| lower[s][i] * x[s][column]).sum();
-            x[i][column] = (x[i][column] - known) / lower[i][i];
+            let known: Dd = (i + 1..size).map(|s| lower[s][i] * x[s]).sum();
+            x[i] = (x[i] - known) / lower[i][i];
         }
-    }
-    x
+        x
+    };
+    let columns: Rows = (0..b[0].len()).map(solved).collect();
+    rows(size, columns.len(), |i, j| columns[j][i])
 }
 
 /// The inverse of a symmetric positive definite matrix, symmetric to the last bit.
@@ -73,8 +75,9 @@ pub fn eigen(a: &Rows) -> (Vec<Dd>, Rows) {
                 for row in a.iter_mut().chain(vectors.iter_mut()) {
                     (row[p], row[q]) = turn(row[p], row[q]);
                 }
-                for column in 0..size {
-                    (a[p][column], a[q][column]) = turn(a[p][column], a[q][column]);
+                let (above, below) = a.split_at_mut(q);
+                for (x, y) in above[p].iter_mut().zip(&mut below[0]) {
+                    (*x, *y) = turn(*x, *y);
                 }
                 (a[p][q], a[q][p]) = (Dd::ZERO, Dd::ZERO);
             }

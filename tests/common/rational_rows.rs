@@ -193,10 +193,11 @@ fn solved(mut rows: Matrix) -> Vec<Series> {
     for pivot in 0..size {
         let scale = rows[pivot][pivot].clone();
         rows[pivot].iter_mut().for_each(|entry| *entry = &*entry / &scale);
+        let pivot_row = rows[pivot].clone();
         for row in (0..size).filter(|&row| row != pivot) {
             let factor = rows[row][pivot].clone();
-            for column in pivot..=size {
-                rows[row][column] = rows[row][column].clone() - &factor * &rows[pivot][column];
+            for (entry, own) in rows[row].iter_mut().zip(&pivot_row).skip(pivot) {
+                *entry = entry.clone() - &factor * own;
             }
         }
     }

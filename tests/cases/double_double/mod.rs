@@ -178,10 +178,10 @@ fn jacobis_rotations_find_the_modes_of_a_chain() {
         assert_relative_eq!(value.to_f64(), 2.0 - 2.0 * ((j + 1) as f64 * PI / 10.0).cos(), max_relative = ROUND_OFF);
     }
     let through = transposed_product(&vectors, &product(&chain, &vectors));
-    for i in 0..9 {
-        for j in 0..9 {
+    for (i, row) in through.iter().enumerate() {
+        for (j, &entry) in row.iter().enumerate() {
             let expected = if i == j { values[i] } else { Dd::ZERO };
-            assert!((through[i][j] - expected).abs().to_f64() < 1e3 * DD_EPSILON);
+            assert!((entry - expected).abs().to_f64() < 1e3 * DD_EPSILON);
         }
     }
 }
