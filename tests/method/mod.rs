@@ -44,6 +44,7 @@ pub mod appendix_c_distinct;
 pub mod appendix_c_orders;
 pub mod appendix_c_recursion_orders;
 pub mod appendix_c_rows;
+pub mod appendix_c_series;
 pub mod appendix_c_table_1;
 pub mod appendix_c_two_dof;
 
