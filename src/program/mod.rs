@@ -7,10 +7,12 @@ mod job;
 mod output;
 mod pictures;
 mod place;
+mod progress;
 mod settings;
 mod signals;
 mod solver;
 mod studies;
+mod study;
 
 use cases::CasesArguments;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -25,6 +27,7 @@ use std::process::ExitCode;
 use studies::{
     DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments, WeightedArguments,
 };
+use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -72,6 +75,8 @@ enum Command {
     Noise(OutputArguments),
     /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
     Correlate(CorrelateArguments),
+    /// Run a job many times with its test varied, and say how its factors scatter
+    Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
     /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
@@ -117,6 +122,7 @@ pub fn run() -> ExitCode {
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
+        Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments).map(|()| true),
         Some(Command::Localize(arguments)) => studies::localize(&arguments).map(|()| true),

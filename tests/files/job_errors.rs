@@ -104,7 +104,7 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
         let source = Prepared::new(&path).unwrap_or_else(|error| panic!("{new}: {error}")).source;
         let names: Vec<String> = source.whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
-        (names, source.members)
+        (names, source.members.clone())
     };
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     let b = "elements = [\"2-3\"]";

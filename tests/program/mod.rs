@@ -4,6 +4,7 @@ pub mod cli;
 pub mod cli_check;
 pub mod cli_comparisons;
 pub mod cli_settings;
+pub mod cli_study;
 pub mod cli_jobs;
 pub mod cli_pictures;
 pub mod cli_places;

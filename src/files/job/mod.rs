@@ -7,13 +7,16 @@ mod matrices;
 mod model;
 mod prepare;
 mod run;
+mod samples;
 mod sensors;
+mod study;
 
 pub use model::{Geometry, ModelSource};
 pub use prepare::Prepared;
 pub use run::{Finished, History, run};
-
+pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
+pub use study::{Study, Vary};
 
 use crate::files::error::FileError;
 use crate::method::outer_loop::Settings;

@@ -6,6 +6,7 @@ mod csv;
 mod universal;
 mod universal_write;
 
+pub(crate) use csv::quoted;
 pub use csv::write_csv;
 pub use universal_write::write_universal;
 
