@@ -200,7 +200,7 @@ pub struct Compare {
     pub frequency_deviation: Option<f64>,
     /// Standard deviation of every shape, a fraction of its largest component, where the test has none of its own.
     pub shape_deviation: Option<f64>,
-    /// Weights of the frequencies, one a test mode, on top of their deviations.
+    /// Weights of the frequencies, one a test mode: on top of their deviations, or of the paper's frequency errors.
     pub frequency_weights: Option<Vec<f64>>,
     /// Weights of the shapes in the same way.
     pub shape_weights: Option<Vec<f64>>,

@@ -2,7 +2,7 @@
 
 use super::model::{beside, load};
 use super::sensors::{PlacedSensor, place};
-use super::{ComparedModes, Job, ModelSource, PairingRule, read};
+use super::{ComparedModes, Job, Method, ModelSource, PairingRule, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
@@ -178,12 +178,15 @@ impl Prepared {
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         let (whole, pair) = (&self.source.whole, pairing_rule(self.job.compare.pairing));
-        match self.job.compare.modes {
+        let model = match self.job.compare.modes {
             ComparedModes::Whole => whole.analyze(factors, &self.sensors, (&self.test, pair), self.analysis_modes),
             ComparedModes::Condensed => {
                 whole.analyze_condensed(factors, &self.sensors, &self.test, Some(self.analysis_modes))
             }
-        }
+        };
+        // Gauss-Newton steps have weights of their own.
+        let is_paper = self.job.compare.method == Method::Paper;
+        if is_paper { model?.weighted(&self.own_weights()) } else { model }
     }
 }
 

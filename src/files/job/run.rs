@@ -3,7 +3,7 @@
 use super::{Method, ParameterRule, Prepared};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
-use crate::method::error_sum::mode_errors;
+use crate::method::error_sum::{ModeWeight, mode_errors};
 use crate::method::model::{ModalModel, Range};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
@@ -54,33 +54,37 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode, and for those without Gauss–Newton steps, which alone know them.
+    /// [`FileError::Job`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
-        if compare.method == Method::Paper && (compare.frequency_weights.is_some() || compare.shape_weights.is_some()) {
-            let expected = "compare.method = \"gauss_newton\" with weights";
-            return Err(FileError::job(&self.path, expected, "the paper's, whose error sum has none"));
-        }
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
-        let list = |what: &str, weights: &Option<Vec<f64>>| match weights {
-            Some(weights) if weights.len() != named => {
+        for (what, list) in
+            [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)]
+        {
+            if let Some(list) = list.as_ref().filter(|list| list.len() != named) {
                 let expected = format!("{named} {what}, one a test mode of the job");
-                Err(FileError::job(&self.path, expected, weights.len().to_string()))
+                return Err(FileError::job(&self.path, expected, list.len().to_string()));
             }
-            Some(weights) => Ok(weights.clone()),
-            None => Ok(vec![1.0; named]),
-        };
-        let numbers = self.job.test.modes.clone().unwrap_or_else(|| (1..=named).collect());
-        let of = |weights: &[f64], deviation: fn(Noise) -> f64| {
-            let weight = |&mode: &usize| {
-                let place = numbers.iter().position(|number| *number == mode + 1).unwrap_or(mode);
-                weights[place] / deviation(self.deviations(mode))
-            };
-            self.modes.iter().map(weight).collect::<Vec<f64>>()
-        };
+        }
+        let own = self.own_weights();
+        let all = own.iter().zip(&self.modes).map(|(own, &mode)| (own, self.deviations(mode)));
         let (frequency, shape) =
-            (list("frequency_weights", &compare.frequency_weights)?, list("shape_weights", &compare.shape_weights)?);
-        Ok(Weights { frequency: of(&frequency, |noise| noise.frequency), shape: of(&shape, |noise| noise.shape) })
+            all.map(|(own, noise)| (own.frequency / noise.frequency, own.shape / noise.shape)).unzip();
+        Ok(Weights { frequency, shape })
+    }
+
+    /// The job's own weights of the test modes, ones where it has none.
+    pub(super) fn own_weights(&self) -> Vec<ModeWeight> {
+        let (numbers, compare) = (&self.job.test.modes, &self.job.compare);
+        let of = |list: &Option<Vec<f64>>, mode: usize| {
+            let place = numbers.as_ref().map_or(Some(mode), |all| all.iter().position(|number| *number == mode + 1));
+            list.as_ref().zip(place).and_then(|(list, place)| list.get(place).copied()).unwrap_or(1.0)
+        };
+        let weight = |&mode: &usize| ModeWeight {
+            frequency: of(&compare.frequency_weights, mode),
+            shape: of(&compare.shape_weights, mode),
+        };
+        self.modes.iter().map(weight).collect()
     }
 
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else [`USUAL`].
