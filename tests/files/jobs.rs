@@ -1,9 +1,10 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::{Files, STORIES, building, delta_wing, torque_box, torque_box_truth};
+use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth};
 use crate::common::tolerances::{CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR};
 use corfem::files::job::{ComparedModes, Finished, Prepared, run};
+use corfem::files::test_data::write_universal;
 use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
@@ -68,6 +69,60 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let worst =
         found.factors.iter().zip(&STORIES).map(|(found, truth)| (found / truth - 1.0).abs()).fold(0.0, f64::max);
     assert!(worst > 0.2, "{worst}");
+}
+
+/// The rods' test with axes of its own: node 2 measures along a y that points to where x does not, node 3 along a z that is x, and
+/// node 4 along x.
+#[test]
+fn sensors_along_axes_of_their_own_find_the_same_rods() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in rods() {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    let path = folder.path().join("job.toml");
+    let finished = || {
+        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+        (prepared, finished.factors)
+    };
+    let (prepared, expected) = finished();
+    let text = write_universal(&prepared.data);
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let nodes = lines.iter().position(|line| line.trim() == "15").expect("nodes") + 1;
+    for (row, system) in [(0, 3), (1, 4)] {
+        lines[nodes + row].replace_range(20..30, &format!("{system:10}"));
+    }
+    let mut at_node = None;
+    for line in lines.iter_mut().skip(nodes + 4) {
+        let value = line.split_whitespace().next().unwrap_or_default().to_owned();
+        match (at_node.take(), line.len()) {
+            (Some("2"), 39) => *line = format!("{:13}{:>13}{:13}", 0.0, negated(&value), 0.0),
+            (Some("3"), 39) => *line = format!("{:13}{:13}{value:>13}", 0.0, 0.0),
+            (_, 10) => at_node = ["2", "3"].into_iter().find(|node| *node == value),
+            _ => {}
+        }
+    }
+    // By dataset 18 the x of 3 is the global y; by 2420 the x, y, z of 4 are the global y, z, x.
+    let points = "         3         0         0         8         1\nSYS\n   0. 0. 0. 0. 1. 0.\n   0. 0. 1.\n";
+    let rows = "         1\nPart\n         4         0         8\nCS\n  0. 1. 0.\n  0. 0. 1.\n  1. 0. 0.\n  0. 0. 0.\n";
+    let systems = format!("    -1\n    18\n{points}    -1\n    -1\n  2420\n{rows}    -1\n");
+    std::fs::write(folder.path().join("test.csv"), systems + &lines.join("\n") + "\n").expect("written");
+    let (prepared, found) = finished();
+    let directions: Vec<usize> = prepared.placed.iter().map(|sensor| sensor.direction).collect();
+    assert_eq!(directions, [1, 2, 0]);
+    for (a, b) in found.iter().zip(&expected) {
+        assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{found:?} {expected:?}");
+    }
+    let dense = prepared.sensors.dense();
+    assert_eq!((0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(), [-1.0, 1.0, 1.0]);
+    let table = places_table(&prepared, None).expect("a table");
+    let own: Vec<String> = table.rows.iter().map(|row| row.cells[1].computed()).collect();
+    assert_eq!(own, ["y", "z", "x"]);
+}
+
+/// A number of a Universal File with the other sign.
+fn negated(value: &str) -> String {
+    value.strip_prefix('-').map_or_else(|| format!("-{value}"), str::to_owned)
 }
 
 /// All that the wing's sensors do not see is condensed well: both ways find the same.

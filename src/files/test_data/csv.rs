@@ -95,7 +95,7 @@ impl Row<'_> {
             Some(grid) if name.is_empty() => default_name(grid, direction),
             _ => name.to_owned(),
         };
-        Ok((Sensor { name, grid, direction, place }, sign))
+        Ok((Sensor { name, grid, direction, axis: None, place }, sign))
     }
 }
 

@@ -82,7 +82,6 @@ fn stopped(finished: &Finished) -> Stage {
 }
 
 fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {
-    let mut direction = Vector3::zeros();
-    direction.iter_mut().skip(sensor.direction).take(1).for_each(|component| *component = 1.0);
+    let direction = if sensor.direction < 3 { sensor.axis } else { Vector3::zeros() };
     SensorPoint { name: sensor.name.clone(), place: sensor.place, direction }
 }
