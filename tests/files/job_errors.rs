@@ -1,7 +1,7 @@
 //! Mistakes in jobs: every one is named with what was expected and what was found.
 
 use crate::common::jobs::{Files, building, rods};
-use crate::common::tolerances::WEIGHTED_FACTOR;
+use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::job::{Prepared, run};
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -93,10 +93,42 @@ fn a_parameter_names_what_the_deck_has() {
         (A, "masses = [12]", "expected scales = \"mass\" for point masses, found stiffness in parameter a"),
         (A, "masses = [12, 19]\nscales = \"mass\"", "expected point masses of the deck in parameter a, found 19"),
         (A, "elements = [1]\nlower = 0.5", "expected both lower and upper in parameter a, found one of them"),
+        (
+            A,
+            "elements = [1]\nlower_size = 0.5",
+            "expected both lower_size and upper_size in parameter a, found one of them",
+        ),
+        (
+            A,
+            "elements = [1]\nlower_size = 0.2\nupper_size = 0.3",
+            "a: expected limits that hold its start, 1, found 2 to 3",
+        ),
+        (
+            A,
+            "elements = [1]\nscales = \"mass\"\nlower_size = 0.05\nupper_size = 0.3",
+            "expected the stiffness of a deck's elements where parameter a has bounds on sizes, found another",
+        ),
         (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
         (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
         (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
     ]);
+}
+
+/// The narrower of the bounds on the factor and of those on the size of every element holds.
+#[test]
+fn bounds_on_sizes_are_bounds_on_the_factor() {
+    let deck = with(rods(), "model.bdf", "PROD,2,2,.1", "PROD,2,2,.2");
+    let rule = "elements = [1, 2]\nlower = 0.5\nupper = 1.9\nlower_size = 0.06\nupper_size = 0.3";
+    let files = with(with(deck, "job.toml", A, rule), "job.toml", "elements = [\"2-3\"]", "elements = [3]");
+    let (_folder, path) = placed(&files);
+    let range =
+        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).source.whole.ranges()[0].expect("a range");
+    // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
+    assert!((range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF, "{range:?}");
+    let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
+    let (_folder, path) = placed(&narrow);
+    let range = Prepared::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
+    assert_eq!(range.lower, 0.5);
 }
 
 #[test]

@@ -156,6 +156,10 @@ pub struct ParameterRule {
     pub lower: Option<f64>,
     /// Largest factor.
     pub upper: Option<f64>,
+    /// Least gage or area of each of its elements, of a deck.
+    pub lower_size: Option<f64>,
+    /// Largest.
+    pub upper_size: Option<f64>,
 }
 
 /// One number or a range of them.
