@@ -65,13 +65,15 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
 }
 
 /// Says everything doubtful of a job and ranks its parameters, without a step.
-pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), PresentError> {
-    let Some(path) = job else { return super::studies::check(output) };
+pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -> Result<(), PresentError> {
+    let Some(path) = job else { return super::studies::check(output, quiet) };
     output.check()?;
-    let prepared = Prepared::new(path)?;
-    let subject = Subject::of_job(&prepared, None)?;
-    let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
-    let tables = [doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects];
+    let tables = progress::during(quiet, "looking at the job", || {
+        let prepared = Prepared::new(path)?;
+        let subject = Subject::of_job(&prepared, None)?;
+        let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
+        Ok::<_, PresentError>([doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects])
+    })?;
     output.write(&tables, || json::tables(&tables))
 }
 

@@ -1,4 +1,4 @@
-//! Progress on standard error, where a terminal is and nobody asked for quiet.
+//! Progress on standard error, where that is a terminal and nobody asked for quiet.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
@@ -6,6 +6,15 @@ use std::time::Duration;
 /// Work of unknown length: time and words.
 pub fn spinner(quiet: bool) -> ProgressBar {
     shown(ProgressBar::new_spinner(), "{spinner} {elapsed} {msg}", quiet)
+}
+
+/// Does work with words beside its time.
+pub fn during<T>(quiet: bool, words: &'static str, work: impl FnOnce() -> T) -> T {
+    let bar = spinner(quiet);
+    bar.set_message(words);
+    let done = work();
+    bar.finish_and_clear();
+    done
 }
 
 /// So many things to do.
