@@ -2,14 +2,18 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth};
-use crate::common::tolerances::{CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR};
+use crate::common::tolerances::{
+    CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
+};
 use corfem::files::job::{ComparedModes, Finished, Prepared, run};
 use corfem::files::test_data::write_universal;
+use corfem::method::pairing::paired;
 use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
 use corfem::present::tables::subject::{history_table, subject_tables, swaps};
 use corfem::studies::delta_wing::correlation::GROUPS;
+use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 
 const NUMBERS: Numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: true };
@@ -148,6 +152,7 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     check_files("wing", &delta_wing());
     let (prepared, found) = finished("wing");
     assert!(prepared.placed.iter().all(|sensor| sensor.distance.is_some_and(|distance| distance < 1e-2)));
+    shapes_at_all_grids_are_those_of_the_sensors(&prepared, &found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
     let subject = Subject::of_job(&prepared, Some(&found)).expect("a subject");
     let mut exchanged = subject.clone();
@@ -159,6 +164,34 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
         let error = found * group.first_over_true - 1.0;
         assert!(error.abs() < JOB_WING, "{}: {error}", group.name);
     }
+}
+
+/// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
+fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &Prepared, found: &Finished) {
+    let subject = Subject::of_job(prepared, Some(found)).expect("a subject");
+    let moved = subject.moved.as_ref().expect("the whole model");
+    let states =
+        [&found.first, &found.last].map(|model| paired(&model.exact.modes, &model.exact.pairing).expect("modes"));
+    let row = |grid: usize| subject.grids.iter().position(|(label, _)| *label == grid).expect("a grid");
+    for mode in 0..subject.test.len() {
+        let (test, last) = (&moved[0][mode], &moved[2][mode]);
+        for (sensor, point) in prepared.placed.iter().zip(&subject.sensors) {
+            for (state, shapes) in moved[1..].iter().zip(&states) {
+                let along = state[mode][row(sensor.grid)].dot(&point.direction);
+                let compared = shapes.shapes[(sensor.row, mode)];
+                assert!(
+                    (along - compared).abs() < WHOLE_SHAPE * shapes.shapes.column(mode).amax(),
+                    "{along} {compared}"
+                );
+            }
+        }
+        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).fold(0.0, f64::max);
+        // The two are scaled by their own masses; the shape is the same.
+        let scale = largest(last) / largest(test);
+        let apart = test.iter().zip(last).map(|(test, last)| (test * scale - last).amax()).fold(0.0, f64::max);
+        assert!(apart < CONDENSED_GAGES * largest(last), "mode {}: {apart}", mode + 1);
+    }
+    assert!(moved[0][0].iter().any(|motion| motion.x != 0.0), "beside what is measured too");
 }
 
 /// Noisy modes of the box, orthogonalized by Appendix B, which deletes some: the panels that the intervals claim to know are known.
