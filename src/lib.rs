@@ -27,6 +27,7 @@
 //!   names mistakes in model and test before the first step, whole models without condensation, weighted steps with what the
 //!   test sees of the parameters, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
+//! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
 //!
 //! ```text
@@ -68,6 +69,7 @@ pub mod studies;
 pub mod files;
 #[cfg(feature = "program")]
 pub mod present;
+pub mod tour;
 
 /// The matrices and vectors of this crate's interface, so that a user needs no version of their own.
 pub use nalgebra;

@@ -1,4 +1,5 @@
 //! Appendix A: from structural to dynamic degrees of freedom.
+//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;

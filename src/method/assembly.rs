@@ -1,4 +1,5 @@
 //! Assembly of the structural stiffness from unit element matrices.
+//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 use crate::method::elements::{corner_volumes, unit_stiffness};
 use crate::method::error::Error;

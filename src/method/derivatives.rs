@@ -1,4 +1,5 @@
 //! Derivatives of the error sum (12): what a small change of each parameter does to it.
+//! Tour: [chapter 4](crate::tour::chapter_04_step).
 //!
 //! [`by_definition`] is the paper's way, parameter by parameter. [`gradient`] is its limit for all parameters at once: a sweep
 //! over the test modes gives the derivative by every entry of $\beta$, an inner product with $V^t K_e V$ that by a parameter.
@@ -6,7 +7,7 @@
 use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
 use crate::method::error::Error;
-use crate::method::error_sum::{errors, unit_shape_difference};
+use crate::method::error_sum::unit_shape_difference;
 use crate::method::linear_algebra::finite_list;
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
@@ -67,7 +68,7 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
         perturbed.check_roots()?;
         let shapes = &state.modes.shapes * perturbed.shapes;
         let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes };
-        Ok(errors(&modes, &state.pairing, &model.test)?.sum() - state.errors.sum())
+        Ok(model.errors_of(&modes, &state.pairing)?.sum() - state.errors.sum())
     };
     let changes = model.shares.iter().zip(&state.factors).map(of_parameter).collect::<Result<_, _>>()?;
     finite_list("changes of the error sum", changes)
@@ -131,7 +132,8 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
         unit_shape_difference(shape, sign, model.test.shapes.column(j), to_shape);
         let largest = first_largest(shape.as_slice());
         to_shape[largest] -= product(to_shape, shape.as_slice()) / shape[largest];
-        let scale = sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
+        let scale =
+            model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
         let others = shapes.as_slice().chunks_exact(dof_count);
         for (pull, other) in pull.column_mut(i).as_mut_slice().iter_mut().zip(others) {
             *pull = scale * product(to_shape, other);
@@ -171,7 +173,8 @@ fn sensitivity(
     for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
         if state.errors.frequency > 0.0 {
             let ratio = (k[i] / model.test.omega_squared[j]).sqrt();
-            pull[(i, i)] = per_change(k[i]) * (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
+            let error = model.weights[j].frequency.powi(2) * (ratio - 1.0);
+            pull[(i, i)] = per_change(k[i]) * error * ratio / (2.0 * k[i] * state.errors.frequency);
         }
     }
     pull

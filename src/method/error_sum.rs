@@ -1,4 +1,5 @@
 //! The error sum (5, 6): how far the analysis modes are from the test modes.
+//! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
@@ -87,6 +88,20 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
     if value.is_finite() { Ok(errors) } else { Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value }) }
 }
 
+/// What the errors of one test mode are multiplied with in the error sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeWeight {
+    /// Its frequency error.
+    pub frequency: f64,
+    /// Its shape error.
+    pub shape: f64,
+}
+
+impl ModeWeight {
+    /// The paper's: every test mode counts as much.
+    pub const ONE: Self = Self { frequency: 1.0, shape: 1.0 };
+}
+
 /// SRSS errors of the paired analysis modes against the test modes.
 ///
 /// $$ e_f = \Big[\sum_i \Big(\frac{f_{Fi} - f_{Gi}}{f_{Gi}}\Big)^2\Big]^{1/2}, \qquad
@@ -98,9 +113,22 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
 /// # Errors
 /// Those of [`mode_errors`].
 pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Errors, Error> {
+    weighted_errors(analysis, pairing, test, &vec![ModeWeight::ONE; test.len()])
+}
+
+/// The same with every test mode's errors multiplied by its weights; there is one weight a test mode.
+pub(crate) fn weighted_errors(
+    analysis: &ModeSet,
+    pairing: &Pairing,
+    test: &ModeSet,
+    weights: &[ModeWeight],
+) -> Result<Errors, Error> {
     let each = mode_errors(analysis, pairing, test)?;
-    let srss = |of: fn(&ModeError) -> f64| each.iter().map(|error| of(error).powi(2)).sum::<f64>().sqrt();
-    Ok(Errors { frequency: srss(|error| error.frequency), shape: srss(|error| error.shape), mode_count: each.len() })
+    let srss = |of: fn(&ModeError, &ModeWeight) -> f64| {
+        each.iter().zip(weights).map(|(error, weight)| of(error, weight).powi(2)).sum::<f64>().sqrt()
+    };
+    let frequency = srss(|error, weight| weight.frequency * error.frequency);
+    Ok(Errors { frequency, shape: srss(|error, weight| weight.shape * error.shape), mode_count: each.len() })
 }
 
 /// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.

@@ -1,4 +1,5 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
+//! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
 use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::{Error, positive_setting};

@@ -1,4 +1,5 @@
 //! Natural modes: the symmetric-definite eigenproblem, its order, scale and sign.
+//! Tour: [chapter 1](crate::tour::chapter_01_two_springs).
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, pencil_eigen};

@@ -1,4 +1,5 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
+//! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{Errors, mode_errors};

@@ -1,4 +1,5 @@
 //! Pairing (4), which the paper calls mode sorting: which analysis mode answers which test mode.
+//! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};

@@ -1,9 +1,10 @@
 //! Where an inner loop stands: the modes after changes of stiffness and mass, by perturbation from the last exact ones.
+//! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
 use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{eigensolution, normalize_with_mass, recursive_1_converged};
 use crate::method::error::Error;
-use crate::method::error_sum::{Errors, errors};
+use crate::method::error_sum::Errors;
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
@@ -106,7 +107,7 @@ impl ModalState {
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = (model.pair)(&shapes.tr_mul(&model.cross))?;
         let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &exact.shapes * &shapes };
-        let errors = errors(&modes, &pairing, &model.test)?;
+        let errors = model.errors_of(&modes, &pairing)?;
         Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })
     }
 }

@@ -1,4 +1,5 @@
 //! The step (13): from derivatives to stiffness change factors, and the bounds that limit them.
+//! Tour: [chapter 4](crate::tour::chapter_04_step).
 
 use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::error::Error;

@@ -1,4 +1,5 @@
 //! The structure: grid points, materials, elements, and which motions are constrained.
+//! Tour: [chapter 7](crate::tour::chapter_07_box).
 
 use crate::method::error::{Error, at_least_one, setting};
 use nalgebra::Vector3;

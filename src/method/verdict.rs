@@ -1,4 +1,5 @@
 //! What a correlation came to, as data and in words.
+//! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 use crate::method::error_sum::ModeError;
 use crate::method::inner_loop::Stop;

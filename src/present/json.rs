@@ -90,7 +90,7 @@ fn agreement(subject: &Subject, check: &Check) -> Result<Value, PresentError> {
     }))
 }
 
-fn rows(matrix: &DMatrix<f64>) -> Value {
+pub(super) fn rows(matrix: &DMatrix<f64>) -> Value {
     matrix.row_iter().map(|row| row.iter().copied().collect::<Vec<_>>()).collect()
 }
 
@@ -114,7 +114,7 @@ fn stage(stage: &Stage) -> Value {
     })
 }
 
-fn iteration(iteration: &Iteration) -> Value {
+pub(super) fn iteration(iteration: &Iteration) -> Value {
     json!({
         "frequency_error": iteration.errors.frequency,
         "shape_error": iteration.errors.shape,

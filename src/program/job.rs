@@ -3,7 +3,7 @@
 use super::folder::{check_folder, put_all};
 use super::output::{OutputArguments, say};
 use super::place::{check, put};
-use super::signals;
+use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
 use corfem::files::job::{Method, Prepared, TEMPLATE, TEST_TEMPLATE, run};
@@ -13,11 +13,9 @@ use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table, suspects_table};
 use corfem::present::tables::subject::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub struct InitArguments {
@@ -67,13 +65,15 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
 }
 
 /// Says everything doubtful of a job and ranks its parameters, without a step.
-pub fn check_job(CheckArguments { job, output }: &CheckArguments) -> Result<(), PresentError> {
-    let Some(path) = job else { return super::studies::check(output) };
+pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -> Result<(), PresentError> {
+    let Some(path) = job else { return super::studies::check(output, quiet) };
     output.check()?;
-    let prepared = Prepared::new(path)?;
-    let subject = Subject::of_job(&prepared, None)?;
-    let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
-    let tables = [doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects];
+    let tables = progress::during(quiet, "looking at the job", || {
+        let prepared = Prepared::new(path)?;
+        let subject = Subject::of_job(&prepared, None)?;
+        let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
+        Ok::<_, PresentError>([doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects])
+    })?;
     output.write(&tables, || json::tables(&tables))
 }
 
@@ -91,11 +91,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     for card in prepared.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
         say(format_args!("corfem: {}: {}", prepared.title, not_read(card)));
     }
-    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
-    bar.set_style(
-        ProgressStyle::with_template("{spinner} {elapsed} {msg}").unwrap_or_else(|_| ProgressStyle::default_spinner()),
-    );
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = progress::spinner(quiet);
     let stop = Arc::new(AtomicBool::new(false));
     signals::tell(&stop);
     // Held until the report is written, so that a request to stop ends the program with the best so far.

@@ -2,29 +2,35 @@
 
 mod cases;
 mod deck;
+mod dump;
 mod folder;
 mod job;
 mod output;
 mod pictures;
 mod place;
+mod progress;
 mod settings;
 mod signals;
 mod solver;
 mod studies;
+mod study;
 
 use cases::CasesArguments;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
+use dump::DumpArguments;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::{OutputArguments, say};
 use pictures::FolderArguments;
 use place::put;
 use std::process::ExitCode;
 use studies::{
-    CostArguments, DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments, WeightedArguments,
+    CostArguments, DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments,
+    WeightedArguments,
 };
+use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -72,6 +78,8 @@ enum Command {
     Noise(OutputArguments),
     /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
     Correlate(CorrelateArguments),
+    /// Run a job many times with its test varied, and say how its factors scatter
+    Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
     /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
@@ -90,6 +98,8 @@ enum Command {
     Report(FolderArguments),
     /// Write the torque box of a case as a NASTRAN deck
     Deck(DeckArguments),
+    /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
+    Dump(DumpArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck
     Modes(ModesArguments),
 }
@@ -114,20 +124,22 @@ pub fn run() -> ExitCode {
         None => cases::cases(&arguments.cases, quiet),
         Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
-        Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments).map(|()| true),
-        Some(Command::Readings(arguments)) => studies::readings(&arguments).map(|()| true),
+        Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet).map(|()| true),
+        Some(Command::Readings(arguments)) => studies::readings(&arguments, quiet).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
-        Some(Command::Noise(arguments)) => studies::noise(&arguments).map(|()| true),
+        Some(Command::Noise(arguments)) => studies::noise(&arguments, quiet).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
+        Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
-        Some(Command::Check(arguments)) => job::check_job(&arguments).map(|()| true),
-        Some(Command::Localize(arguments)) => studies::localize(&arguments).map(|()| true),
-        Some(Command::Weighted(arguments)) => studies::weighted(&arguments).map(|()| true),
         Some(Command::Cost(arguments)) => studies::cost(&arguments).map(|()| true),
-        Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments),
+        Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
+        Some(Command::Localize(arguments)) => studies::localize(&arguments, quiet).map(|()| true),
+        Some(Command::Weighted(arguments)) => studies::weighted(&arguments, quiet).map(|()| true),
+        Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments, quiet),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
+        Some(Command::Dump(arguments)) => dump::dump(&arguments, quiet).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
     })
 }

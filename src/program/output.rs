@@ -50,7 +50,12 @@ impl OutputArguments {
             FormatArgument::Json => json()?,
             FormatArgument::Csv => render::csv(tables),
         };
-        put(self.output.as_deref(), &report)
+        self.put(&report)
+    }
+
+    /// Writes a text where the report would go.
+    pub fn put(&self, text: &str) -> Result<(), PresentError> {
+        put(self.output.as_deref(), text)
     }
 }
 

@@ -1,6 +1,7 @@
 //! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `localize`, `weighted`, `cost` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
+use super::progress::during;
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
@@ -89,10 +90,10 @@ pub struct FewerModesArguments {
 }
 
 /// Runs every reading of the step against the printed gages.
-pub fn readings(output: &OutputArguments) -> Result<(), PresentError> {
+pub fn readings(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
     output.check()?;
     let reconstruction = Reconstruction::embedded()?;
-    let columns = all_columns(&reconstruction)?;
+    let columns = during(quiet, "readings of the step", || all_columns(&reconstruction))?;
     let detection = |reading| detection(&reconstruction, reading);
     let detections = READINGS.into_iter().map(detection).collect::<Result<Vec<_>, _>>()?;
     let tables = tables::readings::readings_tables(&columns, &detections)?;
@@ -113,11 +114,15 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
-pub fn fewer_modes(FewerModesArguments { settings, output }: &FewerModesArguments) -> Result<(), PresentError> {
+pub fn fewer_modes(
+    FewerModesArguments { settings, output }: &FewerModesArguments,
+    quiet: bool,
+) -> Result<(), PresentError> {
     output.check()?;
     let mut case = Case::new(PUBLISHED_CASE)?;
     settings.apply(&mut case.settings)?;
-    let (published, all) = (published_runs(&case)?, all_runs(&case)?);
+    let (published, all) = during(quiet, "runs with fewer modes", || (published_runs(&case), all_runs(&case)));
+    let (published, all) = (published?, all?);
     let tables = tables::fewer_modes::fewer_modes_tables(&case, &published, &all)?;
     output.write(&tables, || json::fewer_modes(&all))
 }
@@ -132,15 +137,16 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 }
 
 /// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
-pub fn noise(output: &OutputArguments) -> Result<(), PresentError> {
+pub fn noise(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
     output.check()?;
-    let study = noisy_modes(&Case::new(NOISY_CASE)?, Noise::USUAL, SEEDS)?;
+    let case = Case::new(NOISY_CASE)?;
+    let study = during(quiet, "noisy tests", || noisy_modes(&case, Noise::USUAL, SEEDS))?;
     output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
 }
 
 /// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
 /// are.
-pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
+pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
     let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
     specimens.push(Specimen::delta_wing()?);
     let mut found = Vec::new();
@@ -148,24 +154,25 @@ pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
         let findings = specimen.findings(&specimen.test)?;
         found.push((specimen.name, findings));
     }
-    let rates = all_rates(rates::SEEDS)?;
+    let rates = during(quiet, "mistakes made and looked for", || all_rates(rates::SEEDS))?;
     let mut tables = vec![tables::preflight::findings_table(&found)];
     tables.extend(tables::preflight::rate_tables(&rates));
     output.write(&tables, || json::preflight(&found, &rates))
 }
 
 /// Makes each panel of the box too thin in turn, and writes how often it is found.
-pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments) -> Result<(), PresentError> {
+pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments, quiet: bool) -> Result<(), PresentError> {
     output.check()?;
-    let located = localization::localization(1..=*tests)?;
+    let located = during(quiet, "panels too thin in turn", || localization::localization(1..=*tests))?;
     output.write(&tables::weighted::localization_tables(&located), || json::localization(&located))
 }
 
 /// Writes the paper's rule and the weighted one side by side, and how often the weighted one's intervals hold the truth.
-pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments) -> Result<(), PresentError> {
+pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments, quiet: bool) -> Result<(), PresentError> {
     output.check()?;
-    let compared = compare_all(&WeightedSettings::default())?;
-    let coverages = coverage::all_coverages(1..=*tests)?;
+    let settings = WeightedSettings::default();
+    let compared = during(quiet, "both rules side by side", || compare_all(&settings))?;
+    let coverages = during(quiet, "intervals of noisy tests", || coverage::all_coverages(1..=*tests))?;
     let mut tables = tables::weighted::coverage_tables(&coverages);
     tables.insert(0, tables::weighted::rules_table(&compared));
     output.write(&tables, || json::weighted(&compared, &coverages))
@@ -183,19 +190,15 @@ pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), Prese
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
-pub fn delta_wing(arguments: &DeltaWingArguments) -> Result<bool, PresentError> {
+pub fn delta_wing(arguments: &DeltaWingArguments, quiet: bool) -> Result<bool, PresentError> {
     arguments.output.check()?;
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
     let mut settings = settings();
     arguments.settings.apply(&mut settings)?;
-    let run = correlate_wing_with(
-        &wing,
-        &settings,
-        solver.name(),
-        |model, factors| solver.elements(model, factors),
-        |_, _| {},
-    )?;
+    let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
+    let run =
+        during(quiet, "the delta wing", || correlate_wing_with(&wing, &settings, solver.name(), elements, |_, _| {}))?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
     arguments.output.write(&tables, || json::delta_wing(&wing, &run))?;
     if !run.correlation.converged {

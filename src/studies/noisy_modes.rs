@@ -11,6 +11,7 @@ use crate::method::appendix_b::{
     MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, rigid_body_vectors,
 };
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::correlate;
@@ -165,18 +166,32 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
 /// # Errors
 /// Those of [`ModeSet::from_measured`], such as [`Error::NotPositive`] when noise turns a frequency negative.
 pub fn with_noise(exact: &ModeSet, noise: Noise, seed: u64) -> Result<ModeSet, Error> {
+    with_noise_by_mode(exact, &vec![noise; exact.len()], seed)
+}
+
+/// The same with standard deviations of every mode's own, and the same variates.
+///
+/// # Errors
+/// [`Error::WrongShape`] unless there is one `noise` a mode; those of [`with_noise`].
+pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result<ModeSet, Error> {
+    check_length("standard deviations", noise.len(), exact.len())?;
     let mut state = seed;
-    // Above zero, so that it has a logarithm, and at most one: 53 bits are what a number holds.
-    let mut uniform = || ((split_mix_64(&mut state) >> 11) + 1) as f64 / (1_u64 << 53) as f64;
-    let mut normal = || (-2.0 * uniform().ln()).sqrt() * (2.0 * PI * uniform()).cos();
-    let noisy = |frequency: f64| frequency * (1.0 + noise.frequency * normal());
-    let frequencies: Vec<f64> = exact.frequencies_hz().into_iter().map(noisy).collect();
+    // Above zero, so that it has a logarithm, and at most one.
+    let mut above_zero = || uniform(&mut state) + 0.5_f64.powi(53);
+    let mut normal = || (-2.0 * above_zero().ln()).sqrt() * (2.0 * PI * above_zero()).cos();
+    let noisy = |(frequency, noise): (f64, &Noise)| frequency * (1.0 + noise.frequency * normal());
+    let frequencies: Vec<f64> = exact.frequencies_hz().into_iter().zip(noise).map(noisy).collect();
     let mut shapes = exact.shapes.clone();
-    for mut shape in shapes.column_iter_mut() {
+    for (mut shape, noise) in shapes.column_iter_mut().zip(noise) {
         let deviation = noise.shape * shape.amax();
         shape.apply(|component| *component += deviation * normal());
     }
     ModeSet::from_measured(&frequencies, &shapes)
+}
+
+/// The next number from zero up to one: of [`split_mix_64`] the 53 bits that a number holds.
+pub fn uniform(state: &mut u64) -> f64 {
+    (split_mix_64(state) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// The next number of the generator SplitMix64, from its state, which moves on: Steele, Lea and Flood, "Fast Splittable

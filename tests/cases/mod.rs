@@ -4,7 +4,10 @@ pub mod torque_box;
 pub mod torque_box_data;
 pub mod torque_box_nastran95;
 
+pub mod appendices_expected;
 pub mod cases_expected;
+pub mod certified;
+pub mod double_double;
 
 pub mod errata_tables;
 pub mod tables_published;

@@ -10,6 +10,7 @@ pub fn wing_test() -> TestData {
         name: name.to_owned(),
         grid,
         direction,
+        axis: None,
         place: place.map(Vector3::from),
     };
     TestData {
@@ -60,6 +61,7 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
                     name,
                     grid: grid.filter(|grid| seen.insert((*grid, direction))),
                     direction,
+                    axis: None,
                     place: place.map(|(x, y, z)| Vector3::new(x, y, z)),
                 });
                 let sensors: Vec<Sensor> = sensors.collect();

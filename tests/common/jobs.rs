@@ -37,7 +37,7 @@ fn test_data(modes: &ModeSet, sensors: Vec<Sensor>) -> TestData {
 }
 
 fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64>>) -> Sensor {
-    Sensor { name, grid: Some(grid), direction, place }
+    Sensor { name, grid: Some(grid), direction, axis: None, place }
 }
 
 /// The paper's box of Case 2 from its deck, its nine modes with noise, and Appendix B on them.

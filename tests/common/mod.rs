@@ -6,6 +6,8 @@ pub mod close_roots;
 pub mod complex_pencils;
 pub mod counting_allocator;
 pub mod decks;
+pub mod double_double;
+pub mod double_double_matrices;
 pub mod drawings;
 pub mod draws;
 #[cfg(unix)]
@@ -13,6 +15,7 @@ pub mod fake_solver;
 pub mod golden;
 pub mod ground_tests;
 pub mod hostile;
+pub mod inertia;
 pub mod jobs;
 pub mod loops;
 pub mod matrices;
@@ -21,9 +24,12 @@ pub mod nastran95;
 pub mod outer_loop;
 pub mod pairings;
 pub mod panels;
+pub mod rational_rows;
+pub mod rational_series;
 #[cfg(unix)]
 pub mod signals;
 pub mod strategies;
+pub mod sketch;
 pub mod structures;
 pub mod tolerances;
 pub mod torque_boxes;
@@ -45,6 +51,13 @@ pub fn config() -> Config {
 pub fn costly_config() -> Config {
     let config = config();
     Config { cases: config.cases.div_ceil(8), ..config }
+}
+
+/// The same with a thirty-second of the cases, for identities in rational numbers: one that holds at a few random integers is one of
+/// polynomials, and such numbers are slow.
+pub fn exact_config() -> Config {
+    let config = config();
+    Config { cases: config.cases.div_ceil(32), ..config }
 }
 
 /// Least-squares slope of log(error) against log(size): the order of convergence.

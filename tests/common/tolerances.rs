@@ -111,6 +111,8 @@ pub const SAME_HISTORY: f64 = 1e-6;
 /// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
 /// which the smallest slope in the test passes from one corner to the next.
 pub const NODE_LINE: f64 = 1e-9;
+/// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
+pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
 /// tenth of one; row by row it would be seven tenths more.
 pub const FILL_ORDER: f64 = 0.1;
@@ -242,3 +244,18 @@ pub const SLENDER_BEAM: f64 = 2e-3;
 pub const COARSE_WING: f64 = 0.04;
 /// Steps of a correlation of dozens of them, which may be one more or less on another machine.
 pub const GOLDEN_STEPS: f64 = 0.05;
+/// A recursion of three modes to its fourth order beside the same in rational numbers: some forty roundings, of differences of
+/// roots that are a twentieth of the roots.
+pub const RATIONAL_ROUND_OFF: f64 = 1e-14;
+/// The history of a case against the same in double-double, times the measured condition: 8e-16 at worst, some roundings.
+pub const CHAIN_ROUND_OFF: f64 = 1e-14;
+/// Relative margin by which every decision of a history is far from falling otherwise: 5e-4 in the nearest.
+pub const NEAREST_DECISION: f64 = 4e-4;
+/// A lowest root by the residual of its mode, relative, 1.4e-9 at worst: round-off of the highest root over the lowest.
+pub const CERTIFIED_ROOT: f64 = 5e-9;
+/// Units of the last digit between a rounded number and what it stands for: half of one, and a tenth for the round-off of what was
+/// rounded.
+pub const SHOWN_UNITS: f64 = 0.6;
+/// Gradients where cases begin by two formulas, relative to the largest: modes of condition 1e5 or so, differences of whose squared
+/// frequencies divide.
+pub const EXPECTED_GRADIENT: f64 = 1e-8;

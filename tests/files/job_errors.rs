@@ -1,6 +1,7 @@
 //! Mistakes in jobs: every one is named with what was expected and what was found.
 
 use crate::common::jobs::{Files, building, rods};
+use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::job::{Prepared, run};
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -92,10 +93,42 @@ fn a_parameter_names_what_the_deck_has() {
         (A, "masses = [12]", "expected scales = \"mass\" for point masses, found stiffness in parameter a"),
         (A, "masses = [12, 19]\nscales = \"mass\"", "expected point masses of the deck in parameter a, found 19"),
         (A, "elements = [1]\nlower = 0.5", "expected both lower and upper in parameter a, found one of them"),
+        (
+            A,
+            "elements = [1]\nlower_size = 0.5",
+            "expected both lower_size and upper_size in parameter a, found one of them",
+        ),
+        (
+            A,
+            "elements = [1]\nlower_size = 0.2\nupper_size = 0.3",
+            "a: expected limits that hold its start, 1, found 2 to 3",
+        ),
+        (
+            A,
+            "elements = [1]\nscales = \"mass\"\nlower_size = 0.05\nupper_size = 0.3",
+            "expected the stiffness of a deck's elements where parameter a has bounds on sizes, found another",
+        ),
         (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
         (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
         (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
     ]);
+}
+
+/// The narrower of the bounds on the factor and of those on the size of every element holds.
+#[test]
+fn bounds_on_sizes_are_bounds_on_the_factor() {
+    let deck = with(rods(), "model.bdf", "PROD,2,2,.1", "PROD,2,2,.2");
+    let rule = "elements = [1, 2]\nlower = 0.5\nupper = 1.9\nlower_size = 0.06\nupper_size = 0.3";
+    let files = with(with(deck, "job.toml", A, rule), "job.toml", "elements = [\"2-3\"]", "elements = [3]");
+    let (_folder, path) = placed(&files);
+    let range =
+        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).source.whole.ranges()[0].expect("a range");
+    // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
+    assert!((range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF, "{range:?}");
+    let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
+    let (_folder, path) = placed(&narrow);
+    let range = Prepared::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
+    assert_eq!(range.lower, 0.5);
 }
 
 #[test]
@@ -104,7 +137,7 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
         let source = Prepared::new(&path).unwrap_or_else(|error| panic!("{new}: {error}")).source;
         let names: Vec<String> = source.whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
-        (names, source.members)
+        (names, source.members.clone())
     };
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     let b = "elements = [\"2-3\"]";
@@ -208,9 +241,6 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
 
 #[test]
 fn weights_are_one_a_test_mode_and_some_may_be_zero() {
-    let paper = with(rods(), "job.toml", "method = \"gauss_newton\"", "shape_weights = [1, 1, 1]");
-    let error = said(&paper);
-    assert!(error.contains("expected compare.method = \"gauss_newton\" with weights, found the paper's"), "{error}");
     check(&[
         (COMPARE, "[compare]\nshape_weights = [1, 1]", "expected 3 shape_weights, one a test mode of the job, found 2"),
         (COMPARE, "[compare]\nfrequency_weights = [1]", "expected 3 frequency_weights, one a test mode of the job"),
@@ -230,6 +260,38 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
     let [first, last] = [&finished.first, &finished.last].map(|model| model.exact.errors.frequency);
     assert!(last < first, "{last} after {first}");
     assert_eq!(prepared.weights().expect("weights").shape, [0.0; 3]);
+}
+
+/// By the paper's rule: ones change nothing, and what a mode of weight zero is measured as is in no error.
+#[test]
+fn the_papers_error_sum_takes_the_weights_of_a_job() {
+    let paper = |weights: &str| with(rods(), "job.toml", "method = \"gauss_newton\"", weights);
+    let ran = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+        (finished.first.exact.errors, finished.factors)
+    };
+    let ones = ran(&paper("shape_weights = [1, 1, 1]"));
+    assert_eq!(ones, ran(&paper("")));
+    let weights = "frequency_weights = [1, 1, 0]\nshape_weights = [2, 1, 0]";
+    let without = ran(&paper(weights));
+    assert_ne!(without, ones);
+    let (_, test) = &rods()[2];
+    let third = test.lines().find(|line| line.starts_with("frequency_hz")).and_then(|line| line.rsplit(',').next());
+    let frequency: f64 = third.and_then(|cell| cell.parse().ok()).expect("a frequency");
+    let wrong = |weights: &str| {
+        ran(&with(paper(weights), "test.csv", &format!(",{frequency:?}"), &format!(",{:?}", 1.02 * frequency)))
+    };
+    assert_ne!(wrong("").0, ones.0);
+    let (errors, factors) = wrong(weights);
+    assert_eq!(errors, without.0);
+    // The step measures changes of stiffness by all test modes: another way to the same place.
+    assert!(factors.iter().zip(&without.1).all(|(a, b)| (a / b - 1.0).abs() < WEIGHTED_FACTOR), "{factors:?}");
+    let short = said(&paper("shape_weights = [1, 1]"));
+    assert!(short.contains("expected 3 shape_weights, one a test mode of the job, found 2"), "{short}");
+    let none = said(&paper("frequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]"));
+    assert!(none.contains("one of them positive, found 0"), "{none}");
 }
 
 #[test]

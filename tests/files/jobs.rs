@@ -1,14 +1,19 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::{Files, STORIES, building, delta_wing, torque_box, torque_box_truth};
-use crate::common::tolerances::{CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR};
+use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth};
+use crate::common::tolerances::{
+    CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
+};
 use corfem::files::job::{ComparedModes, Finished, Prepared, run};
+use corfem::files::test_data::write_universal;
+use corfem::method::pairing::paired;
 use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
 use corfem::present::tables::subject::{history_table, subject_tables, swaps};
 use corfem::studies::delta_wing::correlation::GROUPS;
+use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 
 const NUMBERS: Numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: true };
@@ -70,6 +75,60 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     assert!(worst > 0.2, "{worst}");
 }
 
+/// The rods' test with axes of its own: node 2 measures along a y that points to where x does not, node 3 along a z that is x, and
+/// node 4 along x.
+#[test]
+fn sensors_along_axes_of_their_own_find_the_same_rods() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in rods() {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    let path = folder.path().join("job.toml");
+    let finished = || {
+        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+        (prepared, finished.factors)
+    };
+    let (prepared, expected) = finished();
+    let text = write_universal(&prepared.data);
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let nodes = lines.iter().position(|line| line.trim() == "15").expect("nodes") + 1;
+    for (row, system) in [(0, 3), (1, 4)] {
+        lines[nodes + row].replace_range(20..30, &format!("{system:10}"));
+    }
+    let mut at_node = None;
+    for line in lines.iter_mut().skip(nodes + 4) {
+        let value = line.split_whitespace().next().unwrap_or_default().to_owned();
+        match (at_node.take(), line.len()) {
+            (Some("2"), 39) => *line = format!("{:13}{:>13}{:13}", 0.0, negated(&value), 0.0),
+            (Some("3"), 39) => *line = format!("{:13}{:13}{value:>13}", 0.0, 0.0),
+            (_, 10) => at_node = ["2", "3"].into_iter().find(|node| *node == value),
+            _ => {}
+        }
+    }
+    // By dataset 18 the x of 3 is the global y; by 2420 the x, y, z of 4 are the global y, z, x.
+    let points = "         3         0         0         8         1\nSYS\n   0. 0. 0. 0. 1. 0.\n   0. 0. 1.\n";
+    let rows = "         1\nPart\n         4         0         8\nCS\n  0. 1. 0.\n  0. 0. 1.\n  1. 0. 0.\n  0. 0. 0.\n";
+    let systems = format!("    -1\n    18\n{points}    -1\n    -1\n  2420\n{rows}    -1\n");
+    std::fs::write(folder.path().join("test.csv"), systems + &lines.join("\n") + "\n").expect("written");
+    let (prepared, found) = finished();
+    let directions: Vec<usize> = prepared.placed.iter().map(|sensor| sensor.direction).collect();
+    assert_eq!(directions, [1, 2, 0]);
+    for (a, b) in found.iter().zip(&expected) {
+        assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{found:?} {expected:?}");
+    }
+    let dense = prepared.sensors.dense();
+    assert_eq!((0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(), [-1.0, 1.0, 1.0]);
+    let table = places_table(&prepared, None).expect("a table");
+    let own: Vec<String> = table.rows.iter().map(|row| row.cells[1].computed()).collect();
+    assert_eq!(own, ["y", "z", "x"]);
+}
+
+/// A number of a Universal File with the other sign.
+fn negated(value: &str) -> String {
+    value.strip_prefix('-').map_or_else(|| format!("-{value}"), str::to_owned)
+}
+
 /// All that the wing's sensors do not see is condensed well: both ways find the same.
 #[test]
 fn condensed_the_wing_has_the_same_gages() {
@@ -93,6 +152,7 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     check_files("wing", &delta_wing());
     let (prepared, found) = finished("wing");
     assert!(prepared.placed.iter().all(|sensor| sensor.distance.is_some_and(|distance| distance < 1e-2)));
+    shapes_at_all_grids_are_those_of_the_sensors(&prepared, &found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
     let subject = Subject::of_job(&prepared, Some(&found)).expect("a subject");
     let mut exchanged = subject.clone();
@@ -104,6 +164,34 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
         let error = found * group.first_over_true - 1.0;
         assert!(error.abs() < JOB_WING, "{}: {error}", group.name);
     }
+}
+
+/// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
+fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &Prepared, found: &Finished) {
+    let subject = Subject::of_job(prepared, Some(found)).expect("a subject");
+    let moved = subject.moved.as_ref().expect("the whole model");
+    let states =
+        [&found.first, &found.last].map(|model| paired(&model.exact.modes, &model.exact.pairing).expect("modes"));
+    let row = |grid: usize| subject.grids.iter().position(|(label, _)| *label == grid).expect("a grid");
+    for mode in 0..subject.test.len() {
+        let (test, last) = (&moved[0][mode], &moved[2][mode]);
+        for (sensor, point) in prepared.placed.iter().zip(&subject.sensors) {
+            for (state, shapes) in moved[1..].iter().zip(&states) {
+                let along = state[mode][row(sensor.grid)].dot(&point.direction);
+                let compared = shapes.shapes[(sensor.row, mode)];
+                assert!(
+                    (along - compared).abs() < WHOLE_SHAPE * shapes.shapes.column(mode).amax(),
+                    "{along} {compared}"
+                );
+            }
+        }
+        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).fold(0.0, f64::max);
+        // The two are scaled by their own masses; the shape is the same.
+        let scale = largest(last) / largest(test);
+        let apart = test.iter().zip(last).map(|(test, last)| (test * scale - last).amax()).fold(0.0, f64::max);
+        assert!(apart < CONDENSED_GAGES * largest(last), "mode {}: {apart}", mode + 1);
+    }
+    assert!(moved[0][0].iter().any(|motion| motion.x != 0.0), "beside what is measured too");
 }
 
 /// Noisy modes of the box, orthogonalized by Appendix B, which deletes some: the panels that the intervals claim to know are known.

@@ -29,3 +29,4 @@ pub mod nastran95_program;
 
 pub mod job_errors;
 pub mod jobs;
+pub mod study;

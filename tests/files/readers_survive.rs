@@ -100,6 +100,9 @@ const READERS: &[Reader] = &[
     ("nodes in long columns", include_bytes!("../../golden/formats/universal_six.unv"), |text| {
         read_test("test", text).is_ok_and(|data| !write_universal(&data).is_empty() && !write_csv(&data).is_empty())
     }),
+    ("coordinate systems", include_bytes!("../../golden/formats/universal_axes.unv"), |text| {
+        read_test("test", text).is_ok_and(|data| data.sensors.iter().all(|sensor| sensor.place.is_some()))
+    }),
     ("table of a test", b"# wing\nfrequency_hz,,,,,,,1.5,2.5\nshape_deviation,,,,,,,.01,.02\nname,grid,direction,sign,x,y,z,mode 1,mode 2\n\"tip, left\",12,z,-,0.,1.,2.,.5,-1.\nroot,1,rx,,,,,.25,1.e-1\n", |text| {
         read_test("test", text).is_ok_and(|data| data.mode_set(&[0]).is_ok())
     }),

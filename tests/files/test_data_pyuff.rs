@@ -3,7 +3,7 @@
 use crate::common::ground_tests::wing_test;
 use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
 use corfem::files::test_data::{TestData, read, write_universal};
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, DVector, Vector3};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -173,4 +173,21 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
             assert!((found - value).abs() <= UNIVERSAL_ROUNDING * value.abs(), "{}: {found} for {value}", sensor.name);
         }
     }
+}
+
+/// Nodes in a coordinate system that stands at (10, 20, 30), its x axis along (0.6, 0.8, 0).
+#[test]
+fn axes_that_pyuff_wrote_are_turned() {
+    let data = file("axes");
+    let places: Vec<Vector3<f64>> = data.sensors.iter().filter_map(|sensor| sensor.place).collect();
+    let expected = [Vector3::new(1.0, 2.0, 3.0), Vector3::new(9.0, 22.0, 33.0), Vector3::new(6.0, 23.0, 30.0)];
+    for (sensor, place) in data.sensors.iter().zip(&places) {
+        let node = sensor.grid.expect("a node");
+        assert!((place - expected[node - 1]).amax() < ROUND_OFF, "{node}: {place}");
+        let axis = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
+        let [x, y] = if node == 2 { [[1.0, 0.0], [0.0, 1.0]] } else { [[0.6, 0.8], [-0.8, 0.6]] };
+        let axes = [Vector3::new(x[0], x[1], 0.0), Vector3::new(y[0], y[1], 0.0), Vector3::z()];
+        assert!((axis - axes[sensor.direction]).amax() < ROUND_OFF, "{}: {axis}", sensor.name);
+    }
+    assert_eq!((data.sensors.len(), data.skipped.len()), (7, 0));
 }

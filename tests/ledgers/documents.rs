@@ -49,7 +49,7 @@ fn documents() -> BTreeMap<String, String> {
 }
 
 /// A document with the blocks of one name replaced, and how many there are.
-fn with_block(document: &str, name: &str, block: &str) -> (String, usize) {
+pub fn with_block(document: &str, name: &str, block: &str) -> (String, usize) {
     let (start, end) = (format!("<!-- computed: {name} -->\n"), "<!-- end -->");
     let mut pieces = document.split(&start);
     let mut out = pieces.next().unwrap_or_default().to_owned();

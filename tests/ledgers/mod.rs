@@ -5,9 +5,13 @@ pub mod documents;
 pub mod equations;
 pub mod errata;
 pub mod formulas;
+pub mod package;
 pub mod places;
 pub mod rooms;
 pub mod routes;
+pub mod tour;
+pub mod tour_figures;
+pub mod tour_figures_box;
 
 use std::fs;
 use std::path::{Path, PathBuf};

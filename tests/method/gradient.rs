@@ -10,6 +10,8 @@ use crate::common::vibrations::{Chain, chain_and_truth};
 use crate::method::derivatives::{assert_near, exact_error_sum, with_one};
 use crate::method::mass_parameters::both;
 use corfem::method::derivatives::{DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient};
+use corfem::method::error::Error;
+use corfem::method::error_sum::{ModeWeight, mode_errors};
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
@@ -40,6 +42,35 @@ proptest! {
             let difference = (slope * h - (ahead - behind) / 2.0).abs();
             prop_assert!(difference <= kink + DERIVATIVE_ROUND_OFF, "{e}: {difference:e} {kink:e}");
         }
+    }
+}
+
+/// Errors of the box's test modes with weights from zero to two.
+#[test]
+fn the_gradient_of_weighted_errors_is_their_central_difference() {
+    for problem in [first_problem(2), mass_problem()] {
+        let weight = |mode: usize| ModeWeight { frequency: mode as f64 % 3.0, shape: (mode + 1) as f64 % 3.0 };
+        let weights: Vec<ModeWeight> = (0..problem.test.len()).map(weight).collect();
+        let of_modes = mode_errors(&problem.exact.modes, &problem.exact.pairing, &problem.test).unwrap();
+        let both = of_modes.iter().zip(&weights);
+        let frequency: f64 = both.clone().map(|(error, weight)| (weight.frequency * error.frequency).powi(2)).sum();
+        let shape: f64 = both.map(|(error, weight)| (weight.shape * error.shape).powi(2)).sum();
+        let weighted = problem.clone().weighted(&weights).unwrap();
+        assert_near(&[weighted.exact.errors.sum()], &[frequency.sqrt() + shape.sqrt()], CONVERGED_STATE);
+        let (state, h) = (ModalState::start(&weighted), 1e-5);
+        let at = |e: usize, by: f64| exact_error_sum(&weighted, with_one(&state.factors, e, by));
+        let central: Vec<f64> =
+            (0..weighted.shares.len()).map(|e| (at(e, 1.0 + h) - at(e, 1.0 - h)) / (2.0 * h)).collect();
+        let found = gradient(&weighted, &state).unwrap();
+        assert_near(&found, &central, CENTRAL_DIFFERENCE_GRADIENT);
+        assert_ne!(found, gradient(&problem, &ModalState::start(&problem)).unwrap());
+        let ones = problem.clone().weighted(&vec![ModeWeight::ONE; weights.len()]).unwrap();
+        assert_eq!(gradient(&ones, &state).unwrap(), gradient(&problem, &state).unwrap());
+        let wrong = |weight: ModeWeight| problem.clone().weighted(&vec![weight; weights.len()]).map(drop).unwrap_err();
+        for (frequency, shape) in [(-1.0, 1.0), (1.0, f64::NAN), (f64::INFINITY, 1.0), (0.0, 0.0)] {
+            assert!(matches!(wrong(ModeWeight { frequency, shape }), Error::Setting { name: "weight", .. }));
+        }
+        assert!(matches!(problem.clone().weighted(&weights[1..]), Err(Error::WrongShape { .. })));
     }
 }
 

@@ -196,3 +196,17 @@ fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     );
     assert_relative_eq!(ours.errors.sum(), exact.errors.sum(), max_relative = 1e4 * MATRIX_ROUND_OFF);
 }
+
+/// What a gage has to do with mass: nothing. Twice the stiffness everywhere leaves $B$ and the mass alone, and every squared
+/// frequency doubles; were the mass to follow the gages, they would not. The density is a hundred times aluminum's, so that it shows.
+#[test]
+fn gages_twice_as_thick_double_every_squared_frequency() {
+    let stiffness: Vec<Parameter> = (1..=39).map(|label| Parameter::element(label, None)).collect();
+    let model = boxed(stiffness, 100.0 * DENSITY, [1.0; 9]).expect("a model");
+    let at = |factor: f64| model.matrices(&[factor; 39]).expect("held");
+    let (first, thick) = (at(1.0), at(2.0));
+    assert!(first.mass.trace() > 1.1 * model.mass().trace(), "elements have a mass of their own");
+    assert_relative_eq!(thick.mass, first.mass, epsilon = MATRIX_ROUND_OFF * first.mass.amax());
+    let [first, thick] = [1.0, 2.0].map(|factor| model.modes(&[factor; 39]).expect("solved").omega_squared.clone());
+    assert_relative_eq!(thick, 2.0 * first, max_relative = 1e2 * MATRIX_ROUND_OFF);
+}

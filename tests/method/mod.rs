@@ -18,6 +18,7 @@ pub mod factorization;
 
 pub mod appendix_a;
 pub mod appendix_a_box;
+pub mod condensation_bounds;
 
 pub mod modes;
 pub mod modes_bad_input;
@@ -39,9 +40,11 @@ pub mod error_sum;
 
 pub mod appendix_c;
 pub mod appendix_c_bad_input;
+pub mod appendix_c_distinct;
 pub mod appendix_c_orders;
 pub mod appendix_c_recursion_orders;
 pub mod appendix_c_rows;
+pub mod appendix_c_series;
 pub mod appendix_c_table_1;
 pub mod appendix_c_two_dof;
 

@@ -269,7 +269,7 @@ proptest! {
         let other = Vector3::new(places[9], places[10], places[11]);
         subject.frame.push(vec![subject.sensors[0].place.expect("a place"), other]);
         let frame = Frame::of(&subject);
-        let moved = frame.moved(&shape);
+        let moved = frame.moved(&shape, None);
         let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
         let unit = shape.map(|component| component / largest);
         for (at, motion) in frame.nodes.iter().zip(&moved) {
@@ -293,7 +293,7 @@ proptest! {
         let plane = |x: f64, y: f64| x - zero + tilt * (y - 0.5);
         let shape: Vec<f64> = (0..8).map(|row| plane((row / 2) as f64, (row % 2) as f64)).collect();
         prop_assume!(shape.iter().all(|w| w.abs() > 1e-6));
-        let lines = frame.node_lines(&Vector3::z(), &frame.moved(&shape));
+        let lines = frame.node_lines(&Vector3::z(), &frame.moved(&shape, None));
         prop_assert!(!lines.is_empty());
         let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
         prop_assert!((long - (1.0 + tilt * tilt).sqrt()).abs() < NODE_LINE, "{long}");

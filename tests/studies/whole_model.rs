@@ -1,7 +1,7 @@
 //! Models without condensation: their modes by a subspace that counts, and correlations at the sensors alone.
 
 use crate::common::draws::Draws;
-use crate::common::tolerances::{COUNTED_ROOT, RECOVERED_STORY, SAME_ANALYSIS, WHOLE_SHAPE};
+use crate::common::tolerances::{COUNTED_ROOT, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS, WHOLE_SHAPE};
 use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
 use corfem::cases::Case;
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
@@ -148,6 +148,30 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
     for (story, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
         assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
+    }
+}
+
+/// Test shapes of any scale are brought to that of the modes they answer: the difference has no part of the shape, and whatever
+/// factors they came with are gone but for their signs.
+#[test]
+fn test_shapes_at_sensors_are_scaled_to_their_modes() {
+    let truth = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
+    let real = shear_building(&truth.map(|factor| factor * 1.0e5), 1.0, None);
+    let model = shear_building(&[1.0e5; 10], 1.0, None);
+    let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
+    let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
+    let scales = [3.0, -0.2, 1.0e3, -1.0, 0.01];
+    let shapes = &test.shapes * DMatrix::from_diagonal(&scales.to_vec().into());
+    let other = ModeSet { shapes, omega_squared: test.omega_squared.clone() };
+    let [first, other] =
+        [&test, &other].map(|test| model.analyze(&[1.0; 10], &sensors, (test, pair_modes), 10).expect("an analysis"));
+    for (j, scale) in scales.iter().enumerate() {
+        let shape = first.test.shapes.column(j);
+        let pairing = &first.exact.pairing;
+        let mode = pairing.sign[j] * first.exact.modes.shapes.column(pairing.analysis_mode[j]);
+        assert!((&mode - shape).dot(&shape).abs() < ROUND_OFF * shape.norm_squared());
+        assert!((other.test.shapes.column(j) - scale.signum() * shape).norm() < ROUND_OFF * shape.norm());
     }
 }
 

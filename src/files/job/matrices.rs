@@ -51,7 +51,7 @@ pub(super) fn from_matrices(path: &Path, job: &Job, stiffness: &Path, mass: &Pat
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
         };
-        parameters.push(WholeParameter { name: rule.name.clone(), share, range: range(path, rule)? });
+        parameters.push(WholeParameter { name: rule.name.clone(), share, range: range(path, rule, &[])? });
     }
     let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
     let motions = labels.into_iter().enumerate().map(|(row, at)| (at, vec![(row, 1.0)])).collect();

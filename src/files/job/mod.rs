@@ -7,13 +7,16 @@ mod matrices;
 mod model;
 mod prepare;
 mod run;
+mod samples;
 mod sensors;
+mod study;
 
 pub use model::{Geometry, ModelSource};
 pub use prepare::Prepared;
 pub use run::{Finished, History, run};
-
+pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
+pub use study::{Study, Vary};
 
 use crate::files::error::FileError;
 use crate::method::outer_loop::Settings;
@@ -153,6 +156,10 @@ pub struct ParameterRule {
     pub lower: Option<f64>,
     /// Largest factor.
     pub upper: Option<f64>,
+    /// Least gage or area of each of its elements, of a deck.
+    pub lower_size: Option<f64>,
+    /// Largest.
+    pub upper_size: Option<f64>,
 }
 
 /// One number or a range of them.
@@ -197,7 +204,7 @@ pub struct Compare {
     pub frequency_deviation: Option<f64>,
     /// Standard deviation of every shape, a fraction of its largest component, where the test has none of its own.
     pub shape_deviation: Option<f64>,
-    /// Weights of the frequencies, one a test mode, on top of their deviations.
+    /// Weights of the frequencies, one a test mode: on top of their deviations, or of the paper's frequency errors.
     pub frequency_weights: Option<Vec<f64>>,
     /// Weights of the shapes in the same way.
     pub shape_weights: Option<Vec<f64>>,

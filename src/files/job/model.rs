@@ -124,7 +124,8 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
                     WholeShare::Mass(sum_of(count, entries.into_iter())?)
                 }
             };
-            parameters.push(WholeParameter { name, share, range: range(path, rule)? });
+            let sizes: Vec<f64> = rows.iter().map(|&row| bulk.elements[row].size).collect();
+            parameters.push(WholeParameter { name, share, range: range(path, rule, &sizes)? });
             members.push(labels);
         }
     }
@@ -171,14 +172,26 @@ fn groups(path: &Path, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, 
     Ok(of_elements.chain(of_masses).collect())
 }
 
-pub(super) fn range(path: &Path, rule: &ParameterRule) -> Result<Option<Range>, FileError> {
-    match (rule.lower, rule.upper) {
-        (None, None) => Ok(None),
-        (Some(lower), Some(upper)) => {
-            Ok(Some(Range::positive(&format!("factor of parameter {}", rule.name), lower, upper)?))
-        }
-        _ => Err(FileError::job(path, format!("both lower and upper in parameter {}", rule.name), "one of them")),
+/// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within its bounds on these.
+pub(super) fn range(path: &Path, rule: &ParameterRule, sizes: &[f64]) -> Result<Option<Range>, FileError> {
+    let name = &rule.name;
+    let both = |names: [&str; 2], bounds: [Option<f64>; 2], what: &str| match bounds {
+        [None, None] => Ok(None),
+        [Some(lower), Some(upper)] => Ok(Some(Range::positive(&format!("{what} of parameter {name}"), lower, upper)?)),
+        _ => Err(FileError::job(path, format!("both {} in parameter {name}", names.join(" and ")), "one of them")),
+    };
+    let own = both(["lower", "upper"], [rule.lower, rule.upper], "factor")?;
+    let Some(of_sizes) = both(["lower_size", "upper_size"], [rule.lower_size, rule.upper_size], "sizes")? else {
+        return Ok(own);
+    };
+    if sizes.is_empty() || rule.scales == Scales::Mass {
+        let expected = format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes");
+        return Err(FileError::job(path, expected, "another"));
     }
+    let (lower, upper) = own.map_or((0.0, f64::INFINITY), |own| (own.lower, own.upper));
+    let lower = sizes.iter().fold(lower, |lower, size| lower.max(of_sizes.lower / size));
+    let upper = sizes.iter().fold(upper, |upper, size| upper.min(of_sizes.upper / size));
+    Ok(Some(Range::positive(&format!("factor of parameter {name}"), lower, upper)?))
 }
 
 fn sum_of(count: usize, entries: impl Iterator<Item = (usize, usize, f64)>) -> Result<SparseMatrix, FileError> {

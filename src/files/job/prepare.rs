@@ -2,7 +2,7 @@
 
 use super::model::{beside, load};
 use super::sensors::{PlacedSensor, place};
-use super::{ComparedModes, Job, ModelSource, PairingRule, read};
+use super::{ComparedModes, Job, Method, ModelSource, PairingRule, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
@@ -15,6 +15,7 @@ use crate::studies::expansion::mass_by_modes;
 use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
 pub const FLOOR: f64 = 0.5;
@@ -32,8 +33,8 @@ pub struct Prepared {
     pub job: Job,
     /// What reports call the structure.
     pub title: String,
-    /// The model.
-    pub source: ModelSource,
+    /// The model, which all samples of a study share.
+    pub source: Arc<ModelSource>,
     /// The test as its file has it.
     pub data: TestData,
     /// Its sensors on the model.
@@ -63,7 +64,15 @@ impl Prepared {
         let file = beside(path, &job.test.file);
         let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
         let data = test_data::read(&file.display().to_string(), &bytes)?;
-        let source = load(path, &job)?;
+        let source = Arc::new(load(path, &job)?);
+        Self::with(path, job, data, source)
+    }
+
+    /// The same with all files read, for a test or a choice of it that no file holds.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with(path: &Path, job: Job, data: TestData, source: Arc<ModelSource>) -> Result<Self, FileError> {
         let (placed, sensors) = place(path, &job, &data, &source)?;
         let available = data.frequencies_hz.len();
         let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
@@ -169,12 +178,15 @@ impl Prepared {
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         let (whole, pair) = (&self.source.whole, pairing_rule(self.job.compare.pairing));
-        match self.job.compare.modes {
+        let model = match self.job.compare.modes {
             ComparedModes::Whole => whole.analyze(factors, &self.sensors, (&self.test, pair), self.analysis_modes),
             ComparedModes::Condensed => {
                 whole.analyze_condensed(factors, &self.sensors, &self.test, Some(self.analysis_modes))
             }
-        }
+        };
+        // Gauss-Newton steps have weights of their own.
+        let is_paper = self.job.compare.method == Method::Paper;
+        if is_paper { model?.weighted(&self.own_weights()) } else { model }
     }
 }
 

@@ -3,14 +3,14 @@
 use super::{Method, ParameterRule, Prepared};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
-use crate::method::error_sum::mode_errors;
-use crate::method::model::ModalModel;
+use crate::method::error_sum::{ModeWeight, mode_errors};
+use crate::method::model::{ModalModel, Range};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
 use crate::studies::noisy_modes::Noise;
 use crate::studies::weighted::gauss_newton::{
-    WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts,
+    WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
 use crate::studies::weighted::identifiability::{Identifiability, identifiability};
 use crate::studies::weighted::residuals::{Weights, jacobian, residuals};
@@ -44,6 +44,8 @@ pub struct Finished {
     pub verdict: Verdict,
     /// What the test sees of the parameters, at the first model and at the best factors.
     pub seen: [Identifiability; 2],
+    /// Exact analyses made, the first and the last among them.
+    pub analyses: usize,
     /// Whether it was stopped by request.
     pub is_interrupted: bool,
 }
@@ -52,36 +54,49 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode, and for those without Gauss–Newton steps, which alone know them.
+    /// [`FileError::Job`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
-        if compare.method == Method::Paper && (compare.frequency_weights.is_some() || compare.shape_weights.is_some()) {
-            let expected = "compare.method = \"gauss_newton\" with weights";
-            return Err(FileError::job(&self.path, expected, "the paper's, whose error sum has none"));
-        }
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
-        let list = |what: &str, weights: &Option<Vec<f64>>| match weights {
-            Some(weights) if weights.len() != named => {
+        for (what, list) in
+            [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)]
+        {
+            if let Some(list) = list.as_ref().filter(|list| list.len() != named) {
                 let expected = format!("{named} {what}, one a test mode of the job");
-                Err(FileError::job(&self.path, expected, weights.len().to_string()))
+                return Err(FileError::job(&self.path, expected, list.len().to_string()));
             }
-            Some(weights) => Ok(weights.clone()),
-            None => Ok(vec![1.0; named]),
-        };
-        let numbers = self.job.test.modes.clone().unwrap_or_else(|| (1..=named).collect());
-        let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64, weights: &[f64]| {
-            let weight = |&mode: &usize| {
-                let deviation = own.as_ref().and_then(|own| own.get(mode).copied()).or(given).unwrap_or(usual);
-                let place = numbers.iter().position(|number| *number == mode + 1).unwrap_or(mode);
-                weights[place] / deviation
-            };
-            self.modes.iter().map(weight).collect::<Vec<f64>>()
-        };
+        }
+        let own = self.own_weights();
+        let all = own.iter().zip(&self.modes).map(|(own, &mode)| (own, self.deviations(mode)));
         let (frequency, shape) =
-            (list("frequency_weights", &compare.frequency_weights)?, list("shape_weights", &compare.shape_weights)?);
-        let frequency = of(&self.data.frequency_deviation, compare.frequency_deviation, USUAL.frequency, &frequency);
-        let shape = of(&self.data.shape_deviation, compare.shape_deviation, USUAL.shape, &shape);
+            all.map(|(own, noise)| (own.frequency / noise.frequency, own.shape / noise.shape)).unzip();
         Ok(Weights { frequency, shape })
+    }
+
+    /// The job's own weights of the test modes, ones where it has none.
+    pub(super) fn own_weights(&self) -> Vec<ModeWeight> {
+        let (numbers, compare) = (&self.job.test.modes, &self.job.compare);
+        let of = |list: &Option<Vec<f64>>, mode: usize| {
+            let place = numbers.as_ref().map_or(Some(mode), |all| all.iter().position(|number| *number == mode + 1));
+            list.as_ref().zip(place).and_then(|(list, place)| list.get(place).copied()).unwrap_or(1.0)
+        };
+        let weight = |&mode: &usize| ModeWeight {
+            frequency: of(&compare.frequency_weights, mode),
+            shape: of(&compare.shape_weights, mode),
+        };
+        self.modes.iter().map(weight).collect()
+    }
+
+    /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else [`USUAL`].
+    pub fn deviations(&self, mode: usize) -> Noise {
+        let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64| {
+            own.as_ref().and_then(|own| own.get(mode).copied()).or(given).unwrap_or(usual)
+        };
+        let (data, compare) = (&self.data, &self.job.compare);
+        Noise {
+            frequency: of(&data.frequency_deviation, compare.frequency_deviation, USUAL.frequency),
+            shape: of(&data.shape_deviation, compare.shape_deviation, USUAL.shape),
+        }
     }
 }
 
@@ -121,15 +136,26 @@ impl Prepared {
 ///
 /// # Errors
 /// Those of the analyses, of the loops and of [`Prepared::weights`].
-pub fn run(
+pub fn run(prepared: &Prepared, progress: impl FnMut(&str), go_on: impl Fn() -> bool) -> Result<Finished, FileError> {
+    run_from(prepared, &vec![1.0; prepared.source.whole.parameters().len()], progress, go_on)
+}
+
+/// The same from other first factors than one, and then from these alone.
+pub(super) fn run_from(
     prepared: &Prepared,
+    start: &[f64],
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
 ) -> Result<Finished, FileError> {
     let (compare, settings) = (&prepared.job.compare, &prepared.job.correlation);
     let (weights, ranges) = (prepared.weights()?, prepared.source.whole.ranges());
     let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());
-    let first = prepared.analyze(&ones)?;
+    let analyses = std::cell::Cell::new(0);
+    let analyze = |factors: &[f64]| {
+        analyses.set(analyses.get() + 1);
+        prepared.analyze(factors)
+    };
+    let first = analyze(start)?;
     let is_interrupted = std::cell::Cell::new(false);
     let may_go_on = || {
         is_interrupted.set(is_interrupted.get() || !go_on());
@@ -143,15 +169,21 @@ pub fn run(
                 progress(&format!("pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"));
                 may_go_on()
             };
-            let run = correlate_while(|factors| prepared.analyze(factors), &ranges, settings, told)?;
-            let factors = run.best_factors();
+            // The loops count factors from one: the start is their first model.
+            let total = |factors: &[f64]| factors.iter().zip(start).map(|(a, b)| a * b).collect::<Vec<f64>>();
+            let seen = |(range, start): (&Option<Range>, &f64)| {
+                range.map(|range| Range { lower: range.lower / start, upper: range.upper / start })
+            };
+            let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
+            let run = correlate_while(|factors| analyze(&total(factors)), &ranges, settings, told)?;
+            let factors = total(&run.best_factors());
             (History::Paper(run), factors)
         }
         Method::GaussNewton => {
             let starts = compare.starts.unwrap_or(1);
             let mut best: Option<(f64, Vec<f64>)> = None;
             let analyze = |factors: &[f64]| {
-                let model = prepared.analyze(factors)?;
+                let model = analyze(factors)?;
                 let objective = residuals(&model, &weights)?.norm_squared();
                 if best.as_ref().is_none_or(|(least, _)| objective < *least) {
                     best = Some((objective, factors.to_vec()));
@@ -159,7 +191,11 @@ pub fn run(
                 }
                 if may_go_on() { Ok(model) } else { Err(FileError::Interrupted) }
             };
-            match from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed) {
+            let found = match start == ones {
+                true => from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed),
+                false => gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1)),
+            };
+            match found {
                 Ok((run, reached)) => {
                     let factors = run.factors.clone();
                     (History::GaussNewton(Some((run, reached))), factors)
@@ -169,7 +205,7 @@ pub fn run(
             }
         }
     };
-    let last = prepared.analyze(&factors)?;
+    let last = analyze(&factors)?;
     let verdict = match &history {
         History::Paper(run) => run.verdict.clone(),
         History::GaussNewton(run) => {
@@ -188,5 +224,6 @@ pub fn run(
     };
     let sees = |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
     let seen = [sees(&first)?, sees(&last)?];
-    Ok(Finished { history, factors, verdict, seen, first, last, is_interrupted: is_interrupted.get() })
+    let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
+    Ok(Finished { history, factors, verdict, seen, first, last, analyses, is_interrupted })
 }

@@ -19,6 +19,8 @@ pub struct PlacedSensor {
     pub grid: usize,
     /// 0, 1, 2 for x, y, z; 3, 4, 5 for rotations about them.
     pub direction: usize,
+    /// The unit vector along which it measures, or about which it turns, in global axes.
+    pub axis: Vector3<f64>,
     /// −1 where it points the other way.
     pub sign: f64,
     /// Where the grid is.
@@ -47,6 +49,8 @@ pub fn place(
     let mut placed = Vec::new();
     for (row, sensor) in data.sensors.iter().enumerate().filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name)) {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
+        // A place of its own has an axis of the model's.
+        let measured = sensor.axis.filter(|_| own.is_none());
         let (grid, direction, sign) = match (own, rules.by) {
             (Some(own), _) => {
                 let (sign, letters) =
@@ -68,7 +72,8 @@ pub fn place(
             }
             (None, SensorRule::Nearest) => (nearest(path, sensor, source)?, sensor.direction, 1.0),
         };
-        if !source.motions.contains_key(&(grid, direction)) {
+        let axis = measured.unwrap_or_else(|| Vector3::ith(direction % 3, 1.0));
+        if motion(source, grid, direction, axis).next().is_none() {
             let expected = format!("a degree of freedom of the model that moves for sensor {}", sensor.name);
             return Err(FileError::job(path, expected, format!("grid {grid} {}", DIRECTIONS[direction])));
         }
@@ -78,7 +83,7 @@ pub fn place(
             let expected = format!("sensor {} within {most} of a grid", sensor.name);
             return Err(FileError::job(path, expected, format!("grid {grid} at {distance:.4}")));
         }
-        placed.push(PlacedSensor { row, name: sensor.name.clone(), grid, direction, sign, place, distance });
+        placed.push(PlacedSensor { row, name: sensor.name.clone(), grid, direction, axis, sign, place, distance });
     }
     let mut first: BTreeMap<(usize, usize), &str> = BTreeMap::new();
     for sensor in &placed {
@@ -90,13 +95,27 @@ pub fn place(
     if placed.is_empty() {
         return Err(FileError::job(path, "sensors of the test on the model", "none"));
     }
-    let motion = |(row, sensor): (usize, &PlacedSensor)| {
-        let motion = &source.motions[&(sensor.grid, sensor.direction)];
-        motion.iter().map(|&(dof, coefficient)| (row, dof, coefficient)).collect::<Vec<_>>()
-    };
-    let entries = placed.iter().enumerate().flat_map(motion).collect();
+    let entries = placed.iter().enumerate().flat_map(|(row, sensor)| {
+        let motion = motion(source, sensor.grid, sensor.direction, sensor.axis);
+        motion.map(move |(dof, coefficient)| (row, dof, coefficient))
+    });
+    let entries = entries.collect();
     let reading = SparseMatrix::new("sensors", placed.len(), source.whole.dof_count(), entries)?;
     Ok((placed, reading))
+}
+
+/// The motion of a grid along an axis, or about it for directions above 2: rows of the model and coefficients.
+fn motion(
+    source: &ModelSource,
+    grid: usize,
+    direction: usize,
+    axis: Vector3<f64>,
+) -> impl Iterator<Item = (usize, f64)> {
+    let along = (0..3).filter(move |&component| axis[component] != 0.0);
+    along.flat_map(move |component| {
+        let motion = source.motions.get(&(grid, direction / 3 * 3 + component)).into_iter().flatten();
+        motion.map(move |&(dof, coefficient)| (dof, coefficient * axis[component]))
+    })
 }
 
 /// The nearest grid that moves in a sensor's direction; of two as near the one with the lower number.
@@ -106,7 +125,8 @@ fn nearest(path: &Path, sensor: &Sensor, source: &ModelSource) -> Result<usize, 
     };
     let at = sensor.place.ok_or_else(|| missing("none in the test"))?;
     let Geometry { places, .. } = &source.geometry;
-    let moving = places.iter().filter(|(grid, _)| source.motions.contains_key(&(**grid, sensor.direction)));
+    let axis = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction % 3, 1.0));
+    let moving = places.iter().filter(|(grid, _)| motion(source, **grid, sensor.direction, axis).next().is_some());
     let nearest = moving.min_by(|a, b| (a.1 - at).norm().total_cmp(&(b.1 - at).norm()));
     nearest.map(|(grid, _)| *grid).ok_or_else(|| missing("none in the model"))
 }

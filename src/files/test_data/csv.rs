@@ -95,7 +95,7 @@ impl Row<'_> {
             Some(grid) if name.is_empty() => default_name(grid, direction),
             _ => name.to_owned(),
         };
-        Ok((Sensor { name, grid, direction, place }, sign))
+        Ok((Sensor { name, grid, direction, axis: None, place }, sign))
     }
 }
 
@@ -156,11 +156,15 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     cells.iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
+/// A name as one cell on one line: line ends become blanks.
+pub(crate) fn quoted(name: &str) -> String {
+    format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""))
+}
+
 /// Writes a test in the layout that [`read`](super::read) takes, with commas; every number reads back as it is.
 ///
 /// Wire frame, units and skipped datasets have no place in it. Line ends in a name become blanks.
 pub fn write_csv(data: &TestData) -> String {
-    let quoted = |name: &str| format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""));
     let joined = |values: &mut dyn Iterator<Item = &f64>| values.map(|value| format!(",{value:?}")).collect::<String>();
     let phase = Some(&data.phase_collinearity).filter(|list| !list.is_empty());
     let lists = [Some(&data.frequencies_hz), data.frequency_deviation.as_ref(), data.shape_deviation.as_ref(), phase];

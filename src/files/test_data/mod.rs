@@ -4,8 +4,10 @@
 
 mod csv;
 mod universal;
+mod universal_axes;
 mod universal_write;
 
+pub(crate) use csv::quoted;
 pub use csv::write_csv;
 pub use universal_write::write_universal;
 
@@ -32,6 +34,9 @@ pub struct Sensor {
     pub grid: Option<usize>,
     /// 0, 1, 2 for displacements along x, y, z; 3, 4, 5 for rotations about them.
     pub direction: usize,
+    /// The unit vector along that axis, if it is one of a coordinate system of the test's own; tables and Universal Files that are
+    /// written have no place for it.
+    pub axis: Option<Vector3<f64>>,
     /// Where it is, in the model's units of length, if the file says so.
     pub place: Option<Vector3<f64>>,
 }
@@ -64,14 +69,18 @@ impl TestData {
     ///
     /// # Errors
     /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
-    /// [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency, a deviation or a shape; [`Error::TooMany`] for a direction
+    /// [`Error::NotFinite`], also for a place or an axis; [`Error::NotPositive`] for a frequency, a deviation or a shape; [`Error::TooMany`] for a direction
     /// above 5; [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
     pub fn check(&self) -> Result<(), Error> {
         let count = self.frequencies_hz.len();
         check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
         ModeSet::from_measured(&self.frequencies_hz, &self.shapes)?;
         let mut seen = HashSet::new();
-        for sensor in &self.sensors {
+        for (row, sensor) in self.sensors.iter().enumerate() {
+            let numbers = sensor.place.iter().chain(&sensor.axis).flatten();
+            if let Some((column, &value)) = numbers.enumerate().find(|(_, value)| !value.is_finite()) {
+                return Err(Error::NotFinite { what: "place and axis of a sensor", row, column, value });
+            }
             let wrong = Error::TooMany { what: "direction", available: 5, requested: sensor.direction };
             let what = TWICE.get(sensor.direction).ok_or(wrong)?;
             if let Some(label) = sensor.grid.filter(|grid| !seen.insert((*grid, sensor.direction))) {

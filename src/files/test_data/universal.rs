@@ -1,8 +1,9 @@
 //! The Universal File (UFF, UNV) of SDRC, which test systems write: blocks of fixed columns between lines `    -1`.
 //!
-//! Datasets 15 and 2411 are nodes and their coordinates, 55 a mode at the nodes, 82 a line of the wire frame, 164 the units, whose
+//! Datasets 15 and 2411 are nodes and their coordinates, 18 and 2420 coordinate systems of these (15) and of what is measured there (both),
+//! 55 a mode at the nodes, 82 a line of the wire frame, 164 the units, whose
 //! description is kept (nothing is converted), 151 a header. All others are passed over and named in [`TestData::skipped`], so is
-//! a dataset 55 that is no mode. Coordinate systems (18, 2420) are among them: all axes are taken as global.
+//! a dataset 55 that is no mode. A coordinate system that a node names and no dataset has is taken as global.
 //!
 //! Only a line of these six columns and nothing else ends a block; a data line `        -1` does not. Exponents may be E or D, and
 //! full columns touch; where columns do not hold one number each, blanks separate them.
@@ -14,6 +15,7 @@
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
 
+use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
 use super::{Sensor, TestData, default_name, real};
 use crate::files::error::FileError;
 use crate::studies::complex_modes::realize;
@@ -24,9 +26,9 @@ use std::f64::consts::PI;
 /// Columns of a record of node numbers or codes, and of one of values.
 const INTEGER: usize = 10;
 const REAL: usize = 13;
-const LONG_REAL: usize = 25;
+pub(super) const LONG_REAL: usize = 25;
 /// Columns of a line of values, and of a node in dataset 15.
-const VALUES: [usize; 6] = [REAL; 6];
+pub(super) const VALUES: [usize; 6] = [REAL; 6];
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
@@ -35,13 +37,15 @@ const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 #[derive(Default)]
 struct Found {
     data: TestData,
-    places: HashMap<usize, Vector3<f64>>,
+    /// By number of the node its place, the coordinate systems of this and of its displacements, and its line.
+    nodes: HashMap<usize, (Vector3<f64>, [usize; 2], usize)>,
+    systems: Systems,
     shapes: Vec<BTreeMap<(usize, usize), Complex<f64>>>,
     complex: bool,
 }
 
 /// The lines of one dataset that are still to be read.
-struct Block<'a> {
+pub(super) struct Block<'a> {
     file: &'a str,
     lines: &'a [&'a str],
     /// Number of the next line in the file, from one.
@@ -49,11 +53,11 @@ struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    fn is_done(&self) -> bool {
+    pub fn is_done(&self) -> bool {
         self.lines.iter().all(|line| line.trim().is_empty())
     }
 
-    fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
+    pub fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
         let end = || FileError::line(self.file, self.number, expected, "the end of the dataset");
         let (first, rest) = self.lines.split_first().ok_or_else(end)?;
         (self.lines, self.number) = (rest, self.number + 1);
@@ -61,12 +65,12 @@ impl<'a> Block<'a> {
     }
 
     /// An error about the line read last.
-    fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
+    pub fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
         FileError::line(self.file, self.number - 1, expected, found.to_string())
     }
 
     /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
-    fn reals(&mut self, expected: &'static str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
+    pub fn reals(&mut self, expected: &'static str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
         let line = self.line(expected)?;
         let mut start = 0;
         let column = |&width: &usize| {
@@ -80,7 +84,7 @@ impl<'a> Block<'a> {
         numbers.ok_or_else(|| self.wrong(expected, line.trim()))
     }
 
-    fn integers(&mut self, expected: &'static str, count: usize) -> Result<Vec<usize>, FileError> {
+    pub fn integers(&mut self, expected: &'static str, count: usize) -> Result<Vec<usize>, FileError> {
         let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
         numbers.into_iter().map(|number| integer(number).ok_or_else(|| self.wrong(expected, number))).collect()
     }
@@ -115,15 +119,17 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         let mut block = Block { file, lines: &lines[at + 2..end], number: at + 3 };
         match dataset {
             15 | 2411 => found.nodes(&mut block, dataset)?,
+            18 => by_points(&mut block, &mut found.systems)?,
             55 => found.mode(&mut block)?,
             82 => found.trace(&mut block)?,
             151 => {}
             164 => found.units(&mut block)?,
+            2420 => by_matrices(&mut block, &mut found.systems)?,
             _ => found.data.skipped.push(dataset),
         }
         at = end + 1;
     }
-    found.into_data()
+    found.into_data(file)
 }
 
 impl Found {
@@ -133,11 +139,14 @@ impl Found {
         while !block.is_done() {
             let mut numbers = block.reals(expected, if dataset == 15 { &NODE } else { &NODE[..4] })?;
             let node = integer(numbers[0]).ok_or_else(|| block.wrong(expected, numbers[0]))?;
+            // The coordinates of dataset 2411 are global ones.
+            let of_place = if dataset == 15 { numbers[1] } else { 0.0 };
+            let (systems, line) = ([of_place, numbers[2]].map(|number| integer(number).unwrap_or(0)), block.number - 1);
             if dataset == 2411 {
                 numbers.extend(block.reals("three coordinates", &[LONG_REAL; 3])?);
             }
             let place = Vector3::from_column_slice(&numbers[4..]);
-            if *self.places.entry(node).or_insert(place) != place {
+            if self.nodes.entry(node).or_insert((place, systems, line)).0 != place {
                 return Err(block.wrong("a node once, or again at the same place", format!("node {node} elsewhere")));
             }
         }
@@ -217,7 +226,7 @@ impl Found {
         Ok(())
     }
 
-    fn into_data(mut self) -> Result<TestData, FileError> {
+    fn into_data(mut self, file: &str) -> Result<TestData, FileError> {
         let values = self.shapes.iter().flatten().filter(|(_, value)| **value != Complex::default());
         let keys: Vec<(usize, usize)> = values.map(|(key, _)| *key).collect::<BTreeSet<_>>().into_iter().collect();
         let value = |row: usize, mode: usize| self.shapes[mode].get(&keys[row]).copied().unwrap_or_default();
@@ -226,8 +235,21 @@ impl Found {
         let data = &mut self.data;
         (data.shapes, data.phase_collinearity) = if self.complex { realize(&shapes) } else { real() }?;
         for (node, direction) in keys {
-            let (name, place) = (default_name(node, direction), self.places.get(&node).copied());
-            data.sensors.push(Sensor { name, grid: Some(node), direction, place });
+            let at = self.nodes.get(&node);
+            let system = |which: usize| match at.map(|(_, systems, line)| (self.systems.get(&systems[which]), line)) {
+                Some((Some(axes), line)) if !axes.is_cartesian => {
+                    let found = "a cylindrical or spherical one";
+                    Err(FileError::line(file, *line, "a node with Cartesian coordinate systems", found))
+                }
+                axes => Ok(axes.and_then(|(axes, _)| axes)),
+            };
+            let (of_place, of_motion) = (system(0)?, system(1)?);
+            let to_global = |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
+            // What six digits leave beside a global axis is none of a sensor's.
+            let snapped = |component: f64| if component.abs() < ROTATION { 0.0 } else { component };
+            let axis = of_motion.map(|axes| axes.rotation.column(direction % 3).map(snapped).normalize());
+            let (name, place) = (default_name(node, direction), at.map(|(place, ..)| to_global(*place)));
+            data.sensors.push(Sensor { name, grid: Some(node), direction, axis, place });
         }
         data.skipped.sort_unstable();
         data.skipped.dedup();

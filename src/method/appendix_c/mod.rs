@@ -1,4 +1,5 @@
 //! Appendix C: Van de Vooren's perturbation of roots and shapes, in modal coordinates.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! The modes before the change are $V$ with $V^t M V = I$ and $k = V^t K V = \mathrm{diag}(\omega^2)$. With
 //! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through
@@ -21,7 +22,7 @@ pub use close_roots::{CloseRootsSettings, close_roots};
 pub use recursive::{first_order, recursive_1, recursive_1_converged};
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_shape;
+use crate::method::linear_algebra::{Number, check_shape};
 use crate::method::modes::solve;
 use crate::method::pairing::pair_modes;
 use crate::method::structure::positive;
@@ -34,6 +35,12 @@ pub const SMALLEST_SEPARATION: f64 = 1e-9;
 /// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
 /// some percent. Below it the recursion may be slow, but what it still has to go is little.
 pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+
+/// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
+/// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
+const SAME_SHAPE: f64 = 1e-2;
+/// Relative distance of two roots below which they are one.
+const SAME_ROOT: f64 = 1e-3;
 
 /// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,11 +70,26 @@ pub struct Settled<T = f64> {
     pub last_change: f64,
 }
 
-impl<T> Settled<T> {
-    /// Accepts a recursion whose roots have settled to its tolerance, or nearly so.
+impl<T: Number> Settled<T> {
+    /// Accepts a recursion whose roots have settled to its tolerance, or nearly so, on as many modes as there are: a strong change
+    /// can lead two modes to one, and then another is missed.
     fn check(self, tolerance: f64, orders: usize) -> Result<Self, Error> {
         let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), self.last_change);
-        if last_change <= largest { Ok(self) } else { Err(Error::UnsettledRoots { largest, orders, last_change }) }
+        // A change that is no number has not settled either.
+        if last_change.is_nan() || last_change > largest {
+            return Err(Error::UnsettledRoots { largest, orders, last_change });
+        }
+        let Perturbed { roots, shapes } = &self.perturbed;
+        for (second, shape) in shapes.column_iter().enumerate() {
+            for (first, other) in shapes.column_iter().enumerate().take(second) {
+                let cosine = other.dotc(&shape).modulus() / (other.norm() * shape.norm());
+                let separation = (roots[second] / roots[first] - T::one()).modulus();
+                if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
+                    return Err(Error::CoalescingModes { first, second, separation });
+                }
+            }
+        }
+        Ok(self)
     }
 }
 

@@ -1,5 +1,6 @@
 //! First order (C.20, C.21) and Recursive 1 (C.22) for a change of stiffness alone and real mass-orthonormal modes: what the
 //! loops run on.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! Throughout, $k_{ii} = \omega_i^2 = 1/\lambda_i$ and $\beta = V^t \Delta K V$, both in rad²/s².
 
@@ -52,7 +53,8 @@ pub fn recursive_1(
 ///
 /// # Errors
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
-/// [`super::LARGEST_UNSETTLED_CHANGE`], as happens where roots are close.
+/// [`super::LARGEST_UNSETTLED_CHANGE`], as happens where roots are close; [`Error::CoalescingModes`] when two of them settle on one
+/// mode, as a strong change can make them.
 pub fn recursive_1_converged(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,

@@ -1,10 +1,12 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, and what may change.
+//! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 mod analysis;
 mod modal;
 mod parameters;
 
 pub use analysis::CondensedModel;
+pub(crate) use modal::ONE_WEIGHT;
 pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
 pub use parameters::{Parameter, Range, Scaled};
 

@@ -5,7 +5,7 @@
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::error_sum::{Errors, errors};
+use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
@@ -68,6 +68,9 @@ impl DynamicModel {
     }
 }
 
+/// What weights must be.
+pub(crate) const ONE_WEIGHT: &str = "a finite number from zero up, one of them positive";
+
 /// Exact modes compared with the test modes.
 #[derive(Debug, Clone)]
 pub struct Check {
@@ -95,6 +98,8 @@ pub struct ModalModel {
     pub cross: DMatrix<f64>,
     /// The rule that pairs them.
     pub pair: Pair,
+    /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
+    pub weights: Vec<ModeWeight>,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
     pub shares: Vec<Share>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
@@ -177,8 +182,30 @@ impl ModalModel {
         let frequencies_hz = paired(&modes, &pairing)?.frequencies_hz();
         let errors = errors(&modes, &pairing, &test)?;
         let exact = Check { modes, pairing, frequencies_hz, errors };
-        let sizes = vec![REFERENCE_GAGE; shares.len()];
-        Ok(Self { exact, test, cross, pair, shares, test_shares, sizes })
+        let (sizes, weights) = (vec![REFERENCE_GAGE; shares.len()], vec![ModeWeight::ONE; test.len()]);
+        Ok(Self { exact, test, cross, pair, weights, shares, test_shares, sizes })
+    }
+
+    /// The same model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one weight a test mode; [`Error::Setting`] for one that is negative or no number, and when
+    /// all are zero.
+    pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
+        check_length("weights", weights.len(), self.test.len())?;
+        let all = || weights.iter().flat_map(|weight| [weight.frequency, weight.shape]);
+        let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
+        if let Some(found) = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0)) {
+            return Err(Error::Setting { name: "weight", expected: ONE_WEIGHT, found });
+        }
+        self.weights = weights.to_vec();
+        self.exact.errors = self.errors_of(&self.exact.modes, &self.exact.pairing)?;
+        Ok(self)
+    }
+
+    /// How far paired modes are from the test modes, with the weights.
+    pub(crate) fn errors_of(&self, modes: &ModeSet, pairing: &Pairing) -> Result<Errors, Error> {
+        weighted_errors(modes, pairing, &self.test, &self.weights)
     }
 
     /// Refuses a model whose parts do not fit together.
@@ -193,6 +220,7 @@ impl ModalModel {
         check_shape("cross-orthogonality", &self.cross, count, test_count)?;
         check_length("shares on the test shapes", self.test_shares.len(), self.shares.len())?;
         check_length("parameter sizes", self.sizes.len(), self.shares.len())?;
+        check_length("weights", self.weights.len(), test_count)?;
         let of = |matrix, size| check_shape("parameter share", matrix, size, size);
         self.shares.iter().try_for_each(|share| of(share.matrix(), count))?;
         self.test_shares.iter().try_for_each(|share| of(share, test_count))

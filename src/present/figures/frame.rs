@@ -22,6 +22,8 @@ pub struct Frame {
     pub panels: Vec<Vec<usize>>,
     /// Places with sensors, and supports, which have none.
     pub known: BTreeMap<usize, Sensors>,
+    /// Of every place the grid that stands there, by its row, where all motions are drawn as they are.
+    pub grids: Vec<Option<usize>>,
 }
 
 impl Frame {
@@ -30,9 +32,10 @@ impl Frame {
     /// Sensors of a structure in one line that all measure along it are drawn across it, upward.
     pub fn of(subject: &Subject) -> Self {
         let (mut nodes, mut row_of) = (Vec::new(), HashMap::new());
+        // Zero has one sign.
+        let key = |at: &Vector3<f64>| [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits());
         let mut node = |at: &Vector3<f64>| {
-            // Zero has one sign.
-            *row_of.entry([at.x, at.y, at.z].map(|component| (component + 0.0).to_bits())).or_insert_with(|| {
+            *row_of.entry(key(at)).or_insert_with(|| {
                 nodes.push(*at);
                 nodes.len() - 1
             })
@@ -55,9 +58,14 @@ impl Frame {
         let extent = extents(&nodes);
         let axis = Vector3::from_fn(|axis, _| f64::from(axis == extent.imax()));
         let across = if axis.z == 1.0 { Vector3::x() } else { Vector3::z() };
+        let mut grids = vec![None; nodes.len()];
+        for (row, (_, at)) in subject.grids.iter().enumerate() {
+            row_of.get(&key(at)).into_iter().for_each(|&node: &usize| grids[node] = Some(row));
+        }
         let mut sensors = known.values_mut().flatten().collect::<Vec<_>>();
         if extent.sum() == extent.max() && sensors.iter().all(|(_, along)| along.cross(&axis) == Vector3::zeros()) {
             sensors.iter_mut().for_each(|(_, along)| *along = along.dot(&axis) * across);
+            grids.fill(None);
         }
         let mut joined = vec![BTreeSet::new(); nodes.len()];
         for piece in &pieces {
@@ -67,14 +75,15 @@ impl Frame {
             }
         }
         let panels = pieces.into_iter().filter(|piece| piece.len() > 2).collect();
-        Self { lines: chained(joined), nodes, panels, known }
+        Self { lines: chained(joined), nodes, panels, known, grids }
     }
 
     /// Displacements of all places in a shape whose largest component is one.
     ///
-    /// A place with sensors moves as they say, a support not at all, and any other as the mean of those, weighted with
+    /// A place with sensors moves as they say along them, and everywhere else as its grid does, whose motions are given in the scale of
+    /// the shape. Without these a support does not move, and any other place as the mean of the known ones, weighted with
     /// $1/r^4$ for a distance of $r$ (Shepard, *Proc. 23rd ACM National Conference* (1968), 517).
-    pub fn moved(&self, shape: &[f64]) -> Vec<Vector3<f64>> {
+    pub fn moved(&self, shape: &[f64], grids: Option<&[Vector3<f64>]>) -> Vec<Vector3<f64>> {
         let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
         let motion = |sensors: &Sensors| -> Vector3<f64> {
             sensors.iter().filter_map(|(row, along)| Some(*shape.get(*row)? / largest * along)).sum()
@@ -93,7 +102,15 @@ impl Frame {
             }
             if total > 0.0 { sum / total } else { sum }
         };
-        self.nodes.iter().map(at).collect()
+        let of_grid = |node: usize| {
+            let motion = grids?.get(self.grids[node]?)? / largest;
+            let sensors = self.known.get(&node).into_iter().flatten();
+            let measured =
+                |(row, along): &(usize, Vector3<f64>)| Some((shape.get(*row)? / largest - motion.dot(along)) * along);
+            Some(motion + sensors.filter_map(measured).sum::<Vector3<f64>>())
+        };
+        let nodes = self.nodes.iter().enumerate();
+        nodes.map(|(node, place)| of_grid(node).unwrap_or_else(|| at(place))).collect()
     }
 
     /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.

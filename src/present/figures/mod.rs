@@ -16,6 +16,7 @@ pub mod factors;
 pub mod linearization;
 pub mod matrices;
 pub mod frame;
+pub mod histogram;
 pub mod mode_shapes;
 pub mod structure;
 pub mod subject;

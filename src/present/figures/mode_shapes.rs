@@ -62,7 +62,10 @@ impl Modes {
         let mode = |mode: usize| DrawnMode {
             number: mode + 1,
             hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
-            moved: states.each_ref().map(|modes| frame.moved(modes.shapes.column(mode).as_slice())),
+            moved: [0, 1, 2].map(|state| {
+                let grids = subject.moved.as_ref().and_then(|moved| moved[state].get(mode));
+                frame.moved(states[state].shapes.column(mode).as_slice(), grids.map(Vec::as_slice))
+            }),
         };
         Ok(Some(Self { modes: (0..test.len()).map(mode).collect(), frame }))
     }

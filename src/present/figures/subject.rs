@@ -31,9 +31,15 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
     }
     if let Some(modes) = Modes::of(subject)? {
         for (part, modes) in modes.parts() {
-            let caption = "mode shapes of the test, of the first and of the corrected model, the largest displacement of each \
-                the same; what lies between sensors is interpolated from those near it";
-            add(&format!("mode_shapes{part}"), "mode shapes", caption, &|name, title| modes.draw(name, title))?;
+            let between = match subject.moved {
+                Some(_) => "the test is expanded by modes of the corrected model",
+                None => "what lies between sensors is interpolated from those near it",
+            };
+            let caption = format!(
+                "mode shapes of the test, of the first and of the corrected model, the largest measured displacement of each the \
+                 same; {between}"
+            );
+            add(&format!("mode_shapes{part}"), "mode shapes", &caption, &|name, title| modes.draw(name, title))?;
             if let Some(normal) = modes.normal() {
                 let caption = "node lines in plan, interpolated between the sensors; at these, gray is up in the test and larger \
                     is farther";

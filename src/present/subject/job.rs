@@ -4,8 +4,9 @@ use super::{Derivatives, SensorPoint, Stage, Subject};
 use crate::files::job::{Finished, History, PlacedSensor, Prepared};
 use crate::method::model::ModalModel;
 use crate::present::PresentError;
+use crate::studies::expansion::expand;
 use crate::studies::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVectorView, Vector3};
 
 impl Subject {
     /// A job, before its first step or finished.
@@ -48,6 +49,7 @@ impl Subject {
             grids: geometry.places.iter().map(|(grid, place)| (*grid, *place)).collect(),
             supports: geometry.places.keys().filter(still).map(|grid| geometry.places[grid]).collect(),
             mass,
+            moved: finished.and_then(|finished| moved(prepared, finished)),
             converged: finished.is_some_and(|finished| finished.verdict.is_within),
             words: finished.map_or_else(String::new, |finished| finished.verdict.in_words(&names)),
             verdict: finished.map(|finished| finished.verdict.clone()),
@@ -75,6 +77,40 @@ impl Subject {
     }
 }
 
+/// How the grids move, see [`Subject::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
+/// combination of the corrected model's modes. None where the sensors cannot tell these apart.
+fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
+    let Prepared { source, sensors, .. } = prepared;
+    let ones = vec![1.0; finished.factors.len()];
+    let whole = |factors: &[f64], model: &ModalModel| {
+        let pairs = &model.exact.pairing.analysis_mode;
+        let count = pairs.iter().max().map_or(0, |mode| mode + 1);
+        let all = source.whole.modes(factors, count).ok()?.vibrations.shapes;
+        let seen = sensors.times(&all).ok()?;
+        // Of the scale and sign of the shapes that are compared.
+        let mut paired = all.select_columns(pairs);
+        for (j, mut shape) in paired.column_iter_mut().enumerate() {
+            let (own, compared) = (seen.column(pairs[j]), model.exact.modes.shapes.column(pairs[j]));
+            shape *= model.exact.pairing.sign[j] * own.dot(&compared) / own.norm_squared();
+        }
+        Some((paired, all, seen))
+    };
+    let (first, ..) = whole(&ones, &finished.first)?;
+    let (last, all, seen) = whole(&finished.factors, &finished.last)?;
+    let test = expand(&all, &seen, &finished.first.test.shapes).ok()?;
+    let at = |shape: DVectorView<f64>, grid: usize| {
+        Vector3::from_fn(|direction, _| {
+            let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
+            motion.map(|&(dof, coefficient)| coefficient * shape[dof]).sum()
+        })
+    };
+    let grids = || source.geometry.places.keys();
+    let of = |shapes: DMatrix<f64>| {
+        shapes.column_iter().map(|shape| grids().map(|&grid| at(shape, grid)).collect()).collect()
+    };
+    Some([of(test), of(first), of(last)])
+}
+
 /// The best that a stopped run has come to.
 fn stopped(finished: &Finished) -> Stage {
     let (factors, check) = (finished.factors.clone(), finished.last.exact.clone());
@@ -82,7 +118,6 @@ fn stopped(finished: &Finished) -> Stage {
 }
 
 fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {
-    let mut direction = Vector3::zeros();
-    direction.iter_mut().skip(sensor.direction).take(1).for_each(|component| *component = 1.0);
+    let direction = if sensor.direction < 3 { sensor.axis } else { Vector3::zeros() };
     SensorPoint { name: sensor.name.clone(), place: sensor.place, direction }
 }

@@ -72,6 +72,9 @@ pub struct Subject {
     pub frame: Vec<Vec<Vector3<f64>>>,
     /// Numbered grids.
     pub grids: Vec<(usize, Vector3<f64>)>,
+    /// How the grids move in the modes that answer the test modes, of test, first and corrected model, in the scale and with the signs
+    /// of the shapes; the test's by expansion. None where the whole model is not known.
+    pub moved: Option<[Vec<Vec<Vector3<f64>>>; 3]>,
     /// Places that do not move.
     pub supports: Vec<Vector3<f64>>,
     /// Mass at the sensors, for cross-orthogonality.
@@ -157,6 +160,7 @@ impl Subject {
             sensors: Vec::new(),
             frame: Vec::new(),
             grids: Vec::new(),
+            moved: None,
             supports: Vec::new(),
             mass: None,
             initial: initial.clone(),

@@ -31,7 +31,10 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
     let mut table = table.columns(["first COMAC", "corrected COMAC"].into_iter().take(assurance.len()), "");
     for (row, sensor) in prepared.placed.iter().enumerate() {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
-        let direction = Cell::text(format!("{sign}{}", DIRECTIONS[sensor.direction]));
+        // An axis of the test's own is told by its components.
+        let own = || format!(" ({:.2} {:.2} {:.2})", sensor.axis.x, sensor.axis.y, sensor.axis.z);
+        let own = if sensor.axis.amax() < 1.0 { own() } else { String::new() };
+        let direction = Cell::text(format!("{sign}{}{own}", DIRECTIONS[sensor.direction]));
         let distance = sensor.distance.map_or(Cell::Blank, |distance| Cell::number(distance, Digits::Fixed(3)));
         let place = [Cell::count(sensor.grid), direction, distance];
         let assurance = assurance.iter().map(|assurance| Cell::number(assurance[row], Digits::Fixed(3)));

@@ -12,6 +12,7 @@ pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;
+pub mod study;
 pub mod subject;
 pub mod table_1;
 pub mod unlimited;

@@ -5,7 +5,7 @@ use super::residuals::{Weights, jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
-use crate::studies::noisy_modes::split_mix_64;
+use crate::studies::noisy_modes::uniform;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -228,7 +228,7 @@ fn bounded_step(
 }
 
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`split_mix_64`] from `seed`, brought within their bounds. Returns the best, and how many reach it to [`SAME_OBJECTIVE`].
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach it to [`SAME_OBJECTIVE`].
 ///
 /// # Errors
 /// Those of [`gauss_newton`]; [`Error::Empty`] without starts.
@@ -241,7 +241,7 @@ pub fn from_several_starts<E: From<Error>>(
     seed: u64,
 ) -> Result<(WeightedCorrelation, usize), E> {
     let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) = (seed, Vec::new(), None);
-    let mut draw = || 0.5 * 4.0_f64.powf((split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64);
+    let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
     for start in 0..starts {
         let first: Vec<f64> = ranges.iter().map(|_| if start == 0 { 1.0 } else { draw() }).collect();
         let found = gauss_newton(&mut analyze, &first, ranges, weights, settings)?;

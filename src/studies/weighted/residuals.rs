@@ -3,7 +3,7 @@
 use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::{Error, positive_setting};
 use crate::method::linear_algebra::{check_finite, check_length};
-use crate::method::model::{ModalModel, Share};
+use crate::method::model::{ModalModel, ONE_WEIGHT, Share};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use crate::studies::noisy_modes::Noise;
@@ -38,8 +38,7 @@ impl Weights {
         [&self.frequency, &self.shape]
             .into_iter()
             .try_for_each(|weights| check_length("weights", weights.len(), modes))?;
-        let (expected, all) =
-            ("a finite number from zero up, one of them positive", self.frequency.iter().chain(&self.shape));
+        let (expected, all) = (ONE_WEIGHT, self.frequency.iter().chain(&self.shape));
         let wrong = all.clone().find(|weight| !(0.0..f64::INFINITY).contains(*weight)).copied();
         let wrong = wrong.or_else(|| all.clone().all(|weight| *weight == 0.0).then_some(0.0));
         wrong.map_or(Ok(()), |found| Err(Error::Setting { name: "weight", expected, found }))

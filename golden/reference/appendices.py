@@ -1,0 +1,193 @@
+"""Appendix B, changes of mass, gradients and truncated sets by numpy: writes expected_appendices.toml beside it.
+
+    python3 golden/reference/appendices.py           (needs numpy; reference.py and elements.py beside it)
+
+It shares no code with the crate and goes other ways where there are any: balance by its own linear equations, the general formulae
+as matrices, gradients forward, parameter by parameter. What numbers it works on stands in the file with what it makes of them.
+"""
+import tomllib
+
+import numpy as np
+import reference
+from reference import GAGES, GVT, HERE
+
+RNG = np.random.default_rng(1947)
+
+
+def listed(matrix):
+    """Rows of a matrix, or a list, in full precision."""
+    matrix = np.asarray(matrix, float)
+    return "[" + ", ".join(map(listed, matrix)) + "]" if matrix.ndim > 1 else "[" + ", ".join("%.17g" % x for x in matrix) + "]"
+
+
+def pencil_modes(k, m):
+    """Modes of a symmetric pencil, mass-orthonormal, ascending."""
+    inverse = np.linalg.inv(np.linalg.cholesky(m))
+    w, y = np.linalg.eigh(inverse @ k @ inverse.T)
+    return w, inverse.T @ y
+
+
+# Appendix B.
+
+def balance_and_orthogonalize():
+    """A free beam of seven points on two soft springs, its four lowest elastic modes with noise."""
+    x = np.linspace(0.0, 60.0, 7)
+    mass = np.diag([0.02, 0.03, 0.05, 0.08, 0.05, 0.03, 0.02]) + 0.002 * (np.eye(7, k=1) + np.eye(7, k=-1))
+    bend = np.zeros((5, 7))
+    for i in range(5):
+        bend[i, i:i + 3] = 1.0, -2.0, 1.0
+    k = bend.T @ np.diag([300.0, 500.0, 800.0, 500.0, 300.0]) @ bend
+    k[1, 1] += 0.05
+    k[5, 5] += 0.08
+    w, v = pencil_modes(k, mass)
+    w = w[2:6] * (1 + 0.01 * RNG.standard_normal(4))
+    raw = v[:, 2:6] * np.array([1.0, -3.0, 0.5, 2.0]) * (1 + 0.05 * RNG.standard_normal((7, 4)))
+    phi = np.column_stack([np.ones(7), x])
+    coefficients, balanced = np.zeros((2, 4)), np.zeros((7, 4))
+    for i in range(4):
+        r = w[i] * mass - k
+        coefficients[:, i] = np.linalg.solve(phi.T @ r @ phi, -phi.T @ r @ raw[:, i])
+        balanced[:, i] = raw[:, i] + phi @ coefficients[:, i]
+    added = phi @ coefficients
+    change = np.sqrt(np.sum(added * (mass @ added), 0) / np.sum(raw * (mass @ raw), 0))
+    unit = balanced / np.sqrt(np.sum(balanced * (mass @ balanced), 0))
+    m1 = unit.T @ mass @ unit
+    w_new, q = pencil_modes(np.diag(w), m1)
+    shapes = unit @ q
+    cross = shapes.T @ mass @ unit
+    order = np.abs(cross).argmax(0)
+    shapes, w_new = shapes[:, order] * np.sign(cross[order, range(4)]), w_new[order]
+    moved = shapes - unit
+    movement = np.sqrt(np.sum(moved * (mass @ moved), 0))
+    return ["[appendix_b]"] + [f"{name} = {listed(value)}" for name, value in dict(
+        stiffness=k, mass=mass, rigid_body=phi, omega_squared=w, raw=raw, coefficients=coefficients, balanced=balanced, change=change,
+        overlap=m1, orthogonal_omega_squared=w_new, orthogonal=shapes, frequency_movement=np.sqrt(w_new / w) - 1,
+        shape_movement=movement).items()]
+
+
+# Appendix C with changes of mass: A g - G on column p, A = k + beta, G = 1 + alpha.
+
+def general_recursive_1(k, beta, alpha, order):
+    n = len(k)
+    big_a, big_g = np.diag(k) + beta, np.eye(n) + alpha
+    roots, p = np.diag(big_g) / np.diag(big_a), np.eye(n, dtype=big_a.dtype)
+    for _ in range(order):
+        new, q = roots.copy(), p.copy()
+        for j in range(n):
+            f = big_a * roots[j] - big_g
+            rest = f @ p[:, j] - np.diag(f) * p[:, j]
+            q[:, j] = -rest / np.where(np.arange(n) == j, 1.0, np.diag(f))
+            q[j, j] = 1.0
+            new[j] = (big_g[j, j] - rest[j]) / big_a[j, j]
+        roots, p = new, q
+    return roots, p
+
+
+def explicit_roots(k, beta, alpha, p):
+    return np.diag((np.eye(len(k)) + alpha) @ p) / np.diag((np.diag(k) + beta) @ p)
+
+
+def general_recursive_2(k, beta, alpha, order):
+    n = len(k)
+    roots, p = general_recursive_1(k, beta, alpha, 1)
+    for _ in range(order - 1):
+        roots, p = explicit_roots(k, beta, alpha, p), p.copy()
+        for j in range(n):
+            f = (np.diag(k) + beta) * roots[j] - np.eye(n) - alpha
+            rest = [i for i in range(n) if i != j]
+            p[rest, j] = np.linalg.solve(f[np.ix_(rest, rest)], -f[rest, j])
+    return roots, p
+
+
+def exact(k, beta, alpha):
+    """Roots and shapes of the changed pencil, each in the place of the mode that it is most like."""
+    roots, p = np.linalg.eig(np.linalg.solve(np.diag(k) + beta, np.eye(len(k)) + alpha))
+    order = np.abs(p).argmax(0).argsort()
+    return roots[order], p[:, order] / np.diag(p[:, order])
+
+
+def changes_of_mass():
+    k = np.array([1.0, 2.3, 4.9, 9.0, 17.0])
+    root = np.sqrt(np.outer(k, k))
+    noise = lambda: RNG.standard_normal((5, 5))
+    symmetric = lambda m: (m + m.T) / 2
+    lines = []
+    for name, beta, alpha in (
+        ("symmetric", 0.01 * root * symmetric(noise()), 0.01 * symmetric(noise())),
+        ("unsymmetric", 0.01 * root * noise(), 0.01 * noise()),
+        ("complex", 0.01 * root * (noise() + 1j * noise()), 0.01 * (noise() + 1j * noise())),
+    ):
+        answers = {"original": general_recursive_1(k, beta, alpha, 1)}
+        answers["original"] = explicit_roots(k, beta, alpha, answers["original"][1]), answers["original"][1]
+        for order in (1, 2, 3, 5):
+            answers[f"recursive_1_{order}"] = general_recursive_1(k, beta, alpha, order)
+            answers[f"recursive_2_{order}"] = general_recursive_2(k, beta, alpha, order)
+        answers["exact"] = exact(k, beta, alpha)
+        values = {"beta": beta, "alpha": alpha}
+        for rule, (roots, shapes) in answers.items():
+            values |= {f"{rule}_roots": roots, f"{rule}_shapes": shapes}
+        lines += [f"[appendix_c_{name}]", f"k = {listed(k)}"]
+        for key, value in values.items():
+            lines += [f"{key} = {listed(np.real(value))}"]
+            lines += [f"{key}_imaginary = {listed(np.imag(value))}"] if np.iscomplexobj(value) else []
+    return lines
+
+
+# Gradients of the error sum, forward.
+
+def gradient(f, v, fg, vg, mass, shares, of_mass=False):
+    """d e_S/d c of every share: modal derivatives of each parameter, then those of (5) and (6)."""
+    w = (2 * np.pi * f) ** 2
+    order = np.abs(v.T @ (mass[:, None] * vg)).argmax(0)
+    sign = np.sign(np.sum(v[:, order] * mass[:, None] * vg, 0))
+    ef, ev = reference.errors(f, v, fg, vg, mass)
+    slopes = []
+    for share in shares:
+        kappa = v.T @ share @ v
+        df, dv = 0.0, 0.0
+        for j, i in enumerate(order):
+            column = -w[i] * kappa[:, i] if of_mass else kappa[:, i]
+            others = np.arange(len(f)) != i
+            turn = v[:, others] @ (column[others] / (w[i] - w[others]))
+            df += (f[i] / fg[j] - 1) * (f[i] * column[i] / (2 * w[i])) / fg[j]
+            m = np.abs(v[:, i]).argmax()
+            largest = sign[j] * abs(v[m, i])
+            unit = v[:, i] / largest
+            d_unit = (turn - v[:, i] * turn[m] / v[m, i]) / largest
+            dv += (unit - vg[:, j] / np.abs(vg[:, j]).max()) @ d_unit / len(mass)
+        slopes.append(df / ef + dv / ev)
+    return np.array(slopes)
+
+
+def gradients(box):
+    lines = []
+    for case, tests, analysis in ((1, 9, 9), (2, 9, 9), (3, 9, 9), (4, 9, 9), (2, 5, 9), (2, 5, 5), (2, 3, 7)):
+        fg, vg = box.modes(box.dynamic(case, GVT)[0])
+        kd, shares = box.dynamic(case, GAGES[f"case {case} initial"])
+        f, v = box.modes(kd)
+        f, v, fg, vg = f[:analysis], v[:, :analysis], fg[:tests], vg[:, :tests]
+        by_mass = gradient(f, v, fg, vg, box.mass, [np.diag(box.mass * (np.arange(9) == dof)) for dof in range(9)], True)
+        lines += [f'["gradient, case {case}, {tests} test and {analysis} analysis modes"]',
+                  f"stiffness = {listed(gradient(f, v, fg, vg, box.mass, shares))}", f"mass = {listed(by_mass)}"]
+    return lines
+
+
+def truncated(box):
+    """The exact check of the runs of Tables 9 to 12, by the reading that they were run with."""
+    lines = []
+    for test, fem in ((7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)):
+        (r,) = reference.correlate(box, 2, GAGES["case 2 initial"], 1, None, "relative", 1.0, None, test, fem)
+        lines += [f'["case 2, {test} test and {fem} analysis modes"]', f"frequencies = {listed(r['frequencies'])}",
+                  f"rms = {listed([r['frequency_rms'], r['shape_rms']])}"]
+    return lines
+
+
+def main():
+    box = reference.Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
+    lines = ["# written by appendices.py; rows of matrices, units as in the crate"]
+    lines += balance_and_orthogonalize() + changes_of_mass() + gradients(box) + truncated(box)
+    (HERE / "expected_appendices.toml").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+//! The samples of a study as a file has them, one a line, and what they come to.
+
+use super::Study;
+use super::study::{FAILED, digest};
+use crate::files::error::FileError;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Bars of a histogram.
+const BARS: usize = 24;
+/// The parts of all samples below the quantiles.
+const PARTS: [f64; 3] = [0.025, 0.5, 0.975];
+
+/// Where the samples of a file stand: some forty bytes for each, whatever the number of parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Samples {
+    path: PathBuf,
+    /// By number, where its line begins, and a digest of it.
+    places: BTreeMap<u64, (u64, u64)>,
+    /// Bytes of whole lines: what follows is a line that was torn.
+    pub whole: u64,
+}
+
+/// The factor of one parameter over the samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; zero of one sample.
+    pub deviation: f64,
+    /// The quantiles of 2.5, 50 and 97.5 %, linear between neighbors in order.
+    pub quantiles: [f64; 3],
+    /// Least and largest.
+    pub ends: [f64; 2],
+    /// How many samples lie in each of equal intervals between them.
+    pub bars: Vec<usize>,
+}
+
+/// What samples come to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// By parameter; none without a sample that did not fail.
+    pub spreads: Vec<(String, Option<Spread>)>,
+    /// Samples within tolerance.
+    pub within: usize,
+    /// Samples outside.
+    pub outside: usize,
+    /// Numbers of those that failed.
+    pub failed: Vec<u64>,
+}
+
+impl Samples {
+    /// Reads a file of lines in any order; a header may stand anywhere, and a sample again as it was. No file has no samples.
+    ///
+    /// # Errors
+    /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study, one that is no sample, and a sample that comes again
+    /// with other numbers.
+    pub fn read(path: &Path, study: &Study) -> Result<Self, FileError> {
+        let mut samples = Self { path: path.to_owned(), places: BTreeMap::new(), whole: 0 };
+        let mut reader = match File::open(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(samples),
+            file => BufReader::new(file.map_err(FileError::of_file(path, "read"))?),
+        };
+        let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
+        for number in 1.. {
+            bytes.clear();
+            let length = reader.read_until(b'\n', &mut bytes).map_err(FileError::of_file(path, "read"))?;
+            if bytes.last() != Some(&b'\n') {
+                break;
+            }
+            let (text, at) = (String::from_utf8_lossy(&bytes), samples.whole);
+            samples.whole += length as u64;
+            if text.trim_end() == header.trim_end() || text.trim().is_empty() {
+                continue;
+            }
+            let name = path.display().to_string();
+            let wrong = |expected| Err(FileError::line(&name, number, expected, text.trim_end()));
+            let cells: Vec<&str> = text.trim_end().split(',').collect();
+            let (Some(sample), true) = (cells[0].parse().ok(), cells.len() == count + 6) else {
+                return wrong("a line of a sample of this study");
+            };
+            if cells[count + 5] != format!("{:016x}", study.identity) {
+                return wrong("a sample of this job, seed and choice of what varies");
+            }
+            let is_number = |cell: &&str| cell.parse::<f64>().is_ok_and(f64::is_finite);
+            if cells[1] != FAILED && !cells[3..count + 5].iter().all(is_number) {
+                return wrong("error sum, analyses and factors as numbers");
+            }
+            let digest = digest(text.trim_end().as_bytes(), 0);
+            if samples.places.insert(sample, (at, digest)).is_some_and(|(_, before)| before != digest) {
+                return wrong("a sample once, or again as it was");
+            }
+        }
+        Ok(samples)
+    }
+
+    /// Whether a sample is there.
+    pub fn contains(&self, sample: u64) -> bool {
+        self.places.contains_key(&sample)
+    }
+
+    /// What the samples up to the number `last` come to, the same whatever their order in the file. The numbers of one parameter at a
+    /// time are held.
+    ///
+    /// # Errors
+    /// [`FileError::File`].
+    pub fn summary(&self, study: &Study, last: u64) -> Result<Summary, FileError> {
+        let mut summary = Summary { spreads: Vec::new(), within: 0, outside: 0, failed: Vec::new() };
+        self.each(last, |sample, cells| match cells[1..3] {
+            [FAILED, _] => summary.failed.push(sample),
+            [_, "true"] => summary.within += 1,
+            _ => summary.outside += 1,
+        })?;
+        for (place, name) in study.parameters().enumerate() {
+            let mut values = Vec::new();
+            // What failed has no number.
+            self.each(last, |_, cells| values.extend(cells[place + 5].parse::<f64>().ok()))?;
+            summary.spreads.push((name.to_owned(), spread(values)));
+        }
+        Ok(summary)
+    }
+
+    /// Calls with every sample up to `last`, ascending, and the cells of its line.
+    fn each(&self, last: u64, mut with: impl FnMut(u64, &[&str])) -> Result<(), FileError> {
+        let failed = FileError::of_file(&self.path, "read");
+        let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
+        let (mut now, mut line) = (0, String::new());
+        for (&sample, &(at, _)) in self.places.range(..=last) {
+            // Within what is read already nothing is read again.
+            reader.seek_relative(at as i64 - now as i64).map_err(&failed)?;
+            line.clear();
+            now = at + reader.read_line(&mut line).map_err(&failed)? as u64;
+            with(sample, &line.trim_end().split(',').collect::<Vec<_>>());
+        }
+        Ok(())
+    }
+}
+
+/// What the numbers of one parameter come to.
+fn spread(mut values: Vec<f64>) -> Option<Spread> {
+    let count = values.len();
+    let mean = values.iter().sum::<f64>() / count as f64;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    values.sort_unstable_by(f64::total_cmp);
+    let ends = [*values.first()?, *values.last()?];
+    let quantile = |part: f64| {
+        let at = part * (count - 1) as f64;
+        let (below, above) = (values[at.floor() as usize], values[at.ceil() as usize]);
+        below + at.fract() * (above - below)
+    };
+    let mut bars = vec![0; BARS];
+    for value in &values {
+        // Of equal numbers none is no number, and stands in the first bar.
+        bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
+    }
+    let deviation = (squares / count.saturating_sub(1).max(1) as f64).sqrt();
+    Some(Spread { mean, deviation, quantiles: PARTS.map(quantile), ends, bars })
+}

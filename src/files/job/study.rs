@@ -1,0 +1,160 @@
+//! Many runs of one job: each sample is drawn from the study's seed and its own number alone, whatever ran before it.
+
+use super::model::beside;
+use super::run::run_from;
+use super::{Finished, Job, Prepared};
+use crate::files::error::FileError;
+use crate::files::test_data::quoted;
+use crate::method::modes::ModeSet;
+use crate::method::verdict::Outcome;
+use crate::studies::noisy_modes::{Noise, split_mix_64, uniform, with_noise_by_mode};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What differs from sample to sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Vary {
+    /// The test: every frequency and component by its standard deviation, see [`Prepared::deviations`].
+    Noise,
+    /// The first point, instead of the job's: factors from 0.5 to 2, log-uniformly, brought within their bounds.
+    Start,
+    /// Sensors or modes, either as likely: up to half of them are left out.
+    Subset,
+}
+
+/// A job that is run many times.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The job as it is.
+    pub prepared: Prepared,
+    /// The seed.
+    pub seed: u64,
+    /// What varies, each once, ascending.
+    pub vary: Vec<Vary>,
+    /// A digest of the job's file, of the files it names, of seed and of what varies: samples with another do not belong to it.
+    pub identity: u64,
+}
+
+impl Study {
+    /// Reads a job to be run many times.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::new`].
+    pub fn new(path: &Path, seed: u64, vary: &[Vary]) -> Result<Self, FileError> {
+        let prepared = Prepared::new(path)?;
+        let mut vary = vary.to_vec();
+        vary.sort_unstable();
+        vary.dedup();
+        let job = &prepared.job;
+        let mut identity = digest(format!("{} {seed} {vary:?}", env!("CARGO_PKG_VERSION")).as_bytes(), 0);
+        let model = [&job.model.deck, &job.model.stiffness, &job.model.mass, &job.model.rows];
+        let named = model.into_iter().chain(job.parameters.iter().map(|rule| &rule.matrix)).flatten();
+        let named = named.chain([&job.test.file]).map(|file| beside(path, file));
+        for file in named.chain([path.to_owned()]) {
+            // Behind a # may stand which matrix of the file.
+            let text = file.to_string_lossy();
+            let of_matrix = |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
+            let bytes = std::fs::read(&file).or_else(of_matrix).map_err(FileError::of_file(&file, "read"))?;
+            identity = digest(&bytes, identity);
+        }
+        Ok(Self { prepared, seed, vary, identity })
+    }
+
+    /// Names of the parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = &str> {
+        self.prepared.source.whole.parameters().iter().map(|parameter| parameter.name.as_str())
+    }
+
+    /// The line above the samples.
+    pub fn header(&self) -> String {
+        let names: Vec<String> = self.parameters().map(quoted).collect();
+        format!("sample,outcome,within,error_sum,analyses,{},study\n", names.join(","))
+    }
+
+    /// The job of a sample, and its first factors.
+    ///
+    /// # Errors
+    /// Those of [`with_noise_by_mode`] and [`Prepared::with`].
+    pub fn draw(&self, sample: u64) -> Result<(Prepared, Vec<f64>), FileError> {
+        let Prepared { path, job, data, source, .. } = &self.prepared;
+        let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
+        // A generator for each purpose: what varies beside it changes nothing of it.
+        let generator = |what: Vary| {
+            let parts = [self.seed, sample, what as u64];
+            let state = parts.into_iter().fold(0, |state, part| split_mix_64(&mut (state ^ part)));
+            self.vary.contains(&what).then_some(state)
+        };
+        if let Some(seed) = generator(Vary::Noise) {
+            let noise: Vec<Noise> = (0..data.frequencies_hz.len()).map(|mode| self.prepared.deviations(mode)).collect();
+            let noisy = with_noise_by_mode(&ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?, &noise, seed)?;
+            (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes);
+        }
+        generator(Vary::Subset).into_iter().for_each(|state| self.leave_out(&mut job, state));
+        let mut start = vec![1.0; ranges.len()];
+        if let Some(mut state) = generator(Vary::Start) {
+            for (factor, range) in start.iter_mut().zip(&ranges) {
+                let drawn = 0.5 * 4.0_f64.powf(uniform(&mut state));
+                *factor = range.map_or(drawn, |range| range.clamp(drawn));
+            }
+        }
+        Ok((Prepared::with(path, job, data, source.clone())?, start))
+    }
+
+    /// Leaves out of a job up to half of its sensors or of its modes.
+    fn leave_out(&self, job: &mut Job, mut state: u64) {
+        let mut uniform = || uniform(&mut state);
+        let is_sensors = uniform() < 0.5;
+        let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=self.prepared.data.frequencies_hz.len()).collect());
+        let count = if is_sensors { self.prepared.placed.len() } else { numbers.len() };
+        let mut places: Vec<usize> = (0..count).collect();
+        let out = (0.5 * uniform() * count as f64).ceil().min(count.saturating_sub(1) as f64) as usize;
+        for place in 0..out {
+            places.swap(place, place + (uniform() * (count - place) as f64) as usize);
+        }
+        let (out, kept) = places.split_at_mut(out);
+        kept.sort_unstable();
+        if is_sensors {
+            job.sensors.leave_out.extend(out.iter().map(|&row| self.prepared.placed[row].name.clone()));
+            return;
+        }
+        job.test.modes = Some(kept.iter().map(|&place| numbers[place]).collect());
+        for weights in [&mut job.compare.frequency_weights, &mut job.compare.shape_weights].into_iter().flatten() {
+            *weights = kept.iter().filter_map(|&place| weights.get(place).copied()).collect();
+        }
+    }
+
+    /// Runs a sample as [`super::run`] runs a job: its line with number, outcome, whether within tolerance, error sum, exact analyses,
+    /// factors and [`Self::identity`], and why it failed if it did, with nothing between outcome and identity. `go_on` is asked on
+    /// the way whether to.
+    ///
+    /// # Errors
+    /// [`FileError::Interrupted`] when it was not to go on.
+    pub fn run(&self, sample: u64, go_on: impl Fn() -> bool) -> Result<(String, Option<FileError>), FileError> {
+        let run = |(prepared, start): (Prepared, Vec<f64>)| run_from(&prepared, &start, |_| {}, go_on);
+        let (numbers, failure) = match self.draw(sample).and_then(run) {
+            Ok(Finished { is_interrupted: true, .. }) => return Err(FileError::Interrupted),
+            Ok(Finished { verdict, analyses, factors, .. }) => {
+                let outcome = match verdict.outcome {
+                    Outcome::Tolerance => "tolerance",
+                    Outcome::LocalMinimum => "local minimum",
+                    Outcome::Cap => "cap",
+                    Outcome::Nothing => "nothing",
+                };
+                let factors: String = factors.iter().map(|factor| format!(",{factor}")).collect();
+                (format!("{outcome},{},{},{analyses}{factors}", verdict.is_within, verdict.error_sum), None)
+            }
+            Err(error) => (format!("{FAILED},,,{}", ",".repeat(self.parameters().count())), Some(error)),
+        };
+        Ok((format!("{sample},{numbers},{:016x}\n", self.identity), failure))
+    }
+}
+
+/// The outcome of a sample that failed.
+pub(super) const FAILED: &str = "failed";
+
+/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
+pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
+    let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)
+}

@@ -1,0 +1,124 @@
+//! `corfem study`: a job many times, its test varied by what it may be wrong by.
+
+use super::folder::{check_folder, put_all};
+use super::output::{OutputArguments, say};
+use super::settings::named;
+use super::{progress, signals};
+use clap::Args;
+use corfem::files::error::FileError;
+use corfem::files::job::{Samples, Study, Vary};
+use corfem::present::figures::histogram;
+use corfem::present::tables::study::study_table;
+use corfem::present::{PresentError, json, render};
+use std::fs::{File, OpenOptions};
+use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{available_parallelism, scope};
+
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// The job: corfem init explains its entries
+    #[arg(value_name = "JOB")]
+    job: PathBuf,
+    /// How many samples
+    #[arg(long, value_name = "N", required_unless_present = "sample", value_parser = clap::value_parser!(u64).range(1..))]
+    samples: Option<u64>,
+    /// The seed: sample and seed alone decide what is drawn
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// What varies: noise on the test by its standard deviations, the start, and which subset of sensors or modes is used
+    #[arg(long, value_delimiter = ',', default_value = "noise", value_parser = named::<Vary>)]
+    vary: Vec<Vary>,
+    /// The folder of samples.csv, made if it is new, which is gone on with, and of summary.csv and histogram.svg
+    #[arg(long, value_name = "DIR", required_unless_present = "sample")]
+    folder: Option<PathBuf>,
+    /// How many samples are run at a time; as many as there are cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    threads: Option<u32>,
+    /// Run this one sample alone, and write its line instead of a report
+    #[arg(long, value_name = "K", conflicts_with_all = ["samples", "folder", "threads"], value_parser = clap::value_parser!(u64).range(1..))]
+    sample: Option<u64>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Runs the samples that a folder does not have yet, and says what all come to; or one sample alone.
+pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError> {
+    arguments.output.check()?;
+    arguments.folder.as_deref().map_or(Ok(()), check_folder)?;
+    let study = Study::new(&arguments.job, arguments.seed, &arguments.vary)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    signals::tell(&stop);
+    // Held until what is done is written, so that a request to stop ends the program then.
+    let _held = signals::hold();
+    let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
+        let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
+        failure.into_iter().for_each(|failure| say(format_args!("corfem: {failure}")));
+        return arguments.output.put(&line);
+    };
+    if !folder.is_dir() {
+        std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
+    }
+    let path = folder.join("samples.csv");
+    let (file, found) = opened(&path, &study)?;
+    let cores = || available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or_else(cores, |count| count as usize);
+    let missing = (1..=last).filter(|sample| !found.contains(*sample));
+    let bar = progress::bar(quiet, missing.clone().count() as u64);
+    let (missing, written) = (Mutex::new(missing), Mutex::new((file, Ok(()))));
+    scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let next = || missing.lock().unwrap_or_else(PoisonError::into_inner).next();
+                while let Some(sample) = next().filter(|_| !stop.load(SeqCst)) {
+                    let Ok((line, _)) = study.run(sample, || !stop.load(SeqCst)) else { return };
+                    let (file, done) = &mut *written.lock().unwrap_or_else(PoisonError::into_inner);
+                    // Behind a line that is torn nothing is written.
+                    if done.is_err() {
+                        return;
+                    }
+                    *done = file.write_all(line.as_bytes());
+                    bar.inc(1);
+                }
+            });
+        }
+    });
+    bar.finish_and_clear();
+    let (_file, done) = written.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.map_err(FileError::of_file(&path, "write"))?;
+    let samples = Samples::read(&path, &study)?;
+    let left = (1..=last).filter(|sample| !samples.contains(*sample)).count();
+    if left > 0 {
+        say(format_args!(
+            "corfem: stopped by request; {} of {last} samples are done, and the same command goes on",
+            last - left as u64
+        ));
+        return Ok(());
+    }
+    let summary = samples.summary(&study, last)?;
+    let tables = [study_table(&study, &summary)];
+    let figure = histogram::draw("histogram", &tables[0].title, &summary)?;
+    let files = [("summary.csv", render::csv(&tables)), ("histogram.svg", figure)];
+    put_all(folder, &files.map(|(name, text)| (name.to_owned(), text.into_bytes())))?;
+    arguments.output.write(&tables, || json::tables(&tables))
+}
+
+/// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.
+fn opened(path: &Path, study: &Study) -> Result<(File, Samples), FileError> {
+    let failed = FileError::of_file(path, "write");
+    let mut file =
+        OpenOptions::new().create(true).read(true).write(true).truncate(false).open(path).map_err(&failed)?;
+    if matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock)) {
+        return Err(failed(Error::new(ErrorKind::ResourceBusy, "another study is writing it")));
+    }
+    let samples = Samples::read(path, study)?;
+    let begin = |file: &mut File| {
+        file.set_len(samples.whole)?;
+        file.seek(SeekFrom::End(0))?;
+        if samples.whole == 0 { file.write_all(study.header().as_bytes()) } else { Ok(()) }
+    };
+    begin(&mut file).map_err(failed)?;
+    Ok((file, samples))
+}

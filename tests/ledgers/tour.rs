@@ -1,0 +1,110 @@
+//! The tour in `paper/tour`: its figures are what the program computes, and every number in its sentences stands in its code.
+//!
+//! Its code itself is compiled and run with the documentation tests. `CORFEM_DOCUMENTS=write cargo test tour` writes its figures anew.
+
+use crate::common::golden::Numbers;
+use crate::ledgers::documents::with_block;
+use crate::ledgers::tour_figures::figures;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour")
+}
+
+/// The chapters by the two digits of their number.
+fn chapters() -> BTreeMap<String, (PathBuf, String)> {
+    let files = fs::read_dir(folder()).expect("it reads").map(|entry| entry.expect("an entry").path());
+    let chapter = |path: PathBuf| {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).expect("it reads");
+        (name[..2].to_owned(), (path, text))
+    };
+    files.map(chapter).collect()
+}
+
+#[test]
+fn figures_in_the_tour_are_what_the_program_computes() {
+    // Places to a tenth of a pixel: another machine's last digit may round them the other way.
+    let places = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let figures = figures();
+    for (number, (path, text)) in chapters() {
+        let svg = figures.get(&*number).unwrap_or_else(|| panic!("chapter {number} has no figure"));
+        let (now, count) = with_block(&text, &format!("figure_{number}"), svg);
+        assert_eq!(count, 1, "chapter {number}");
+        if std::env::var("CORFEM_DOCUMENTS").is_ok_and(|value| value == "write") {
+            fs::write(path, now).expect("it can be written");
+        } else {
+            let is_same = places.agree(&text, &now);
+            assert!(is_same, "the figure of chapter {number} is another; CORFEM_DOCUMENTS=write writes it anew");
+        }
+    }
+}
+
+/// Numbers with a decimal point in a text, without their signs.
+fn decimals(text: &str) -> Vec<String> {
+    let is_number = |c: char| c.is_ascii_digit() || c == '.';
+    let words = text.split(|c: char| !is_number(c)).map(|word| word.trim_matches('.'));
+    words.filter(|word| word.matches('.').count() == 1).map(str::to_owned).collect()
+}
+
+/// What a chapter says in sentences, tables and formulas, and what it computes, each as one text.
+fn said_and_computed(markdown: &str) -> (String, String) {
+    let (mut said, mut computed, mut in_code) = (String::new(), String::new(), false);
+    for event in Parser::new_ext(markdown, Options::ENABLE_TABLES) {
+        match event {
+            Event::Start(Tag::CodeBlock(_)) => in_code = true,
+            Event::End(TagEnd::CodeBlock) => in_code = false,
+            Event::Text(text) | Event::Code(text) => {
+                let into = if in_code { &mut computed } else { &mut said };
+                into.push_str(&text);
+                into.push(' ');
+            }
+            Event::SoftBreak | Event::End(_) => said.push('\n'),
+            _ => (),
+        }
+    }
+    // A comment computes nothing.
+    let code = computed.lines().map(|line| line.split("//").next().unwrap_or_default());
+    (said.clone(), code.collect::<Vec<_>>().join("\n"))
+}
+
+/// Numbers that are said and stand nowhere in the code.
+fn only_said(markdown: &str) -> Vec<String> {
+    let (said, computed) = said_and_computed(markdown);
+    let computed = decimals(&computed);
+    decimals(&said).into_iter().filter(|number| !computed.contains(number)).collect()
+}
+
+#[test]
+fn every_number_said_in_the_tour_stands_in_its_code() {
+    for (number, (_, text)) in chapters() {
+        let text = text.replace("C.", "C");
+        assert_eq!(only_said(&text), [""; 0], "chapter {number}");
+    }
+}
+
+#[test]
+fn every_chapter_has_its_parts() {
+    for (number, (_, text)) in chapters() {
+        assert!(text.starts_with(&format!("# {}. ", number.trim_start_matches('0'))), "chapter {number}");
+        for part in ["```rust\n", "\n*Figure ", "\n## Exercise", "<details><summary>Answer</summary>"] {
+            assert!(text.contains(part), "chapter {number} has no {part:?}");
+        }
+        let answer = text.split("<summary>Answer</summary>").nth(1).expect("an answer");
+        assert!(answer.contains("```rust\n"), "the answer of chapter {number} is not computed");
+        for fence in text.lines().filter(|line| line.starts_with("```") && line.len() > 3) {
+            assert!(["```rust", "```text", "```sh"].contains(&fence), "chapter {number} does not run {fence}");
+        }
+        let words = said_and_computed(&text).0.split_whitespace().count();
+        assert!((450..1700).contains(&words), "chapter {number} has {words} words: ten minutes are what a reader has");
+    }
+}
+
+#[test]
+fn the_check_finds_a_number_that_is_said_alone() {
+    assert_eq!(only_said("It is 1.25.\n\n```rust\nlet x = 1.5; // 1.25\n```\n"), ["1.25"]);
+    assert_eq!(only_said("It is −1.5 %, $1.5$.\n\n```rust\nassert_eq!(x, \"1.5\");\n```\n"), [""; 0]);
+}

@@ -1,0 +1,175 @@
+//! The figures of the tour that show the paper's box.
+
+use crate::common::sketch::{Mark, Series, Sketch};
+use corfem::cases::published::PublishedTable;
+use corfem::cases::torque_box::TEST_GAGE;
+use corfem::cases::{Case, run_case};
+use corfem::method::appendix_c::general::{ModalChange, recursive_2};
+use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
+use corfem::method::error_sum::Errors;
+use corfem::method::model::ModalModel;
+use corfem::method::modes::solve;
+use corfem::studies::noisy_modes::Noise;
+use corfem::studies::weighted::identifiability::identifiability;
+use corfem::studies::weighted::residuals::{Weights, jacobian};
+use nalgebra::DMatrix;
+
+/// A case's first model, and the change of its first pass in modal coordinates.
+fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
+    let case = Case::new(number).expect("a case");
+    let test = case.test_modes().expect("modes");
+    let modal = case.model().and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?)).expect("a model");
+    let result = run_case(&case, |_, _| {}).expect("a run");
+    let factors = &result.correlation.passes[0].inner.last.factors;
+    let beta = modal.shares.iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share.matrix()).sum();
+    (modal, beta)
+}
+
+pub fn orders() -> Sketch {
+    let error = |found: &Perturbed, exact: &Perturbed| {
+        100.0 * found.roots.zip_map(&exact.roots, |a, b| ((b / a).sqrt() - 1.0).abs()).max()
+    };
+    let of_case = |name, number, mark, is_first: bool| {
+        let (modal, beta) = first_pass(number);
+        let k = &modal.exact.modes.omega_squared;
+        let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
+        let exact = eigensolution(&change).expect("modes");
+        let by = |order| if is_first { recursive_1(k, &beta, order) } else { recursive_2(&change, order) };
+        let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
+        Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "Frequency errors of the recursions against their order",
+        labels: ["order", "largest error of a frequency, %"],
+        x: (1.0, 6.0),
+        y: (1e-10, 1e2),
+        is_logarithmic: true,
+        series: vec![
+            of_case("Case 1, Recursive 1", 1, Mark::Line, true),
+            of_case("Case 2, Recursive 1", 2, Mark::Line, true),
+            of_case("Case 3, Recursive 1", 3, Mark::Line, true),
+            of_case("Case 3, Recursive 2", 3, Mark::Dashed, false),
+        ],
+    }
+}
+
+pub fn history() -> Sketch {
+    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let passes = &result.correlation.passes;
+    let mut errors = vec![(0.0, result.correlation.initial.errors)];
+    let mut checks = Vec::new();
+    for pass in passes {
+        let before = errors.len();
+        errors.extend((before..).map(|n| n as f64).zip(pass.inner.iterations.iter().map(|step| step.errors)));
+        checks.push((errors.len() as f64 - 1.0, 100.0 * pass.check.errors.sum()));
+    }
+    let series = |name, mark, of: fn(&Errors) -> f64| {
+        Series::new(name, mark, errors.iter().map(|(n, errors)| (*n, 100.0 * of(errors))).collect::<Vec<_>>())
+    };
+    Sketch {
+        title: "Case 2 through both passes",
+        labels: ["iteration", "error, %"],
+        x: (0.0, 65.0),
+        y: (0.1, 1e3),
+        is_logarithmic: true,
+        series: vec![
+            series("error sum", Mark::Line, Errors::sum),
+            series("frequency error", Mark::Dashed, |errors| errors.frequency),
+            series("shape error", Mark::Dashed, |errors| errors.shape),
+            Series::new("exact error sum", Mark::Dots, checks),
+        ],
+    }
+}
+
+/// Frequencies of Case 2 at its published gages, by shapes and by loads of the first model, beside the exact ones.
+pub fn bounds() -> Sketch {
+    let model = Case::new(2).and_then(|case| case.model()).expect("a model");
+    let table = PublishedTable::number(6).expect("Table 6");
+    let gage = |panel: usize| table.required(&panel.to_string(), "pass_1_in").expect("a gage");
+    let factors: Vec<f64> = (1..=15).map(|panel| gage(panel) / 0.015).collect();
+    let first = model.matrices(&[1.0; 15]).expect("matrices");
+    let flexibility = first.stiffness.clone().try_inverse().expect("regular");
+    let (mut above, mut below) = (first.stiffness.clone(), flexibility.clone());
+    for (share, factor) in first.shares.iter().zip(&factors) {
+        above += (factor - 1.0) * share.matrix();
+        below += (1.0 / factor - 1.0) * &flexibility * share.matrix() * &flexibility;
+    }
+    let exact = model.modes(&factors).expect("modes").frequencies_hz();
+    let series = |name, mark, stiffness: DMatrix<f64>| {
+        let found = solve(&(0.5 * (&stiffness + stiffness.transpose())), &first.mass, 9).expect("modes");
+        let ratios = found.frequencies_hz().into_iter().zip(&exact).map(|(found, exact)| 100.0 * (found / exact - 1.0));
+        Series::new(name, mark, (1..).map(f64::from).zip(ratios))
+    };
+    Sketch {
+        title: "Two bounds on the frequencies of Case 2",
+        labels: ["mode", "difference from the exact frequency, %"],
+        x: (0.0, 10.0),
+        y: (-1.0, 1.5),
+        is_logarithmic: false,
+        series: vec![
+            series("shapes frozen (above)", Mark::Bars, above),
+            series("loads frozen (below)", Mark::Bars, below.try_inverse().expect("regular")),
+        ],
+    }
+}
+
+/// Gage errors of Case 2 at its end, percent.
+fn final_gage_errors() -> Vec<f64> {
+    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let gages = result.pass_gages.last().expect("a pass");
+    gages.iter().map(|gage| 100.0 * (gage / TEST_GAGE - 1.0)).collect()
+}
+
+/// Numbers of the fifteen panels beside them.
+fn by_panel(values: Vec<f64>) -> Vec<(f64, f64)> {
+    (1..).map(f64::from).zip(values).collect()
+}
+
+pub fn gages() -> Sketch {
+    let table = PublishedTable::number(6).expect("Table 6");
+    let published = |panel: usize| table.required(&panel.to_string(), "pass_2_percent").expect("an error");
+    Sketch {
+        title: "Case 2: gage errors at the end",
+        labels: ["panel", "gage error, %"],
+        x: (0.0, 16.0),
+        y: (-20.0, 70.0),
+        is_logarithmic: false,
+        series: vec![
+            Series::new("computed", Mark::Bars, by_panel(final_gage_errors())),
+            Series::new("published", Mark::Dots, by_panel((1..=15).map(published).collect())),
+        ],
+    }
+}
+
+pub fn demands() -> Sketch {
+    let result = Case::new(4).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    Sketch {
+        title: "Case 4: unlimited factors of the first iteration",
+        labels: ["panel", "unlimited factor"],
+        x: (0.0, 16.0),
+        y: (-20.0, 70.0),
+        is_logarithmic: false,
+        series: vec![Series::new("factor asked for", Mark::Bars, by_panel(result.unlimited_factors().to_vec()))],
+    }
+}
+
+pub fn deviations() -> Sketch {
+    let case = Case::new(2).expect("a case");
+    let test = case.test_modes().expect("modes");
+    let model = case.model_with(&[TEST_GAGE; 15]).expect("a model").analyze(&[1.0; 15], &test, None).expect("a model");
+    let weights = Weights::uniform(Noise::USUAL, 9).expect("weights");
+    let seen = jacobian(&model, &weights).and_then(|jacobian| identifiability(&jacobian, 1.0)).expect("what is seen");
+    let percents = seen.deviations.iter().map(|deviation| 100.0 * deviation).collect();
+    let errors = final_gage_errors().into_iter().map(f64::abs).collect();
+    Sketch {
+        title: "What nine noisy modes know of the panels of Case 2",
+        labels: ["panel", "%"],
+        x: (0.0, 16.0),
+        y: (0.0, 100.0),
+        is_logarithmic: false,
+        series: vec![
+            Series::new("standard deviation of the factor", Mark::Bars, by_panel(percents)),
+            Series::new("gage error left in Case 2", Mark::Dots, by_panel(errors)),
+        ],
+    }
+}

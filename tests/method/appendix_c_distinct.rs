@@ -1,0 +1,43 @@
+//! A recursion that has settled has every mode once.
+
+use crate::common::appendix_c::change_of;
+use crate::common::tolerances::SETTLED_ROOTS;
+use corfem::method::appendix_c::general::{self, ModalChange};
+use corfem::method::appendix_c::recursive_1_converged;
+use corfem::method::error::Error;
+use nalgebra::{DMatrix, dmatrix, dvector};
+use proptest::prelude::*;
+
+/// Modes 1 and 2 come to rest on one mode and mode 3 is missed: all rows of (7) and (8) hold, and the set is none.
+#[test]
+fn a_recursion_that_finds_one_mode_twice_is_refused() {
+    let k = dvector![1.0, 1.3, 1.4];
+    let beta = dmatrix![0.0, 0.01, 0.0; 0.01, 0.0, 0.37; 0.0, 0.37, 0.0];
+    let general = ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(3, 3));
+    for refused in [
+        recursive_1_converged(&k, &beta, 1e-13, 2000).unwrap_err(),
+        general::recursive_1_converged(&general, 1e-13, 2000).unwrap_err(),
+    ] {
+        assert!(
+            matches!(refused, Error::CoalescingModes { first: 0, second: 1, separation } if separation < 1e-6),
+            "{refused:?}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// Whatever the change, an accepted answer has every mode once: its roots are those of the eigensolution.
+    #[test]
+    fn an_accepted_recursion_has_every_mode_once(change in change_of(dvector![1.0, 1.5, 2.2, 4.0], 0.6)) {
+        let (k, beta) = (&change.generalized_stiffness, &change.beta);
+        let Ok(found) = recursive_1_converged(k, beta, 1e-10, 60) else { return Ok(()) };
+        let exact = (DMatrix::from_diagonal(k) + beta).symmetric_eigenvalues();
+        let sorted = |values: Vec<f64>| { let mut values = values; values.sort_by(f64::total_cmp); values };
+        let roots = sorted(found.perturbed.roots.iter().map(|root| 1.0 / root).collect());
+        for (found, exact) in roots.iter().zip(sorted(exact.iter().copied().collect())) {
+            prop_assert!((found / exact - 1.0).abs() <= SETTLED_ROOTS, "{} {}", found, exact);
+        }
+    }
+}
