@@ -4,7 +4,7 @@
 //! It says how many digits of the history are round-off, and how near each decision (a halving, a stop, a pairing, a tolerance
 //! met) was to falling otherwise. The condition is measured: the chain runs again with a noise of $10^{-20}$ where double precision
 //! rounds, in the structural stiffness relative to its diagonal and in every change of the error sum relative to the sum, and what
-//! comes out of it over what went in is how much one rounding counts. The crate differs from the chain by less than $10^{-15}$ times
+//! comes out of it over what went in is how much one rounding counts. The crate differs from the chain by less than $10^{-14}$ times
 //! that condition (which is up to $10^7$), and every decision of it is the chain's.
 //!
 //! No decision of any run hangs on less than $10^{-9}$, or on anything near it. The nearest of all is the stop after iteration 29 of
