@@ -128,7 +128,9 @@ pub(crate) fn weighted_errors(
         each.iter().zip(weights).map(|(error, weight)| of(error, weight).powi(2)).sum::<f64>().sqrt()
     };
     let frequency = srss(|error, weight| weight.frequency * error.frequency);
-    Ok(Errors { frequency, shape: srss(|error, weight| weight.shape * error.shape), mode_count: each.len() })
+    let errors = Errors { frequency, shape: srss(|error, weight| weight.shape * error.shape), mode_count: each.len() };
+    let (what, value) = ("error sum", errors.sum());
+    if value.is_finite() { Ok(errors) } else { Err(Error::NotFinite { what, row: 0, column: 0, value }) }
 }
 
 /// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.

@@ -11,8 +11,6 @@ use std::fmt;
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
 pub const UNSEEN_SHARE: f64 = 0.01;
-/// How near to an end of its range, relative, a factor counts as at its bound.
-const AT_BOUND: f64 = 1e-9;
 
 /// Why a correlation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -73,10 +71,7 @@ impl Verdict {
     ) -> Self {
         let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
         let worst_mode = (0..errors.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
-        let at_end = |e: &usize| {
-            let near = |end: f64| (factors[*e] / end - 1.0).abs() < AT_BOUND;
-            ranges[*e].is_some_and(|range| near(range.lower) || near(range.upper))
-        };
+        let at_end = |e: &usize| ranges[*e].is_some_and(|range| range.has_end_at(factors[*e]));
         let is_unseen = |e: &usize| factors[*e] * seen[*e] < UNSEEN_SHARE;
         Self {
             outcome,

@@ -104,7 +104,9 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     // The verdict stands under the history, at the end.
     let [paired, factors, history] = [paired_table(&subject)?, factor_table(&subject), history_table(&subject)];
     let tables = [paired, factors, seen_table(&prepared, &finished)?, history];
-    arguments.output.write(&tables, || json::document(json::subject(&subject)?))?;
+    let document = || json::document(json::subject(&subject)?);
+    let stored = arguments.folder.as_ref().map(|_| document()).transpose()?;
+    arguments.output.write(&tables, || stored.clone().map_or_else(document, Ok))?;
     if let Some(folder) = &arguments.folder {
         let extra =
             [seen_table(&prepared, &finished)?, places_table(&prepared, Some(&finished))?, doubts_table(&prepared)?];
@@ -112,7 +114,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let mut files = vec![
             ("report.html".to_owned(), subject_page(&subject, &extra, &command)?.into_bytes()),
             ("factors.csv".to_owned(), render::csv(&[factor_table(&subject)]).into_bytes()),
-            ("correlation.json".to_owned(), json::document(json::subject(&subject)?)?.into_bytes()),
+            ("correlation.json".to_owned(), stored.unwrap_or_default().into_bytes()),
         ];
         // The report of a long correlation is not lost with a deck that cannot be written.
         let deck = prepared.corrected_deck(&finished.factors);

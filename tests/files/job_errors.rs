@@ -101,7 +101,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower_size = 0.2\nupper_size = 0.3",
-            "a: expected limits that hold its start, 1, found 2 to 3",
+            "a: expected limits that hold its start, 1, found 2 to ",
         ),
         (
             A,

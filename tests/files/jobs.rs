@@ -5,7 +5,7 @@ use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
 };
-use corfem::files::job::{ComparedModes, Finished, Prepared, run};
+use corfem::files::job::{ComparedModes, Finished, History, Prepared, run};
 use corfem::files::test_data::write_universal;
 use corfem::method::pairing::paired;
 use corfem::present::render;
@@ -127,6 +127,23 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
 /// A number of a Universal File with the other sign.
 fn negated(value: &str) -> String {
     value.strip_prefix('-').map_or_else(|| format!("-{value}"), str::to_owned)
+}
+
+/// A job's first model is analyzed once: what prepares it keeps it, unless something else is compared then.
+#[test]
+fn the_first_model_is_the_one_that_was_prepared() {
+    let prepared = Prepared::new(&folder("building").join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let first = prepared.analyze(&[1.0; 10]).expect("a model");
+    let mut fewer = prepared.clone();
+    fewer.analysis_modes = 7;
+    let other = fewer.analyze(&[1.0; 10]).expect("a model");
+    assert_eq!((first.exact.modes.len(), other.exact.modes.len()), (10, 7));
+    let near = fewer.source.whole.modes(&[1.0; 10], 10).expect("modes").vibrations;
+    assert_eq!(first.exact.modes.frequencies_hz(), near.frequencies_hz());
+    let finished = run(&prepared, |_| {}, || true).expect("it runs");
+    let History::Paper(run) = &finished.history else { panic!("by the paper's loops") };
+    // One a pass; the first is that of the start, and the last that of the best pass.
+    assert_eq!(finished.analyses, 1 + run.passes.len() + 1);
 }
 
 /// All that the wing's sensors do not see is condensed well: both ways find the same.

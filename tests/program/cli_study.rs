@@ -152,3 +152,24 @@ fn a_signal_keeps_the_samples_done() {
     let [resumed, uninterrupted] = [folder.path(), whole.path()].map(|folder| study(folder, &[]).stdout);
     assert_eq!(resumed, uninterrupted);
 }
+
+/// Progress is for a terminal that nobody asked to be quiet on; `script` lends one, where it is installed.
+#[cfg(unix)]
+#[test]
+fn progress_stands_on_a_terminal_alone() {
+    use std::process::{Command, Stdio};
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let on_terminal = |more: &str| {
+        let command = format!("{} check {} {more}", words(&program), words(&job("wing")));
+        let output = Command::new("script").args(["-qec", &command, "/dev/null"]).stdin(Stdio::null()).output();
+        output.ok().filter(|output| output.status.success()).map(|output| text(&output.stdout))
+    };
+    let silent = corfem(&["check", words(&job("wing"))]);
+    assert_eq!((silent.status.code(), text(&silent.stderr)), (Some(0), String::new()));
+    let (Some(loud), Some(quiet)) = (on_terminal(""), on_terminal("-q")) else {
+        println!("NOT RUN: progress on a terminal. It needs script.");
+        return;
+    };
+    assert!(loud.contains("looking at the job"), "{loud}");
+    assert!(!quiet.contains("looking at the job"), "{quiet}");
+}

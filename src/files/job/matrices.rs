@@ -4,7 +4,7 @@ use super::model::{Geometry, ModelSource, beside, range};
 use super::{Job, Scales};
 use crate::files::error::FileError;
 use crate::files::matrices::{self, LabeledMatrix};
-use crate::files::test_data::DIRECTIONS;
+use crate::files::test_data::{DIRECTIONS, cells, separator};
 use crate::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -103,7 +103,7 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {
-        let cells: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+        let cells = cells(line, separator(line));
         if labels.is_empty() && cells.first().is_some_and(|cell| cell.eq_ignore_ascii_case("grid")) {
             continue;
         }
@@ -111,7 +111,7 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
             FileError::job(file, "lines of grid, direction and perhaps x, y, z", format!("line {}: {line}", number + 1))
         };
         let grid: usize = cells.first().and_then(|cell| cell.parse().ok()).ok_or_else(wrong)?;
-        let letters = cells.get(1).copied().unwrap_or_default();
+        let letters = cells.get(1).map_or("", String::as_str);
         let direction = DIRECTIONS.iter().position(|name| *name == letters).ok_or_else(wrong)?;
         labels.push((grid, direction));
         let place: Vec<Option<f64>> =

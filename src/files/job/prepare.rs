@@ -2,7 +2,7 @@
 
 use super::model::{beside, load};
 use super::sensors::{PlacedSensor, place};
-use super::{ComparedModes, Job, Method, ModelSource, PairingRule, read};
+use super::{Compare, ComparedModes, Job, Method, ModelSource, PairingRule, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
@@ -51,6 +51,8 @@ pub struct Prepared {
     pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
+    /// The first model, and by what and with what it was compared.
+    first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
 impl Prepared {
@@ -95,9 +97,22 @@ impl Prepared {
         let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let title = job.title.clone().unwrap_or(title);
         let path = path.to_owned();
-        let (unpaired, deleted) = (Vec::new(), Vec::new());
-        let mut prepared =
-            Self { path, job, title, source, data, placed, sensors, test, modes, unpaired, deleted, analysis_modes };
+        let (unpaired, deleted, first) = (Vec::new(), Vec::new(), None);
+        let mut prepared = Self {
+            path,
+            job,
+            title,
+            source,
+            data,
+            placed,
+            sensors,
+            test,
+            modes,
+            unpaired,
+            deleted,
+            analysis_modes,
+            first,
+        };
         if prepared.job.test.orthogonalize {
             prepared.orthogonalize()?;
         }
@@ -131,14 +146,14 @@ impl Prepared {
             self.analysis_modes = available;
             first = self.analyze(&ones);
         }
-        let shapes = match first {
+        let shapes = match &first {
             Ok(first) => first.exact.modes.shapes.clone(),
             // More test modes than the model has are still to be looked at.
             Err(Error::TooMany { what: "test modes", .. }) => {
                 let modes = self.source.whole.modes(&ones, self.analysis_modes)?.vibrations;
                 self.sensors.times(&modes.shapes)?
             }
-            Err(error) => return Err(error.into()),
+            Err(_) => return first.map(drop).map_err(FileError::from),
         };
         let assurance = modal_assurance(&shapes, &self.test.shapes)?;
         let floor = self.job.compare.floor.unwrap_or(FLOOR);
@@ -151,6 +166,10 @@ impl Prepared {
             let expected =
                 format!("a mode of the model with a modal assurance of {floor} or more for one test mode at least");
             return Err(FileError::job(&self.path, expected, format!("{best:.3} at most")));
+        }
+        if self.unpaired.is_empty() {
+            let compare = self.job.compare.clone();
+            self.first = first.ok().map(|first| (compare, self.analysis_modes, self.test.clone(), first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -177,6 +196,12 @@ impl Prepared {
     /// # Errors
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
+        if let Some((compare, count, test, first)) = &self.first
+            && factors.iter().all(|&factor| factor == 1.0)
+            && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
+        {
+            return Ok(first.clone());
+        }
         let (whole, pair) = (&self.source.whole, pairing_rule(self.job.compare.pairing));
         let model = match self.job.compare.modes {
             ComparedModes::Whole => whole.analyze(factors, &self.sensors, (&self.test, pair), self.analysis_modes),

@@ -5,7 +5,7 @@ use super::study::{FAILED, digest};
 use crate::files::error::FileError;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 /// Bars of a histogram.
@@ -52,21 +52,19 @@ pub struct Summary {
 }
 
 impl Samples {
-    /// Reads a file of lines in any order; a header may stand anywhere, and a sample again as it was. No file has no samples.
+    /// Reads a file of lines in any order; a header may stand anywhere, and a sample again as it was.
     ///
     /// # Errors
     /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study, one that is no sample, and a sample that comes again
     /// with other numbers.
     pub fn read(path: &Path, study: &Study) -> Result<Self, FileError> {
         let mut samples = Self { path: path.to_owned(), places: BTreeMap::new(), whole: 0 };
-        let mut reader = match File::open(path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(samples),
-            file => BufReader::new(file.map_err(FileError::of_file(path, "read"))?),
-        };
+        let failed = FileError::of_file(path, "read");
+        let mut reader = BufReader::new(File::open(path).map_err(&failed)?);
         let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
         for number in 1.. {
             bytes.clear();
-            let length = reader.read_until(b'\n', &mut bytes).map_err(FileError::of_file(path, "read"))?;
+            let length = reader.read_until(b'\n', &mut bytes).map_err(&failed)?;
             if bytes.last() != Some(&b'\n') {
                 break;
             }

@@ -103,7 +103,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
     let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
     let first = lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line);
-    let separator = ['\t', ';'].into_iter().find(|separator| first.contains(*separator)).unwrap_or(',');
+    let separator = separator(first);
     let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) = Default::default();
     for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
         let row = Row { file, number, cells: cells(line, separator), separator };
@@ -140,8 +140,13 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     Ok(data)
 }
 
+/// What separates the cells of a line.
+pub(crate) fn separator(line: &str) -> char {
+    ['\t', ';'].into_iter().find(|separator| line.contains(*separator)).unwrap_or(',')
+}
+
 /// Cuts a line at its separators, those within quotation marks excepted.
-fn cells(line: &str, separator: char) -> Vec<String> {
+pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
     let last = line.matches('"').count();
     let mut cells = vec![String::new()];
     for (number, part) in line.split('"').enumerate() {

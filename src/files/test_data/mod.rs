@@ -7,8 +7,8 @@ mod universal;
 mod universal_axes;
 mod universal_write;
 
-pub(crate) use csv::quoted;
 pub use csv::write_csv;
+pub(crate) use csv::{cells, quoted, separator};
 pub use universal_write::write_universal;
 
 use crate::files::deck::{decoded, number::parse_real};

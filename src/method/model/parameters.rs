@@ -14,6 +14,9 @@ pub struct Range {
     pub upper: f64,
 }
 
+/// How near to an end of its range, relative, a factor counts as at its bound.
+const AT_END: f64 = 1e-9;
+
 impl Range {
     /// An interval of positive numbers.
     ///
@@ -27,6 +30,11 @@ impl Range {
     /// Whether a number lies in the interval.
     pub fn contains(&self, value: f64) -> bool {
         (self.lower..=self.upper).contains(&value)
+    }
+
+    /// Whether a number is at an end of the interval, to round-off.
+    pub(crate) fn has_end_at(&self, value: f64) -> bool {
+        [self.lower, self.upper].iter().any(|end| (value / end - 1.0).abs() < AT_END)
     }
 
     /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.

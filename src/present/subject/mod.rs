@@ -194,10 +194,9 @@ impl Subject {
         best.map_or_else(|| vec![1.0; self.parameters.len()], |stage| stage.factors.clone())
     }
 
-    /// Whether the factor of a parameter is at an end of its range: one part in a million of it from there.
+    /// Whether the factor of a parameter is at an end of its range.
     pub fn is_at_bound(&self, parameter: usize, factor: f64) -> bool {
-        let near = |end: f64| (factor / end - 1.0).abs() < 1e-6;
-        self.ranges.get(parameter).copied().flatten().is_some_and(|range| near(range.lower) || near(range.upper))
+        self.ranges.get(parameter).copied().flatten().is_some_and(|range| range.has_end_at(factor))
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.

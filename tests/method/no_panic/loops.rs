@@ -4,7 +4,7 @@ use super::Entry;
 use crate::common::draws::Draws;
 use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, gradient};
 use corfem::method::error::Error;
-use corfem::method::error_sum::{ErrorMeasure, ModeError, errors, mode_errors};
+use corfem::method::error_sum::{ErrorMeasure, ModeError, ModeWeight, errors, mode_errors};
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::model::Range;
 use corfem::method::outer_loop::{Settings, correlate};
@@ -69,6 +69,13 @@ pub const LOOPS: &[Entry] = &[
     ("error_sum::errors", |d| {
         let (analysis, pairing, test) = d.compared();
         errors(&analysis, &pairing, &test).map(|found| vec![found.frequency, found.shape])
+    }),
+    ("ModalModel::weighted", |d| {
+        let model = d.bent_chain()?;
+        let count = d.about(model.test.len());
+        let weights: Vec<ModeWeight> =
+            (0..count).map(|_| ModeWeight { frequency: d.number().abs(), shape: d.number().abs() }).collect();
+        model.weighted(&weights).map(|model| vec![model.exact.errors.sum()])
     }),
     ("ModalState::start", |d| {
         // It copies the model; what is done with it refuses one that is not whole.
