@@ -6,12 +6,16 @@ use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{check_shape, cholesky, finite, solve_lower, symmetric_part};
 use crate::method::load_distribution::LoadDistribution;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular_matmul};
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
 /// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
 const SMALLEST_DEFORMATION: f64 = 1e-14;
+/// Ways to deform that are multiplied at once: as many as a processor's cache holds.
+const AMPLITUDES_AT_ONCE: usize = 256;
 
 /// The stiffness at the dynamic DOF and the transformation that brought it there.
 #[derive(Debug, Clone)]
@@ -84,13 +88,19 @@ pub(crate) fn generalized_stiffness<'a>(
     members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
 ) -> DMatrix<f64> {
     let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
-    let (mut sum, mut force, mut rest, mut deformation) =
-        (DMatrix::zeros(count, count), vec![0.0; count], Vec::new(), Vec::new());
+    let mut sum = DMatrix::zeros(count, count);
+    let (mut amplitudes, mut rest, mut deformation) = (Vec::new(), Vec::new(), Vec::new());
+    let add = |sum: &mut DMatrix<f64>, amplitudes: &mut Vec<f64>| {
+        let a = MatRef::from_column_major_slice(amplitudes, count, amplitudes.len() / count.max(1));
+        let whole = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
+        let (upper, full) = (BlockStructure::TriangularUpper, BlockStructure::Rectangular);
+        triangular_matmul(whole, upper, Accum::Add, a, full, a.transpose(), full, 1.0, Par::Seq);
+        amplitudes.clear();
+    };
     for (ElementMatrix { dof, unit, .. }, size) in members {
-        let through = |weights: &[f64], force: &mut [f64]| {
-            force.fill(0.0);
+        let through = |weights: &[f64], scale: f64, force: &mut [f64]| {
             for (&dof, &weight) in dof.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-                let motion = &shapes[dof * count..][..count];
+                let (weight, motion) = (scale * weight, &shapes[dof * count..][..count]);
                 force.iter_mut().zip(motion).for_each(|(sum, motion)| *sum += weight * motion);
             }
         };
@@ -99,17 +109,23 @@ pub(crate) fn generalized_stiffness<'a>(
         // The largest entry of a semidefinite matrix stands on its diagonal.
         let smallest = SMALLEST_DEFORMATION * unit.diagonal().amax();
         while let Some(pivot) = take_deformation(&mut rest, dof.len(), smallest, &mut deformation) {
-            through(&deformation, &mut force);
-            add_upper(&mut sum, size / pivot, &force, &force);
+            let start = amplitudes.len();
+            amplitudes.resize(start + count, 0.0);
+            through(&deformation, (size / pivot).sqrt(), &mut amplitudes[start..]);
         }
         // A matrix that is not semidefinite leaves something that no pivot explains.
         for (&dof, column) in dof.iter().zip(rest.chunks(dof.len().max(1))) {
             if column.iter().any(|entry| entry.abs() > smallest) {
-                through(column, &mut force);
-                add_upper(&mut sum, size, &force, &shapes[dof * count..][..count]);
+                let mut force = vec![0.0; count];
+                through(column, size, &mut force);
+                add_upper(&mut sum, 1.0, &force, &shapes[dof * count..][..count]);
             }
         }
+        if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
+            add(&mut sum, &mut amplitudes);
+        }
     }
+    add(&mut sum, &mut amplitudes);
     sum.fill_lower_triangle_with_upper_triangle();
     sum
 }
