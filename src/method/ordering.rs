@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use std::collections::VecDeque;
 
 /// Parts that are not cut again: a grid's three DOF times this are a dense block, which costs less than more bookkeeping.
-const SMALLEST_PART: usize = 12;
+const SMALLEST_PART: usize = 24;
 
 /// Grid points joined by elements.
 pub(crate) struct Mesh {
