@@ -17,7 +17,7 @@ fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
     let problem = chain_problem(&given.chain, &given.truth);
     match run(&problem, &given.base, &given.total_ranges, &given.settings) {
         Ok(run) => Ok((problem, run)),
-        Err(Error::UnsettledRoots { .. }) => Err(TestCaseError::reject("close roots")),
+        Err(Error::UnsettledRoots { .. } | Error::CoalescingModes { .. }) => Err(TestCaseError::reject("close roots")),
         Err(error) => Err(TestCaseError::fail(error.to_string())),
     }
 }
