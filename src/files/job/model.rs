@@ -78,7 +78,7 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
     let all: Vec<usize> = (0..elements.len()).collect();
     let moving = bulk.moving_masses(&structure, &elements)?;
     let mass =
-        sum_of(count, moving.iter().flat_map(|point| moving_mass_entries((&point.motion, &point.motion), point.mass)))?;
+        sum_of(count, moving.iter().flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass)))?;
     let motion_of = bulk.motions(&structure);
     let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
@@ -118,7 +118,7 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
                         let point = bulk.masses.iter().find(|mass| mass.label == *point).ok_or_else(unknown)?;
                         for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
                             let motion = motion_of(StructuralDof { grid: point.grid, direction });
-                            entries.extend(moving_mass_entries((&motion, &motion), point.mass));
+                            entries.extend(moving_mass_entries(&motion, &motion, point.mass));
                         }
                     }
                     WholeShare::Mass(sum_of(count, entries.into_iter())?)

@@ -50,7 +50,7 @@ impl FiniteElementModel {
     /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e m_e B M_e B^t $$
     ///
     /// # Errors
-    /// Those of [`Self::sizes`], [`FactorizedStiffness::new`] and [`condense`].
+    /// Those of [`Self::sizes`] and [`FactorizedStiffness::new`]; [`Error::Dependent`] when a dynamic DOF is a combination of others.
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let point_mass = self.point_masses(factors)?;

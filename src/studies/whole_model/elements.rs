@@ -18,8 +18,12 @@ pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, us
 }
 
 /// Those of $m t_1 t_2^t$, a mass that couples two motions of the degrees of freedom, or is that of one.
-pub(crate) fn moving_mass_entries(motions: (&[(usize, f64)], &[(usize, f64)]), mass: f64) -> Vec<(usize, usize, f64)> {
-    let pairs = motions.0.iter().flat_map(|a| motions.1.iter().map(move |b| (a, b)));
+pub(crate) fn moving_mass_entries(
+    motion: &[(usize, f64)],
+    other: &[(usize, f64)],
+    mass: f64,
+) -> Vec<(usize, usize, f64)> {
+    let pairs = motion.iter().flat_map(|a| other.iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| (a.0, b.0, mass * a.1 * b.1)).collect()
 }
 
@@ -40,7 +44,7 @@ impl WholeModel {
             (model.load_distribution().columns(), model.point_masses(&vec![1.0; model.parameters().len()])?);
         let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
         let couplings = (0..t.len()).flat_map(|i| (0..t.len()).map(move |j| (i, j))).filter(|&at| points[at] != 0.0);
-        let moving = couplings.flat_map(|at| moving_mass_entries((&t[at.0], &t[at.1]), points[at]));
+        let moving = couplings.flat_map(|at| moving_mass_entries(&t[at.0], &t[at.1], points[at]));
         let all = || elements.iter().zip(&sizes);
         let stiffness = all().flat_map(|(element, &size)| stiffness_entries(element, size)).collect();
         let lumped = all().flat_map(|(element, &size)| mass_entries(element, size));
@@ -54,7 +58,7 @@ impl WholeModel {
                 Scaled::Stiffness => WholeShare::Stiffness(of(&|row| stiffness_entries(&elements[row], sizes[row]))?),
                 Scaled::ElementMass => WholeShare::Mass(of(&|row| mass_entries(&elements[row], sizes[row]))?),
                 Scaled::PointMass => {
-                    WholeShare::Mass(of(&|dof| moving_mass_entries((&t[dof], &t[dof]), points[(dof, dof)]))?)
+                    WholeShare::Mass(of(&|dof| moving_mass_entries(&t[dof], &t[dof], points[(dof, dof)]))?)
                 }
             };
             Ok(WholeParameter { name: parameter.name.clone(), share, range })
