@@ -12,8 +12,9 @@
 //!
 //! - [`method`]: the paper, in its own order. Read this first, and read it as a text:
 //!   1. [`structure`](method::structure), [`elements`](method::elements), [`assembly`](method::assembly): the finite element
-//!      model and its stiffness $K_S$;
-//!   2. [`appendix_a`](method::appendix_a): from structural to dynamic degrees of freedom (1, 2);
+//!      model and its stiffness $K_S$; [`factorization`](method::factorization): how it is solved with, at any size;
+//!   2. [`load_distribution`](method::load_distribution), [`appendix_a`](method::appendix_a): from structural to dynamic degrees of
+//!      freedom (1, 2);
 //!   3. [`modes`](method::modes) (3) and [`appendix_b`](method::appendix_b): exact modes, and measured ones made fit to compare;
 //!   4. [`model`](method::model): what may change, and the modal model that the loops are handed;
 //!   5. [`pairing`](method::pairing) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
@@ -23,7 +24,7 @@
 //!      [`outer_loop`](method::outer_loop).
 //! - [`closed_forms`]: structures whose answers can be written down.
 //! - [`cases`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing, corrections of whole matrices instead of elements, noisy test modes, a pre-flight that
+//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, noisy test modes, a pre-flight that
 //!   names mistakes in model and test before the first step, whole models without condensation, weighted steps with what the
 //!   test sees of the parameters, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
