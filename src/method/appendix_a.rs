@@ -4,10 +4,8 @@
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
-use crate::method::linear_algebra::{check_shape, cholesky, finite, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{add_squares, check_shape, cholesky, finite, solve_lower, symmetric_part};
 use crate::method::load_distribution::LoadDistribution;
-use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular_matmul};
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -90,13 +88,6 @@ pub(crate) fn generalized_stiffness<'a>(
     let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
     let mut sum = DMatrix::zeros(count, count);
     let (mut amplitudes, mut rest, mut deformation) = (Vec::new(), Vec::new(), Vec::new());
-    let add = |sum: &mut DMatrix<f64>, amplitudes: &mut Vec<f64>| {
-        let a = MatRef::from_column_major_slice(amplitudes, count, amplitudes.len() / count.max(1));
-        let whole = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
-        let (upper, full) = (BlockStructure::TriangularUpper, BlockStructure::Rectangular);
-        triangular_matmul(whole, upper, Accum::Add, a, full, a.transpose(), full, 1.0, Par::Seq);
-        amplitudes.clear();
-    };
     for (ElementMatrix { dof, unit, .. }, size) in members {
         let through = |weights: &[f64], scale: f64, force: &mut [f64]| {
             for (&dof, &weight) in dof.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
@@ -122,10 +113,11 @@ pub(crate) fn generalized_stiffness<'a>(
             }
         }
         if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
-            add(&mut sum, &mut amplitudes);
+            add_squares(&mut sum, &amplitudes);
+            amplitudes.clear();
         }
     }
-    add(&mut sum, &mut amplitudes);
+    add_squares(&mut sum, &amplitudes);
     sum.fill_lower_triangle_with_upper_triangle();
     sum
 }

@@ -84,8 +84,12 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
         ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
     };
     let errors: Vec<ModeError> = pairing.analysis_mode.iter().enumerate().map(of_mode).collect();
-    let value: f64 = errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum();
-    if value.is_finite() { Ok(errors) } else { Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value }) }
+    check_error_sum(errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum()).map(|()| errors)
+}
+
+/// Refuses an error sum that is no finite number.
+pub(crate) fn check_error_sum(value: f64) -> Result<(), Error> {
+    if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value }) }
 }
 
 /// What the errors of one test mode are multiplied with in the error sum.
@@ -129,8 +133,7 @@ pub(crate) fn weighted_errors(
     };
     let frequency = srss(|error, weight| weight.frequency * error.frequency);
     let errors = Errors { frequency, shape: srss(|error, weight| weight.shape * error.shape), mode_count: each.len() };
-    let (what, value) = ("error sum", errors.sum());
-    if value.is_finite() { Ok(errors) } else { Err(Error::NotFinite { what, row: 0, column: 0, value }) }
+    check_error_sum(errors.sum()).map(|()| errors)
 }
 
 /// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.

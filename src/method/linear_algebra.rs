@@ -1,8 +1,9 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
 use crate::method::error::{Error, at_least_one};
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, MatMut, MatRef, Par, Side};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
@@ -78,6 +79,15 @@ pub(crate) fn finite_list(what: &'static str, list: Vec<f64>) -> Result<Vec<f64>
     finite(what, DMatrix::from_vec(list.len(), 1, list)).map(|list| list.data.into())
 }
 
+/// Adds the upper triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
+pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
+    let count = sum.nrows();
+    let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
+    let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
+    let (upper, full) = (BlockStructure::TriangularUpper, BlockStructure::Rectangular);
+    matmul(sum, upper, Accum::Add, columns, full, columns.transpose(), full, 1.0, Par::Seq);
+}
+
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
 /// has none and comes back as it is.
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
@@ -126,6 +136,12 @@ pub fn check_solution(
     let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
     let (residual, allowed) = (residual / size, allowed / size);
     if residual <= allowed { Ok(()) } else { Err(Error::WrongSolution { what, residual, allowed }) }
+}
+
+/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
+pub(crate) fn start_vector(size: usize) -> DVector<f64> {
+    let golden = 0.618_033_988_749_894_8;
+    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
 }
 
 /// $L^{-1} R$ for a lower triangular $L$ with nonzero diagonal.

@@ -42,20 +42,19 @@ impl Mesh {
 
     /// Appends a part to the order. `mark` holds for every point the last mark that was given it.
     fn dissect(&self, part: &mut [usize], mark: &mut [usize], last: &mut usize, order: &mut Vec<usize>) {
-        let cuts = (0..4).filter(|_| part.len() > SMALLEST_PART);
-        let cuts = cuts.filter_map(|direction| {
+        let directions = if part.len() > SMALLEST_PART { 0..4 } else { 0..0 };
+        let cuts = directions.filter_map(|direction| {
             let keys: Vec<f64> = match direction {
                 3 => self.distances(part, mark, last),
                 axis => part.iter().map(|&point| self.points[point][axis]).collect(),
             };
             self.cut(part, &keys, mark, last)
         });
-        let Some((sides, _)) = cuts.collect::<Vec<_>>().into_iter().min_by_key(|cut| cut.1) else {
+        let Some((sides, _)) = cuts.min_by_key(|cut| cut.1) else {
             order.extend_from_slice(part);
             return;
         };
-        let mut sides = sides.into_iter();
-        let mut sorted: Vec<(u8, usize)> = part.iter().map(|&point| (sides.next().unwrap_or(2), point)).collect();
+        let mut sorted: Vec<(u8, usize)> = sides.into_iter().zip(part.iter().copied()).collect();
         sorted.sort_by_key(|pair| pair.0);
         part.iter_mut().zip(&sorted).for_each(|(point, pair)| *point = pair.1);
         let first = sorted.partition_point(|pair| pair.0 < 1);
@@ -98,14 +97,15 @@ impl Mesh {
 
     /// How many elements lie between the points of a part and one at its end; those that cannot be reached come last.
     fn distances(&self, part: &[usize], mark: &mut [usize], last: &mut usize) -> Vec<f64> {
-        let mut distance = Vec::new();
-        let mut start = part[0];
+        let (mut start, mut first) = (part[0], 0);
         // From the farthest of the first point's: an end of the part.
         for _ in 0..2 {
             *last += 1;
-            let (inside, first) = (*last, *last + 1);
+            let inside = *last;
+            first = inside + 1;
             part.iter().for_each(|&point| mark[point] = inside);
             mark[start] = first;
+            *last = first;
             let mut queue = VecDeque::from([start]);
             while let Some(point) = queue.pop_front() {
                 start = point;
@@ -117,12 +117,7 @@ impl Mesh {
                     }
                 }
             }
-            distance = part
-                .iter()
-                .map(|&point| if mark[point] > inside { (mark[point] - first) as f64 } else { f64::MAX })
-                .collect();
-            *last = (*last).max(first);
         }
-        distance
+        part.iter().map(|&point| mark[point].checked_sub(first).map_or(f64::MAX, |steps| steps as f64)).collect()
     }
 }

@@ -6,15 +6,16 @@ pub use plan::FactorizationPlan;
 
 use crate::method::assembly::{ElementMatrix, check_elements, dense_stiffness};
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_solution, cholesky, finite};
+use crate::method::linear_algebra::{
+    add_squares, check_finite, check_length, check_shape, check_solution, cholesky, finite, start_vector,
+};
 use crate::method::load_distribution::LoadDistribution;
 use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
 use faer::linalg::matmul::matmul;
-use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular_matmul};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 use plan::fingerprint;
 use std::sync::Arc;
@@ -153,16 +154,14 @@ impl FactorizedStiffness {
             }
         }
         self.forward(&mut rows, &mut is_reached);
-        let mut sum = Mat::zeros(count, count);
-        let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+        let mut sum = DMatrix::zeros(count, count);
         for (rows, _) in
             rows.chunks(PANEL * count).zip(is_reached.chunks(PANEL)).filter(|(_, reached)| reached.contains(&true))
         {
-            let w = MatRef::from_column_major_slice(rows, count, rows.len() / count);
-            triangular_matmul(&mut sum, lower, Accum::Add, w, full, w.transpose(), full, 1.0, Par::Seq);
+            add_squares(&mut sum, rows);
         }
-        let symmetric = |row: usize, column: usize| sum[(row.max(column), row.min(column))];
-        finite("dynamic flexibility", DMatrix::from_fn(count, count, symmetric))
+        sum.fill_lower_triangle_with_upper_triangle();
+        finite("dynamic flexibility", sum)
     }
 
     /// $L^{-1}$ times right-hand sides in place, a DOF's values together in the order of elimination; blocks of DOF that are not
@@ -246,10 +245,4 @@ fn check_sizes(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]
     }
     at_least_one("free degrees of freedom", free.len())?;
     check_elements(elements, sizes, free.len())
-}
-
-/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
-fn start_vector(size: usize) -> DVector<f64> {
-    let golden = 0.618_033_988_749_894_8;
-    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
 }

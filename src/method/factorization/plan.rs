@@ -63,16 +63,10 @@ impl FactorizationPlan {
         let point_of: Vec<usize> = dof_of.iter().enumerate().flat_map(|(point, dof)| vec![point; dof.len()]).collect();
         let points_of: Vec<Vec<usize>> =
             elements.iter().map(|element| element.dof.iter().map(|&dof| point_of[dof]).collect()).collect();
-        let mut first = 0;
-        let first_dof: Vec<usize> = dof_of
-            .iter()
-            .map(|dof| {
-                first += dof.len();
-                first - dof.len()
-            })
-            .collect();
         let order = Mesh::new(points, points_of).nested_dissection();
-        let order = order.into_iter().flat_map(|point| first_dof[point]..first_dof[point] + dof_of[point].len());
+        // The DOF of a point follow one another.
+        let first_dof = |point: usize| point_of.partition_point(|&other| other < point);
+        let order = order.into_iter().flat_map(|point| first_dof(point)..first_dof(point + 1));
         let mut turn = vec![0; count];
         order.enumerate().for_each(|(place, dof)| turn[dof] = place);
         let (column_starts, rows) = lower_pattern(elements, &turn);

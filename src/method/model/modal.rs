@@ -5,7 +5,7 @@
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
+use crate::method::error_sum::{Errors, ModeWeight, check_error_sum, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
@@ -211,10 +211,7 @@ impl ModalModel {
     /// Refuses a model whose parts do not fit together.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let (count, test_count) = (self.exact.modes.len(), self.test.len());
-        let value = self.exact.errors.sum();
-        if !value.is_finite() {
-            return Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value });
-        }
+        check_error_sum(self.exact.errors.sum())?;
         self.exact.pairing.check(&self.exact.modes, test_count)?;
         check_shape("test mode shapes", &self.test.shapes, self.exact.modes.shapes.nrows(), test_count)?;
         check_shape("cross-orthogonality", &self.cross, count, test_count)?;

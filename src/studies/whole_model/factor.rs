@@ -2,7 +2,7 @@
 
 use super::SparseMatrix;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_shape, check_solution, from_faer, to_faer};
+use crate::method::linear_algebra::{check_length, check_shape, check_solution, from_faer, start_vector, to_faer};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
 use faer::sparse::linalg::cholesky::{
@@ -65,7 +65,6 @@ impl Factor {
             return Err(failed());
         }
         let factor = Self { symbolic, values, scale, pivots };
-        let probe = DVector::from_fn(count, |i, _| 0.5 + (0.618_033_988_749_894_8 * (i + 1) as f64).fract());
         let column = |x: &DVector<f64>| DMatrix::from_column_slice(count, 1, x.as_slice());
         let scaled_column = |x: DMatrix<f64>, by: &DVector<f64>| x.column(0).component_mul(by);
         let unscale = factor.scale.map(f64::recip);
@@ -78,7 +77,7 @@ impl Factor {
             let solution = factor.solve(&right);
             solution.map_or_else(|_| DVector::from_element(count, f64::NAN), |s| scaled_column(s, &unscale))
         };
-        check_solution(what, times, solved, &probe)?;
+        check_solution(what, times, solved, &start_vector(count))?;
         Ok(factor)
     }
 
