@@ -1,7 +1,7 @@
 //! Many runs of a job: what its factors come to.
 
 use crate::files::job::{Study, Summary, Vary};
-use crate::present::table::{Cell, Digits, Table, counted};
+use crate::present::table::{Digits, Table, counted, numbers};
 
 /// Mean, standard deviation and quantiles of every factor over the samples that did not fail.
 pub fn study_table(study: &Study, summary: &Summary) -> Table {
@@ -12,20 +12,21 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
     };
     let (Summary { spreads, within, outside, failed }, vary) = (summary, study.vary.iter().map(name));
     let count = within + outside + failed.len();
-    let table = Table::new("study", format!("{}: factors over many runs", study.prepared.title), "Parameter");
-    let mut table = table.columns(["mean", "deviation", "2.5 %", "median", "97.5 %"], "").note(format!(
+    let note = format!(
         "{}, seed {}, with {}: {within} within tolerance, {outside} outside, {} failed.",
         counted(count, "sample", "samples"),
         study.seed,
         vary.collect::<Vec<_>>().join(" and "),
         failed.len(),
-    ));
-    if let Some(first) = failed.first() {
-        table.notes.push(format!("What failed does not count; --sample {first} says why sample {first} did."));
-    }
+    );
+    let why = |first| format!("What failed does not count; --sample {first} says why sample {first} did.");
+    let mut table = Table::new("study", format!("{}: factors over many runs", study.prepared.title), "Parameter")
+        .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
+        .notes([note])
+        .notes(failed.first().map(why));
     for (name, spread) in spreads {
-        let numbers = spread.iter().flat_map(|spread| [vec![spread.mean, spread.deviation], spread.quantiles.to_vec()]);
-        table.row(name, numbers.flatten().map(|number| Cell::number(number, Digits::Fixed(4))));
+        let spread = spread.iter().flat_map(|spread| [vec![spread.mean, spread.deviation], spread.quantiles.to_vec()]);
+        table.row(name, numbers(spread.flatten(), Digits::Fixed(4)));
     }
     table
 }

@@ -1,7 +1,8 @@
 //! Table 1 for a reader: root errors of the perturbation formulae by order.
 
-use super::{Cell, Digits, PresentError, Table};
-use crate::cases::table_1::{Formula, problems, table_1};
+use crate::cases::table_1::{Formula, TwoMasses, problems, table_1};
+use crate::present::PresentError;
+use crate::present::table::{Digits, Table, numbers, percents};
 
 /// Orders shown.
 const ORDERS: usize = 6;
@@ -15,19 +16,18 @@ const ORDERS: usize = 6;
 pub fn root_error_table() -> Result<Table, PresentError> {
     let found = table_1(&problems(), ORDERS)?;
     let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
+    let note = "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. \
+        Exact roots in closed form. The paper's own numbers are lost in the scan.";
+    let problems =
+        |of: fn(&TwoMasses) -> f64| numbers(found.rows.iter().map(move |row| of(&row.problem)), Digits::Fixed(2));
     let mut table = Table::new("table_1", title, "Problem")
-        .columns(["Coupling", "Change"], "")
-        .columns(found.formulae.iter().map(|&rule| rule_name(rule)), "%")
-        .note(
-            "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring \
-        is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.",
-        );
-    for (number, row) in found.rows.iter().enumerate() {
-        let problem = [row.problem.coupling, row.problem.change];
-        let problem = problem.map(|value| Cell::number(value, Digits::Fixed(2)));
-        let errors =
-            row.root_errors.iter().map(|[one, other]| Cell::percent(one.abs().max(other.abs()), Digits::Scientific(1)));
-        table.row(number + 1, problem.into_iter().chain(errors));
+        .labels(1..=found.rows.len())
+        .column("Coupling", "", problems(|problem| problem.coupling))
+        .column("Change", "", problems(|problem| problem.change))
+        .notes([note]);
+    for (at, &rule) in found.formulae.iter().enumerate() {
+        let errors = found.rows.iter().map(|row| row.root_errors[at].map(f64::abs).into_iter().fold(0.0, f64::max));
+        table = table.column(rule_name(rule), "%", percents(errors, Digits::Scientific(1)));
     }
     Ok(table)
 }
