@@ -4,7 +4,7 @@
 //! of a pass are totals since the first model, those of an iteration totals since the last exact solution. A number
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
-use super::error::PresentError;
+use super::PresentError;
 use super::subject::{Stage, Subject};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};

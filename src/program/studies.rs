@@ -107,7 +107,7 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
     let all: Vec<u8> = (1..=13).collect();
     let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
     let table = |&number: &u8| match number {
-        1 => tables::table_1::root_error_table(),
+        1 => tables::published::root_error_table(),
         _ => tables::published::published_table(number.into()),
     };
     let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;

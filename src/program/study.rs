@@ -8,7 +8,7 @@ use clap::Args;
 use corfem::files::error::FileError;
 use corfem::files::job::{Samples, Study, Vary};
 use corfem::present::figures::histogram;
-use corfem::present::tables::study::study_table;
+use corfem::present::tables::job::study_table;
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
 use std::fs::{File, OpenOptions};

@@ -52,7 +52,7 @@ fn chain(name: &str, wrong: &[f64], places: impl Fn(usize) -> (Vector3<f64>, Vec
         frame,
         mass: Some(mass.clone()),
         derivatives: Some(Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken")),
-        ..Subject::of("chain", &names, &test, &run)
+        ..Subject::of("chain", &names, &test, &run.initial, Some(&run))
     }
 }
 

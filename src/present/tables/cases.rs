@@ -4,7 +4,7 @@ use super::readings::{case_readings, detection_table};
 use super::stages::{self, Stage};
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
-use super::{KINDS, MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
+use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
@@ -46,9 +46,9 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
         Stage::of_pass(pass, &check.frequencies_hz, vec![check.errors.frequency_rms(), check.errors.shape_rms()])
     };
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
+    let table = table.notes(solver_note(result.solver, "", ", of the test configuration too;"));
     let (test_hz, stages) = (result.test.frequencies_hz(), checks.map(stage).collect::<Vec<_>>());
-    let table = stages::fill(table, &[], &test_hz, &stages, &MODE_ERRORS, paper.as_ref());
-    Ok(table.notes(solver_note(result.solver, "", ", of the test configuration too;")).notes(remarks(paper.as_ref())))
+    Ok(stages::fill(table, &[], &test_hz, &stages, &MODE_ERRORS, paper.as_ref()))
 }
 
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
@@ -61,7 +61,7 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let rms = |gages: &[f64]| kinds.iter().map(|&kind| gage_rms(panels, gages, kind)).collect();
     let stages: Vec<Stage> = gages.map(|(pass, gages)| Stage::of_pass(pass, &gages, rms(&gages))).collect();
     let table = named(result, paper.as_ref(), "gages", "Element");
-    Ok(stages::fill(table, panels, &[], &stages, &errors, paper.as_ref()).notes([KINDS]).notes(remarks(paper.as_ref())))
+    Ok(stages::fill(table, panels, &[], &stages, &errors, paper.as_ref()))
 }
 
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
@@ -224,12 +224,10 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
 pub fn outcome(result: &CaseResult) -> String {
     let kind = if result.case.grouping == Grouping::Elements { "element " } else { "" };
     let detected = result.anomaly.as_ref().map(|found| format!("modeling error detected in {kind}{}", found.parameter));
-    match (detected, result.is_detection()) {
-        (Some(detected), true) => detected,
-        (None, true) => "no modeling error detected".to_owned(),
-        (None, ..) if result.correlation.converged => "correlated".to_owned(),
-        (Some(detected), ..) if result.correlation.converged => format!("correlated but {detected}"),
-        (None, ..) => "not converged".to_owned(),
-        (Some(detected), ..) => format!("not converged; {detected}"),
-    }
+    let (state, joint) = match (result.is_detection(), result.correlation.converged) {
+        (true, _) => return detected.unwrap_or_else(|| "no modeling error detected".to_owned()),
+        (_, true) => ("correlated", " but "),
+        (_, false) => ("not converged", "; "),
+    };
+    detected.map_or_else(|| state.to_owned(), |detected| format!("{state}{joint}{detected}"))
 }

@@ -1,7 +1,7 @@
 //! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
 
 use super::stages::{self, Stage};
-use super::{KINDS, MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
+use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
 use crate::cases::Case;
 use crate::cases::fewer_modes::{Agreement, FewerModesRun};
 use crate::cases::published::PublishedTable;
@@ -30,14 +30,17 @@ const GAGE_ERRORS: [(&str, Digits); 6] = [
 pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
     let with = |modes: usize| -> Vec<&FewerModesRun> { runs.iter().filter(|run| run.test_modes == modes).collect() };
     let five = with(TABLE_9_TEST_MODES);
-    let paper = PublishedTable::number(9)?;
-    let inner = "frequencies and errors by the inner loop (Table 9)";
-    let exact = "frequencies and errors by eigensolution at the gages found";
+    let empty = |name: &str, what: &str| {
+        let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: frequencies and errors by {what}");
+        Table::new(name, title, "Mode")
+    };
     let note = "The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it \
         began with. What the paper prints is read as these.";
-    let table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner);
-    let table_9 = table_9.notes([note]).notes(remarks(Some(&paper)));
-    let mut tables = vec![table_9, frequency_table("table_9_exact", exact, &five, None, |run| &run.exact)];
+    let table_9 = empty("table_9", "the inner loop (Table 9)").notes([note]);
+    let mut tables = vec![
+        frequency_table(table_9, &five, Some(&PublishedTable::number(9)?), |run| &run.inner),
+        frequency_table(empty("table_9_exact", "eigensolution at the gages found"), &five, None, |run| &run.exact),
+    ];
     for (paper, test_modes) in GAGE_TABLES {
         tables.push(gage_table(case, paper, test_modes, &with(test_modes))?);
     }
@@ -53,8 +56,7 @@ fn stage(run: Option<&FewerModesRun>, values: &[f64], errors: &[f64]) -> Stage {
 
 /// Frequencies and their errors at the start and at the end of every run.
 fn frequency_table(
-    name: &str,
-    what: &str,
+    table: Table,
     runs: &[&FewerModesRun],
     paper: Option<&PublishedTable>,
     end: fn(&FewerModesRun) -> &Agreement,
@@ -64,9 +66,7 @@ fn frequency_table(
     let test = most.map_or(&[][..], |run| &run.test_frequencies_hz);
     let found = most.map(|run| (None, &run.initial)).into_iter().chain(runs.iter().map(|&run| (Some(run), end(run))));
     let stage = |(run, at): (_, &Agreement)| stage(run, &at.frequencies_hz, &[at.frequency_rms, at.shape_rms]);
-    let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: {what}");
-    let stages: Vec<Stage> = found.map(stage).collect();
-    stages::fill(Table::new(name, title, "Mode"), &[], test, &stages, &MODE_ERRORS, paper)
+    stages::fill(table, &[], test, &found.map(stage).collect::<Vec<_>>(), &MODE_ERRORS, paper)
 }
 
 /// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes, which the start has none of.
@@ -81,8 +81,7 @@ fn gage_table(case: &Case, number: usize, test_modes: usize, runs: &[&FewerModes
     let stages: Vec<Stage> = std::iter::once(start).chain(runs.iter().map(found)).collect();
     let title = format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
     let table = Table::new(format!("table_{number}"), title, "Element");
-    let table = stages::fill(table, &case.panels, &[], &stages, &GAGE_ERRORS, Some(&paper));
-    Ok(table.notes([KINDS]).notes(remarks(Some(&paper))))
+    Ok(stages::fill(table, &case.panels, &[], &stages, &GAGE_ERRORS, Some(&paper)))
 }
 
 /// Iterations of the paper's runs, as in Tables 10 to 12.
@@ -96,15 +95,16 @@ fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
         Cell::beside(run.iterations as f64, Digits::Fixed(0), printed)
     };
     let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
-    let table = pairs_table("fewer_modes_iterations", title, "", runs, &cell);
-    Ok(table.notes(["At most 30: where the paper has as many, its error sum had not met the tolerance."]))
+    let table = Table::new("fewer_modes_iterations", title, "Test modes");
+    Ok(pairs_table(table, "", runs, &cell)
+        .notes(["At most 30: where the paper has as many, its error sum had not met the tolerance."]))
 }
 
 /// What truncation costs over all pairs of numbers of modes, one table a quantity.
 pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     let table = |name: &str, what: &str, unit, cell: &dyn Fn(&FewerModesRun) -> Cell| {
         let title = format!("Cost of truncation, Case 2, pass 1: {what}");
-        pairs_table(&format!("truncation_{name}"), &title, unit, runs, cell)
+        pairs_table(Table::new(format!("truncation_{name}"), title, "Test modes"), unit, runs, cell)
     };
     let mut tables = vec![table("iterations", "iterations", "", &|run| Cell::count(run.iterations))];
     for (at, (name, what, digits)) in COSTS.into_iter().enumerate() {
@@ -131,19 +131,15 @@ const COSTS: [(&str, &str, Digits); 4] = [
 
 /// Test modes down, analysis modes across.
 fn pairs_table(
-    name: &str,
-    title: &str,
+    table: Table,
     unit: &'static str,
     runs: &[FewerModesRun],
     cell: &dyn Fn(&FewerModesRun) -> Cell,
 ) -> Table {
     let counts = |of: fn(&FewerModesRun) -> usize| runs.iter().map(of).collect::<BTreeSet<usize>>();
     let tests = counts(|run| run.test_modes);
-    let mut table = Table::new(name, title, "Test modes").labels(&tests);
-    for analysis in counts(|run| run.analysis_modes) {
+    counts(|run| run.analysis_modes).into_iter().fold(table.labels(&tests), |table, analysis| {
         let run = |&test: &usize| runs.iter().find(|run| (run.test_modes, run.analysis_modes) == (test, analysis));
-        let cells = tests.iter().map(|test| run(test).map_or(Cell::Blank, cell));
-        table = table.column(format!("FEM {analysis}"), unit, cells);
-    }
-    table
+        table.column(format!("FEM {analysis}"), unit, tests.iter().map(|test| run(test).map_or(Cell::Blank, cell)))
+    })
 }

@@ -1,7 +1,8 @@
-//! A job before and after: its sensors on the model, everything doubtful, the suspects, and what the test sees of the parameters.
+//! A job before and after: its sensors on the model, everything doubtful, the suspects, what the test sees of the parameters,
+//! and what many runs make of them.
 
 use crate::files::error::FileError;
-use crate::files::job::{ComparedModes, Finished, PlacedSensor, Prepared};
+use crate::files::job::{ComparedModes, Finished, PlacedSensor, Prepared, Study, Summary, Vary};
 use crate::files::test_data::DIRECTIONS;
 use crate::method::model::{DynamicModel, Range};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
@@ -57,42 +58,38 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
 pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
     let whole = &prepared.source.whole;
     let ones = vec![1.0; whole.parameters().len()];
-    let settings = &prepared.job.correlation;
-    let mut sentences = Vec::new();
+    let mut sentences: Vec<String> = Vec::new();
     match whole.condensed(&ones, &prepared.sensors) {
         Ok((condensed, mass)) => {
             let model = DynamicModel { stiffness: condensed.stiffness, mass, shares: Vec::new() };
-            let findings = preflight(&model, &prepared.test, settings, &whole.ranges())?;
-            sentences.extend(findings.iter().map(Finding::to_string));
+            let mut findings = preflight(&model, &prepared.test, &prepared.job.correlation, &whole.ranges())?;
             if prepared.job.compare.modes == ComparedModes::Condensed {
                 let count = prepared.test.len().min(model.mass.nrows());
-                let coarse = coarse_condensation(whole, &ones, &prepared.sensors, count)?;
-                sentences.extend(coarse.iter().map(Finding::to_string));
+                findings.extend(coarse_condensation(whole, &ones, &prepared.sensors, count)?);
             }
+            sentences.extend(findings.iter().map(Finding::to_string));
         }
         Err(error) => {
             sentences.push(format!("the pre-flight looks at condensed matrices, which are not to be had: {error}"))
         }
     }
+    let mut of_mode = |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
     for (mode, assurance) in &prepared.unpaired {
-        sentences.push(format!(
-            "test mode {}: no mode of the first model is like it (modal assurance {assurance:.2} at most); it is left out",
-            mode + 1
-        ));
+        let most = format!("modal assurance {assurance:.2} at most");
+        of_mode(*mode, format!("no mode of the first model is like it ({most}); it is left out"));
     }
     for (mode, report) in &prepared.deleted {
-        sentences.push(format!("test mode {}: deleted by Appendix B ({:?})", mode + 1, report.verdict));
+        of_mode(*mode, format!("deleted by Appendix B ({:?})", report.verdict));
     }
     for (mode, phase) in prepared.data.phase_collinearity.iter().enumerate().filter(|(_, phase)| **phase < COLLINEAR) {
-        sentences.push(format!("test mode {}: complex, with a phase collinearity of {phase:.2}", mode + 1));
+        of_mode(mode, format!("complex, with a phase collinearity of {phase:.2}"));
     }
     if !prepared.data.skipped.is_empty() {
         let numbers: Vec<String> = prepared.data.skipped.iter().map(usize::to_string).collect();
         sentences.push(format!("datasets of the Universal File that are not read: {}", numbers.join(", ")));
     }
-    if let Some(units) = &prepared.data.units {
-        sentences.push(format!("the test's file is in units of {units}; nothing is converted"));
-    }
+    let units = |units: &String| format!("the test's file is in units of {units}; nothing is converted");
+    sentences.extend(prepared.data.units.iter().map(units));
     let labels = (1..=sentences.len()).map(|number| number.to_string()).chain(sentences.is_empty().then(String::new));
     let cells = sentences.iter().map(Cell::text).chain([Cell::text("nothing doubtful")]);
     Ok(Table::new("doubts", "Before the first step", "Number").labels(labels).column("Finding", "", cells))
@@ -159,4 +156,32 @@ pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, Fil
         .notes([apart])
         .notes(after.parallel.iter().map(parallel))
         .notes(after.blind.iter().map(|&e| format!("{} is hardly seen.", names[e]))))
+}
+
+/// Mean, standard deviation and quantiles of every factor over the samples that did not fail.
+pub fn study_table(study: &Study, summary: &Summary) -> Table {
+    let name = |vary: &Vary| match vary {
+        Vary::Noise => "noise on the test",
+        Vary::Start => "the first point",
+        Vary::Subset => "sensors or modes left out",
+    };
+    let (Summary { spreads, within, outside, failed }, vary) = (summary, study.vary.iter().map(name));
+    let count = within + outside + failed.len();
+    let note = format!(
+        "{}, seed {}, with {}: {within} within tolerance, {outside} outside, {} failed.",
+        counted(count, "sample", "samples"),
+        study.seed,
+        vary.collect::<Vec<_>>().join(" and "),
+        failed.len(),
+    );
+    let why = |first| format!("What failed does not count; --sample {first} says why sample {first} did.");
+    let mut table = Table::new("study", format!("{}: factors over many runs", study.prepared.title), "Parameter")
+        .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
+        .notes([note])
+        .notes(failed.first().map(why));
+    for (name, spread) in spreads {
+        let spread = spread.iter().flat_map(|spread| [vec![spread.mean, spread.deviation], spread.quantiles.to_vec()]);
+        table.row(name, numbers(spread.flatten(), Digits::Fixed(4)));
+    }
+    table
 }

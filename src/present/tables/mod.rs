@@ -12,9 +12,7 @@ pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;
-pub mod study;
 pub mod subject;
-pub mod table_1;
 pub mod unlimited;
 pub mod weighted;
 
@@ -27,7 +25,6 @@ const HERTZ: Digits = Digits::Significant(4);
 const INCHES: Digits = Digits::Fixed(5);
 const PERCENT: Digits = Digits::Fixed(1);
 const RMS_PERCENT: Digits = Digits::Fixed(2);
-const KINDS: &str = "S shear panel, M membrane.";
 /// Errors under frequencies, with their digits.
 const MODE_ERRORS: [(&str, Digits); 2] = [("frequency RMS", RMS_PERCENT), ("shape RMS", RMS_PERCENT)];
 

@@ -1,6 +1,6 @@
 //! Values beside their targets, from the first model to the last: frequencies or gages, pass by pass.
 
-use super::{HERTZ, INCHES, PERCENT, in_words, kind_letter};
+use super::{HERTZ, INCHES, PERCENT, in_words, kind_letter, remarks};
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Panel, TEST_GAGE};
 use crate::present::table::{Cell, Digits, Table};
@@ -29,7 +29,7 @@ pub(super) fn stage_title(stage: &str) -> String {
 }
 
 /// An empty table filled with a column of targets, then two for each stage, its values and their errors, each beside the published
-/// one; under these a row for each label of an error with its digits.
+/// one; under these a row for each label of an error with its digits, and what is wrong in the print.
 ///
 /// The values are frequencies beside those of a test, or the gages of panels beside those of the test configuration. Published
 /// columns are called like the stages with `_hz`, `_in` or `_percent` behind, rows like their labels: `shape_rms`.
@@ -58,7 +58,8 @@ pub(super) fn fill(
     };
     let mut table = table.labels(&labels);
     if !panels.is_empty() {
-        table = table.column("Type", "", panels.iter().map(|panel| Cell::text(kind_letter(panel.kind))));
+        let kinds = panels.iter().map(|panel| Cell::text(kind_letter(panel.kind)));
+        table = table.column("Type", "", kinds).notes(["S shear panel, M membrane."]);
     }
     let (target, suffix) = (|row: usize| targets.get(row).copied(), unit.to_lowercase());
     table = table.column("GVT", unit, column(format!("gvt_{suffix}"), &|row| (target(row), digits)));
@@ -73,5 +74,5 @@ pub(super) fn fill(
         let percents = column(format!("{}_percent", stage.name), &percent);
         table = table.column(&title, unit, values).column(title + " error", "%", percents);
     }
-    table
+    table.notes(remarks(paper))
 }
