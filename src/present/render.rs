@@ -48,7 +48,7 @@ pub fn markdown(tables: &[Table]) -> String {
 
 /// Paragraphs of every table, below a line about published numbers where there are any.
 fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) -> String {
-    let head = tables.iter().any(Table::is_published).then(|| head.to_owned());
+    let head = tables.iter().flat_map(|table| &table.rows).any(Row::is_published).then(|| head.to_owned());
     let paragraphs: Vec<String> = head.into_iter().chain(tables.iter().flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
 }
@@ -108,8 +108,7 @@ impl TextColumn {
 /// The table, in as many parts side by side as its width asks for.
 fn grids(table: &Table) -> Vec<String> {
     let column = |name: &str, unit: &str, both: &dyn Fn(&Row) -> [String; 2]| {
-        let lines = |row: &Row| if row.cells.iter().any(|cell| cell.published().is_some()) { 2 } else { 1 };
-        let cells = table.rows.iter().flat_map(|row| both(row).into_iter().take(lines(row)));
+        let cells = table.rows.iter().flat_map(|row| both(row).into_iter().take(1 + usize::from(row.is_published())));
         TextColumn::new(name, unit, cells.collect())
     };
     let label = column(table.label_heading, "", &|row| [row.label.clone(), PUBLISHED.to_owned()]);

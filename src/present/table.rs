@@ -109,6 +109,13 @@ impl Cell {
     }
 }
 
+impl Row {
+    /// Whether any number has a published one behind it.
+    pub fn is_published(&self) -> bool {
+        self.cells.iter().any(|cell| cell.published().is_some())
+    }
+}
+
 impl Table {
     /// A table without columns and rows.
     pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
@@ -150,12 +157,6 @@ impl Table {
     pub fn notes<S: Into<String>>(mut self, sentences: impl IntoIterator<Item = S>) -> Self {
         self.notes.extend(sentences.into_iter().map(Into::into));
         self
-    }
-
-    /// Whether any number has a published one behind it.
-    pub fn is_published(&self) -> bool {
-        let mut cells = self.rows.iter().flat_map(|row| &row.cells);
-        cells.any(|cell| cell.published().is_some())
     }
 }
 

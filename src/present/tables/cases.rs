@@ -11,7 +11,9 @@ use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::cases::torque_box::gage_rms;
 use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
+use crate::method::inner_loop::InnerSettings;
 use crate::method::model::Check;
+use crate::method::outer_loop::Settings;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
@@ -28,11 +30,11 @@ fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<Publishe
 /// An empty table of a case, named by the paper's number if it has one.
 fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label: &'static str) -> Table {
     let case = result.case.number;
-    let title = format!("Case {case}: {what} and errors");
-    match paper.map(|table| table.number) {
-        Some(number) => Table::new(format!("table_{number}"), format!("{title} (Table {number})"), label),
-        None => Table::new(format!("case_{case}_{what}"), title, label),
-    }
+    let (name, of_paper) = match paper.map(|table| table.number) {
+        Some(number) => (format!("table_{number}"), format!(" (Table {number})")),
+        None => (format!("case_{case}_{what}"), String::new()),
+    };
+    Table::new(name, format!("Case {case}: {what} and errors{of_paper}"), label)
 }
 
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
@@ -98,25 +100,25 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
 
 /// The settings that each case was run with.
 pub fn settings_table(results: &[CaseResult]) -> Table {
-    let mut table = Table::new("settings", "Settings of the loops", "Case")
-        .headings(["Step", "Changes", "R", "Limits", "TOLI", "TOLO", "Iterations", "Passes"], "")
-        .notes(["R and TOLI: first, and after. Iterations and passes: at most."]);
-    for CaseResult { case, .. } in results {
-        let (settings, inner) = (&case.settings, &case.settings.inner);
-        let changes = if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" };
-        let cells = [
-            inner.step.name().to_owned(),
-            changes.to_owned(),
-            format!("{} {}", inner.first_relaxation, inner.relaxation),
-            format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
-            format!("{} {}", inner.tolerance, settings.later_inner_tolerance),
-            settings.error_sum_tolerance.to_string(),
-            inner.iterations.to_string(),
-            settings.most_passes.to_string(),
-        ];
-        table.row(case.number, cells.map(Cell::text));
-    }
-    table
+    let of = |words: fn(&Settings, &InnerSettings) -> String| {
+        let settings = results.iter().map(|result| &result.case.settings);
+        settings.map(move |settings| Cell::text(words(settings, &settings.inner)))
+    };
+    Table::new("settings", "Settings of the loops", "Case")
+        .labels(results.iter().map(|result| result.case.number))
+        .column("Step", "", of(|_, inner| inner.step.name().to_owned()))
+        .column(
+            "Changes",
+            "",
+            of(|_, inner| if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" }.into()),
+        )
+        .column("R", "", of(|_, inner| format!("{} {}", inner.first_relaxation, inner.relaxation)))
+        .column("Limits", "", of(|_, inner| format!("{} {}", inner.factor_range.lower, inner.factor_range.upper)))
+        .column("TOLI", "", of(|settings, inner| format!("{} {}", inner.tolerance, settings.later_inner_tolerance)))
+        .column("TOLO", "", of(|settings, _| settings.error_sum_tolerance.to_string()))
+        .column("Iterations", "", of(|_, inner| inner.iterations.to_string()))
+        .column("Passes", "", of(|settings, _| settings.most_passes.to_string()))
+        .notes(["R and TOLI: first, and after. Iterations and passes: at most."])
 }
 
 /// How well the reconstructed box reproduces the published frequencies, column by column.
@@ -146,20 +148,19 @@ pub fn fit_table(fit: &Fit) -> Table {
 pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
-    let mut table = Table::new("outcome", "What became of every case", "Case")
-        .headings(["Passes", "Error sum", "TOLO", "Outcome"], "")
-        .notes([note]);
-    for result in results {
-        let (case, run) = (&result.case, &result.correlation);
-        if !result.is_detection() {
-            let verdict = run.verdict.in_words(&result.parameter_names);
-            table.notes.push(format!("Case {}: {verdict}", case.number));
-        }
-        let sums = numbers([last(result).errors.sum(), case.settings.error_sum_tolerance], Digits::Fixed(4));
-        let passes = std::iter::once(Cell::count(run.passes.len()));
-        table.row(case.number, passes.chain(sums).chain([Cell::text(outcome(result))]));
-    }
-    table
+    let verdict = |result: &CaseResult| {
+        let words = result.correlation.verdict.in_words(&result.parameter_names);
+        (!result.is_detection()).then(|| format!("Case {}: {words}", result.case.number))
+    };
+    let sums = |of: fn(&CaseResult) -> f64| numbers(results.iter().map(of), Digits::Fixed(4));
+    Table::new("outcome", "What became of every case", "Case")
+        .labels(results.iter().map(|result| result.case.number))
+        .column("Passes", "", results.iter().map(|result| Cell::count(result.correlation.passes.len())))
+        .column("Error sum", "", sums(|result| last(result).errors.sum()))
+        .column("TOLO", "", sums(|result| result.case.settings.error_sum_tolerance))
+        .column("Outcome", "", results.iter().map(|result| Cell::text(outcome(result))))
+        .notes([note])
+        .notes(results.iter().filter_map(verdict))
 }
 
 /// Every table of a run, in the order of the report.

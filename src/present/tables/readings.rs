@@ -97,15 +97,18 @@ pub fn readings_tables(columns: &[ReadingColumn], detections: &[Detection]) -> R
 /// What Case 4's first iteration asks for by each reading.
 pub fn detection_table(detections: &[Detection]) -> Table {
     let title = "Case 4: what the first iteration asks for by each reading of the step";
-    let mut table = Table::new("case_4_readings", title, "Reading")
-        .headings(["Faulty element", "Next largest", "Ratio", "Reported"], "");
-    for found in detections {
-        let printed = (found.reading == published_reading(CASES[3])).then_some(60.0);
-        let others = numbers([found.next, found.factor / found.next], PERCENT);
-        let reported = Cell::text(if found.is_reported { "yes" } else { "no" });
-        let factor = std::iter::once(Cell::beside(found.factor, PERCENT, printed));
-        table.row(found.reading.name(), factor.chain(others).chain([reported]));
-    }
+    let printed = |found: &Detection| (found.reading == published_reading(CASES[3])).then_some(60.0);
+    let factor = |found: &Detection| Cell::beside(found.factor, PERCENT, printed(found));
+    let table = Table::new("case_4_readings", title, "Reading")
+        .labels(detections.iter().map(|found| found.reading.name()))
+        .column("Faulty element", "", detections.iter().map(factor))
+        .column("Next largest", "", numbers(detections.iter().map(|found| found.next), PERCENT))
+        .column("Ratio", "", numbers(detections.iter().map(|found| found.factor / found.next), PERCENT))
+        .column(
+            "Reported",
+            "",
+            detections.iter().map(|found| Cell::text(if found.is_reported { "yes" } else { "no" })),
+        );
     table.notes([format!(
         "The box was fitted so that own gives 58.4 for the published 60; the others are what follows. A parameter is reported when \
         it asks for more than {ANOMALY_RATIO:.0} times as much as any other."
