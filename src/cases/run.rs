@@ -7,6 +7,7 @@ use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
+use serde::Serialize;
 
 /// How many times the next largest unlimited factor the largest must be to be reported as an anomaly.
 ///
@@ -18,7 +19,7 @@ pub const ANOMALY_RATIO: f64 = 4.0;
 pub const BUILT_IN: &str = "built-in";
 
 /// An element whose unlimited factor cannot be meant: a modeling error, in all likelihood.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Anomaly {
     /// Name of the parameter.
     pub parameter: String,

@@ -1,6 +1,6 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
-use super::error::PresentError;
+use super::PresentError;
 use super::json::{document, iteration, rows};
 use crate::cases::{Case, run_case};
 use crate::files::matrices::write_matrix_market;

@@ -4,13 +4,11 @@
 //! of a pass are totals since the first model, those of an iteration totals since the last exact solution. A number
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
-use super::error::PresentError;
+use super::PresentError;
 use super::subject::{Stage, Subject};
-use super::table::Table;
 use super::tables::cases::{outcome, published_iterations};
-use super::tables::deck::{UnitShapes, not_read};
+use super::tables::deck::{not_read, unit_shapes};
 use crate::cases::CaseResult;
-use crate::cases::fewer_modes::FewerModesRun;
 use crate::cases::fit::Fit;
 use crate::cases::readings::{Detection, ReadingColumn};
 use crate::cases::torque_box::TEST_GAGE;
@@ -18,15 +16,10 @@ use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
 use crate::method::structure::DIRECTIONS;
-use crate::studies::coverage::Coverage;
 use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
-use crate::studies::localization::Located;
-use crate::studies::matrix_comparison::MatrixComparison;
-use crate::studies::noisy_modes::NoisyModes;
 use crate::studies::preflight::Finding;
 use crate::studies::preflight::rates::Rates;
-use crate::studies::weighted::comparison::Compared;
 use crate::studies::whole_modes::WholeModes;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -136,7 +129,6 @@ pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> 
 }
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
-    let anomaly = |a: &crate::cases::Anomaly| json!({"parameter": a.parameter, "factor": a.factor, "ratio": a.ratio});
     Ok(json!({
         "case": result.case.number,
         "settings": result.case.settings,
@@ -148,13 +140,8 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "test_gage_in": TEST_GAGE,
         "first_gages_in": result.case.first_gages(),
         "pass_gages_in": result.pass_gages,
-        "anomaly": result.anomaly.as_ref().map(anomaly),
+        "anomaly": result.anomaly,
     }))
-}
-
-/// Runs with fewer modes.
-pub fn fewer_modes(runs: &[FewerModesRun]) -> Result<String, PresentError> {
-    document(json!({ "runs": runs }))
 }
 
 /// Every reading of the step beside the print.
@@ -168,35 +155,10 @@ pub fn readings(columns: &[ReadingColumn], detections: &[Detection]) -> Result<S
     document(json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }))
 }
 
-/// A comparison of matrix corrections.
-pub fn matrices(comparison: &MatrixComparison) -> Result<String, PresentError> {
-    document(json!({ "comparison": comparison }))
-}
-
-/// Correlations with noisy test modes.
-pub fn noisy_modes(study: &NoisyModes) -> Result<String, PresentError> {
-    document(json!({ "study": study }))
-}
-
 /// What the pre-flight finds in structures, and how often it finds mistakes; places count from zero.
 pub fn preflight(found: &[(String, Vec<Finding>)], rates: &[Rates]) -> Result<String, PresentError> {
     let structure = |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
     document(json!({ "structures": found.iter().map(structure).collect::<Value>(), "rates": rates }))
-}
-
-/// How often each culprit is found; panels by their numbers.
-pub fn localization(located: &[Located]) -> Result<String, PresentError> {
-    document(json!({ "located": located }))
-}
-
-/// Structures before correction, by the paper's rule and by the weighted one, and how often intervals hold the truth.
-pub fn weighted(compared: &[[Compared; 3]], coverages: &[Coverage]) -> Result<String, PresentError> {
-    document(json!({ "structures": compared, "coverage": coverages }))
-}
-
-/// Tables cell by cell: what is computed as an object, what is printed as text.
-pub fn tables(tables: &[Table]) -> Result<String, PresentError> {
-    document(json!({ "tables": tables }))
 }
 
 /// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.
@@ -227,14 +189,14 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 /// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of
 /// `dof`.
 pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
-    let scaled = UnitShapes::new(modes, count);
+    let (masses, shapes) = unit_shapes(modes, count);
     let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
     document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
-        "frequencies_hz": scaled.frequencies_hz,
-        "generalized_masses": scaled.masses,
-        "shapes": scaled.shapes,
+        "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),
+        "generalized_masses": masses,
+        "shapes": shapes,
         "not_read": deck.unread.iter().map(not_read).collect::<Value>(),
     }))
 }

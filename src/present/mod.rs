@@ -4,7 +4,6 @@
 //! [`json::subject`] and [`page::subject_page`] show it. The paper's cases and the delta wing are subjects with more beside them.
 
 pub mod dump;
-pub mod error;
 pub mod figures;
 pub mod json;
 pub mod page;
@@ -13,4 +12,28 @@ pub mod subject;
 pub mod table;
 pub mod tables;
 
-pub use error::PresentError;
+use crate::cases::error::CaseError;
+use crate::files::error::FileError;
+use crate::method::error::Error;
+
+/// An error of tables, figures, pages and the files they are written to. The message above a variant is the documentation of its
+/// fields.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "a variant's message says what its fields are")]
+pub enum PresentError {
+    /// What is to be shown cannot be computed.
+    #[error(transparent)]
+    Method(#[from] Error),
+    /// The case to be shown or its data are wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A file or another program fails.
+    #[error(transparent)]
+    Files(#[from] FileError),
+    /// A figure that cannot be drawn.
+    #[error("figure {figure}: expected to draw it, found {found}")]
+    Drawing { figure: String, found: String },
+    /// A document that cannot be written as JSON.
+    #[error("JSON: expected to write the document, found an error: {0}")]
+    Json(#[from] serde_json::Error),
+}

@@ -1,6 +1,6 @@
 //! Tables as text for a terminal, as Markdown and as CSV.
 
-use super::table::{Cell, Row, Table};
+use super::table::{Cell, Column, Row, Table};
 
 /// No line of text is longer, characters.
 pub const WIDTH: usize = 100;
@@ -48,7 +48,7 @@ pub fn markdown(tables: &[Table]) -> String {
 
 /// Paragraphs of every table, below a line about published numbers where there are any.
 fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) -> String {
-    let head = tables.iter().any(Table::is_published).then(|| head.to_owned());
+    let head = tables.iter().flat_map(|table| &table.rows).any(Row::is_published).then(|| head.to_owned());
     let paragraphs: Vec<String> = head.into_iter().chain(tables.iter().flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
 }
@@ -107,28 +107,22 @@ impl TextColumn {
 
 /// The table, in as many parts side by side as its width asks for.
 fn grids(table: &Table) -> Vec<String> {
-    let has_published = |row: &Row| row.cells.iter().any(|cell| cell.published().is_some());
-    let mut labels = Vec::new();
-    for row in &table.rows {
-        labels.push(row.label.clone());
-        labels.extend(has_published(row).then(|| PUBLISHED.to_owned()));
-    }
-    let label = TextColumn::new(table.label_heading, "", labels);
-    let mut parts: Vec<Vec<TextColumn>> = vec![Vec::new()];
-    let mut used = label.width;
-    for (at, column) in table.columns.iter().enumerate() {
-        let mut cells = Vec::new();
-        for row in &table.rows {
-            let cell = row.cells.get(at).unwrap_or(&Cell::Blank);
-            cells.push(cell.computed());
-            cells.extend(has_published(row).then(|| cell.published().unwrap_or_default()));
-        }
-        let column = TextColumn::new(&column.name, column.unit, cells);
-        if used + GAP + column.width > WIDTH && used > label.width {
+    let column = |name: &str, unit: &str, both: &dyn Fn(&Row) -> [String; 2]| {
+        let cells = table.rows.iter().flat_map(|row| both(row).into_iter().take(1 + usize::from(row.is_published())));
+        TextColumn::new(name, unit, cells.collect())
+    };
+    let label = column(table.label_heading, "", &|row| [row.label.clone(), PUBLISHED.to_owned()]);
+    let (mut parts, mut room): (Vec<Vec<TextColumn>>, _) = (Vec::new(), 0);
+    for (at, Column { name, unit }) in table.columns.iter().enumerate() {
+        let both = |row: &Row| {
+            row.cells.get(at).map(|cell| [cell.computed(), cell.published().unwrap_or_default()]).unwrap_or_default()
+        };
+        let column = column(name, unit, &both);
+        if GAP + column.width > room {
             parts.push(Vec::new());
-            used = label.width;
+            room = WIDTH.saturating_sub(label.width);
         }
-        used += GAP + column.width;
+        room = room.saturating_sub(GAP + column.width);
         if let Some(part) = parts.last_mut() {
             part.push(column);
         }
@@ -138,25 +132,21 @@ fn grids(table: &Table) -> Vec<String> {
 
 /// One part: headings, rows, and a rule below each.
 fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
-    let line = |first: &str, cell: &dyn Fn(&TextColumn) -> String| {
-        let mut line = format!("{first:<width$}", width = label.width);
-        for column in columns {
-            line += &format!("{:>width$}", cell(column), width = GAP + column.width);
-        }
+    let line = |text: &dyn Fn(&TextColumn) -> String| {
+        let cells = columns.iter().map(|column| format!("{:>width$}", text(column), width = GAP + column.width));
+        let line = format!("{:<width$}", text(label), width = label.width) + &cells.collect::<String>();
         line.trim_end().to_owned()
     };
-    let all = || columns.iter().chain([label]);
-    let high = all().map(|column| column.heading.len()).max().unwrap_or(0);
+    let high = columns.iter().chain([label]).map(|column| column.heading.len()).max().unwrap_or(0);
     // Headings stand on the rule: the shorter ones begin lower.
-    let heading = |column: &TextColumn, at: usize| {
-        (at + column.heading.len()).checked_sub(high).map_or_else(String::new, |row| column.heading[row].clone())
+    let heading = |column: &TextColumn, at: usize| match (at + column.heading.len()).checked_sub(high) {
+        Some(row) => column.heading[row].clone(),
+        None => String::new(),
     };
-    let mut lines: Vec<String> = (0..high).map(|at| line(&heading(label, at), &|column| heading(column, at))).collect();
     let rule = "─".repeat(label.width + columns.iter().map(|column| GAP + column.width).sum::<usize>());
-    lines.push(rule.clone());
-    lines.extend((0..label.cells.len()).map(|row| line(&label.cells[row], &|column| column.cells[row].clone())));
-    lines.push(rule);
-    lines.join("\n")
+    let headings = (0..high).map(|at| line(&|column| heading(column, at)));
+    let rows = (0..label.cells.len()).map(|row| line(&|column| column.cells[row].clone()));
+    headings.chain([rule.clone()]).chain(rows).chain([rule.clone()]).collect::<Vec<_>>().join("\n")
 }
 
 /// A paragraph in lines of at most [`WIDTH`].

@@ -71,24 +71,19 @@ pub struct Table {
 }
 
 impl Cell {
-    /// A number with nothing published for it.
-    pub fn number(computed: f64, digits: Digits) -> Self {
-        Self::beside(computed, digits, None)
+    /// A number, or nothing, beside the published one if there is any.
+    pub fn beside(computed: impl Into<Option<f64>>, digits: Digits, published: Option<f64>) -> Self {
+        computed.into().map_or(Self::Blank, |computed| Self::Number { computed, published, digits })
     }
 
-    /// A number beside the published one, if there is any.
-    pub fn beside(computed: f64, digits: Digits, published: Option<f64>) -> Self {
-        Self::Number { computed, published, digits }
+    /// A number, or nothing, with nothing published for it.
+    pub fn number(computed: impl Into<Option<f64>>, digits: Digits) -> Self {
+        Self::beside(computed, digits, None)
     }
 
     /// A count.
     pub fn count(count: usize) -> Self {
         Self::number(count as f64, Digits::Fixed(0))
-    }
-
-    /// A fraction in percent.
-    pub fn percent(fraction: f64, digits: Digits) -> Self {
-        Self::number(100.0 * fraction, digits)
     }
 
     /// Words.
@@ -114,40 +109,54 @@ impl Cell {
     }
 }
 
+impl Row {
+    /// Whether any number has a published one behind it.
+    pub fn is_published(&self) -> bool {
+        self.cells.iter().any(|cell| cell.published().is_some())
+    }
+}
+
 impl Table {
     /// A table without columns and rows.
     pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
         Self { name: name.into(), title: title.into(), label_heading: label, ..Self::default() }
     }
 
-    /// The table with one more column.
-    pub fn column(mut self, name: impl Into<String>, unit: &'static str) -> Self {
-        let name = name.into();
-        self.columns.push(Column { name, unit });
+    /// The table with empty rows of these labels, for columns to fill.
+    pub fn labels<L: ToString>(mut self, labels: impl IntoIterator<Item = L>) -> Self {
+        labels.into_iter().for_each(|label| self.row(label, []));
         self
     }
 
-    /// The table with more columns of one unit.
-    pub fn columns<N: Into<String>>(self, names: impl IntoIterator<Item = N>, unit: &'static str) -> Self {
-        let add = |table: Self, name: N| table.column(name, unit);
-        names.into_iter().fold(self, add)
-    }
-
-    /// The table with one more sentence under it.
-    pub fn note(mut self, sentence: impl Into<String>) -> Self {
-        self.notes.push(sentence.into());
+    /// The table with one more column, its cells from the first row down; rows beyond the last stay blank.
+    pub fn column(
+        mut self,
+        name: impl Into<String>,
+        unit: &'static str,
+        cells: impl IntoIterator<Item = Cell>,
+    ) -> Self {
+        self.columns.push(Column { name: name.into(), unit });
+        let cells = cells.into_iter().chain(std::iter::repeat(Cell::Blank));
+        self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.cells.push(cell));
         self
     }
 
-    /// Adds a row.
+    /// The table with the headings of more columns of one unit, for rows to fill.
+    pub fn headings<N: Into<String>>(self, names: impl IntoIterator<Item = N>, unit: &'static str) -> Self {
+        names.into_iter().fold(self, |table, name| table.column(name, unit, []))
+    }
+
+    /// Adds a row; columns beyond the last cell stay blank.
     pub fn row(&mut self, label: impl ToString, cells: impl IntoIterator<Item = Cell>) {
-        self.rows.push(Row { label: label.to_string(), cells: cells.into_iter().collect() });
+        let mut cells: Vec<Cell> = cells.into_iter().collect();
+        cells.resize(self.columns.len(), Cell::Blank);
+        self.rows.push(Row { label: label.to_string(), cells });
     }
 
-    /// Whether any number has a published one behind it.
-    pub fn is_published(&self) -> bool {
-        let mut cells = self.rows.iter().flat_map(|row| &row.cells);
-        cells.any(|cell| cell.published().is_some())
+    /// The table with more sentences under it.
+    pub fn notes<S: Into<String>>(mut self, sentences: impl IntoIterator<Item = S>) -> Self {
+        self.notes.extend(sentences.into_iter().map(Into::into));
+        self
     }
 }
 
@@ -170,6 +179,22 @@ impl Digits {
         let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
         if is_zero { text.trim_start_matches('-').to_owned() } else { text }
     }
+}
+
+/// Numbers, or nothing, as cells.
+pub fn numbers<N: Into<Option<f64>>>(
+    values: impl IntoIterator<Item = N>,
+    digits: Digits,
+) -> impl Iterator<Item = Cell> {
+    values.into_iter().map(move |value| Cell::number(value, digits))
+}
+
+/// Fractions, or nothing, as cells in percent.
+pub fn percents<N: Into<Option<f64>>>(
+    fractions: impl IntoIterator<Item = N>,
+    digits: Digits,
+) -> impl Iterator<Item = Cell> {
+    numbers(fractions.into_iter().map(|fraction| fraction.into().map(|fraction| 100.0 * fraction)), digits)
 }
 
 /// A number of things in words: `1 iteration`, `2 iterations`.

@@ -83,7 +83,7 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
     let fit = fit(&reconstruction)?;
     let mut tables = tables::cases::all_tables(&results, &fit)?;
     if arguments.cases.is_empty() {
-        tables.push(tables::table_1::root_error_table()?);
+        tables.push(tables::published::root_error_table()?);
     }
     let held = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
     if let Some(last) = tables.last_mut() {

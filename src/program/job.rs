@@ -13,6 +13,7 @@ use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table, suspects_table};
 use corfem::present::tables::subject::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
+use serde_json::json;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -74,7 +75,7 @@ pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -
         let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
         Ok::<_, PresentError>([doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects])
     })?;
-    output.write(&tables, || json::tables(&tables))
+    output.write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// Corrects the model of a job and writes the report; whether it is within tolerance.

@@ -22,6 +22,7 @@ use corfem::studies::preflight::Specimen;
 use corfem::studies::preflight::rates::{self, all_rates};
 use corfem::studies::weighted::comparison::compare_all;
 use corfem::studies::weighted::gauss_newton::WeightedSettings;
+use serde_json::json;
 
 #[derive(Debug, Args)]
 pub struct TablesArguments {
@@ -106,11 +107,11 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
     let all: Vec<u8> = (1..=13).collect();
     let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
     let table = |&number: &u8| match number {
-        1 => tables::table_1::root_error_table(),
+        1 => tables::published::root_error_table(),
         _ => tables::published::published_table(number.into()),
     };
     let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;
-    arguments.output.write(&tables, || json::tables(&tables))
+    arguments.output.write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
@@ -123,8 +124,9 @@ pub fn fewer_modes(
     settings.apply(&mut case.settings)?;
     let (published, all) = during(quiet, "runs with fewer modes", || (published_runs(&case), all_runs(&case)));
     let (published, all) = (published?, all?);
-    let tables = tables::fewer_modes::fewer_modes_tables(&case, &published, &all)?;
-    output.write(&tables, || json::fewer_modes(&all))
+    let mut tables = tables::fewer_modes::published_tables(&case, &published)?;
+    tables.extend(tables::fewer_modes::truncation_tables(&all));
+    output.write(&tables, || json::document(json!({ "runs": all })))
 }
 
 /// Corrects a case by elements and by matrices and writes what either knows afterwards.
@@ -133,7 +135,7 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
-    arguments.output.write(&tables, || json::matrices(&comparison))
+    arguments.output.write(&tables, || json::document(json!({ "comparison": comparison })))
 }
 
 /// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
@@ -141,7 +143,7 @@ pub fn noise(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> 
     output.check()?;
     let case = Case::new(NOISY_CASE)?;
     let study = during(quiet, "noisy tests", || noisy_modes(&case, Noise::USUAL, SEEDS))?;
-    output.write(&tables::noisy_modes::noisy_tables(&study), || json::noisy_modes(&study))
+    output.write(&tables::noisy_modes::noisy_tables(&study), || json::document(json!({ "study": study })))
 }
 
 /// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
@@ -164,7 +166,7 @@ pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> 
 pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments, quiet: bool) -> Result<(), PresentError> {
     output.check()?;
     let located = during(quiet, "panels too thin in turn", || localization::localization(1..=*tests))?;
-    output.write(&tables::weighted::localization_tables(&located), || json::localization(&located))
+    output.write(&tables::weighted::localization_tables(&located), || json::document(json!({ "located": located })))
 }
 
 /// Writes the paper's rule and the weighted one side by side, and how often the weighted one's intervals hold the truth.
@@ -175,7 +177,7 @@ pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments, quiet: 
     let coverages = during(quiet, "intervals of noisy tests", || coverage::all_coverages(1..=*tests))?;
     let mut tables = tables::weighted::coverage_tables(&coverages);
     tables.insert(0, tables::weighted::rules_table(&compared));
-    output.write(&tables, || json::weighted(&compared, &coverages))
+    output.write(&tables, || json::document(json!({ "structures": compared, "coverage": coverages })))
 }
 
 /// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.
@@ -186,7 +188,7 @@ pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), Prese
     for exact in [Exact::SameCondensation, Exact::NewCondensation] {
         tables.push(tables::cost::linearization_table(&both_structures(exact)?, exact));
     }
-    output.write(&tables, || json::tables(&tables))
+    output.write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

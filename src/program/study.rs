@@ -8,8 +8,9 @@ use clap::Args;
 use corfem::files::error::FileError;
 use corfem::files::job::{Samples, Study, Vary};
 use corfem::present::figures::histogram;
-use corfem::present::tables::study::study_table;
+use corfem::present::tables::job::study_table;
 use corfem::present::{PresentError, json, render};
+use serde_json::json;
 use std::fs::{File, OpenOptions};
 use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -102,7 +103,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     let figure = histogram::draw("histogram", &tables[0].title, &summary)?;
     let files = [("summary.csv", render::csv(&tables)), ("histogram.svg", figure)];
     put_all(folder, &files.map(|(name, text)| (name.to_owned(), text.into_bytes())))?;
-    arguments.output.write(&tables, || json::tables(&tables))
+    arguments.output.write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.

@@ -8,7 +8,7 @@ use corfem::cases::{CASES, Case, Grouping, run_case};
 use corfem::present::render::{csv, markdown, text};
 use corfem::present::table::Table;
 use corfem::present::tables::cases::all_tables;
-use corfem::present::tables::table_1::root_error_table;
+use corfem::present::tables::published::root_error_table;
 
 fn tables() -> Vec<Table> {
     let results: Vec<_> = CASES

@@ -11,7 +11,7 @@ use corfem::method::pairing::paired;
 use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
-use corfem::present::tables::subject::{history_table, subject_tables, swaps};
+use corfem::present::tables::subject::{factor_table, history_table, paired_table, swaps};
 use corfem::studies::delta_wing::correlation::GROUPS;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ fn finished(name: &str) -> (Prepared, Finished) {
     let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
     let mut tables =
         vec![doubts_table(&prepared).expect("doubts"), places_table(&prepared, Some(&finished)).expect("sensors")];
-    tables.extend(subject_tables(&subject).expect("tables"));
+    tables.extend([paired_table(&subject).expect("modes"), factor_table(&subject), history_table(&subject)]);
     tables.push(seen_table(&prepared, &finished).expect("a table"));
     let text = render::text(&tables);
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");

@@ -9,7 +9,7 @@ use corfem::present::figures::Figure;
 use corfem::present::page::{Contents, page};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::cases::{all_tables, frequency_table, summary};
-use corfem::present::tables::fewer_modes::fewer_modes_tables;
+use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::USUAL_CASE;
 
@@ -33,7 +33,8 @@ fn html() -> String {
 fn comparison_tables() -> Vec<Table> {
     let case = Case::new(PUBLISHED_CASE).expect("a case");
     let runs = published_runs(&case).expect("they run");
-    let mut tables = fewer_modes_tables(&case, &runs, fewer_modes_runs()).expect("it reads");
+    let mut tables = published_tables(&case, &runs).expect("it reads");
+    tables.extend(truncation_tables(fewer_modes_runs()));
     let corrected = Case::new(USUAL_CASE).expect("a case");
     tables.extend(matrix_tables(&corrected, comparison()));
     tables.retain(|table| !table.name.contains("_change_") || table.name.contains("after"));

@@ -20,7 +20,7 @@ fn table() -> impl Strategy<Value = Table> {
         let row = prop::collection::vec(cell.clone(), columns.len());
         prop::collection::vec(row, 1..6).prop_map(move |rows| {
             let mut table =
-                Table::new("name", note.clone(), "Row").columns(columns.iter().cloned(), "%").note(note.clone());
+                Table::new("name", note.clone(), "Row").headings(columns.iter().cloned(), "%").notes([note.clone()]);
             for cells in rows {
                 table.row(&label, cells);
             }
@@ -61,12 +61,12 @@ proptest! {
 }
 
 fn small() -> Table {
-    let mut table =
-        Table::new("t", "A title", "Mode").column("Initial", "Hz").column("Initial error", "%").note("A note.");
     let beside = Cell::beside(-4.0, Digits::Fixed(1), Some(-4.5));
-    table.row("1", [Cell::number(10.5, Digits::Significant(4)), beside]);
-    table.row("2, \"both\"", [Cell::Blank, Cell::text("words")]);
-    table
+    Table::new("t", "A title", "Mode")
+        .labels(["1", "2, \"both\""])
+        .column("Initial", "Hz", [Cell::number(10.5, Digits::Significant(4))])
+        .column("Initial error", "%", [beside, Cell::text("words")])
+        .notes(["A note."])
 }
 
 #[test]

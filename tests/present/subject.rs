@@ -13,8 +13,8 @@ use corfem::present::json;
 use corfem::present::page::subject_page;
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::subject::{Derivatives, SensorPoint, Subject};
-use corfem::present::table::Cell;
-use corfem::present::tables::subject::{derivative_table, factor_table, history_table, paired_table, subject_tables};
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::subject::{derivative_table, factor_table, history_table, paired_table};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use nalgebra::{DMatrix, Vector3};
@@ -52,7 +52,7 @@ fn chain(name: &str, wrong: &[f64], places: impl Fn(usize) -> (Vector3<f64>, Vec
         frame,
         mass: Some(mass.clone()),
         derivatives: Some(Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken")),
-        ..Subject::of("chain", &names, &test, &run)
+        ..Subject::of("chain", &names, &test, &run.initial, Some(&run))
     }
 }
 
@@ -65,6 +65,10 @@ static WING: LazyLock<Subject> = LazyLock::new(|| {
     let run = correlate_wing(&wing, |_, _| {}).expect("it runs");
     Subject::of_wing(&wing, &run).expect("a subject")
 });
+
+fn subject_tables(subject: &Subject) -> Vec<Table> {
+    vec![paired_table(subject).expect("a table"), factor_table(subject), history_table(subject)]
+}
 
 /// Whether every tag of a document is closed in its order and every `&` begins an entity.
 fn is_well_formed(xml: &str) -> bool {
@@ -151,7 +155,7 @@ fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
 #[test]
 fn tables_hold_every_mode_and_factor_and_fit_a_page() {
     for subject in [&*WING, &chain("rod", &[0.9, 1.1, 0.95, 1.0], along)] {
-        let mut tables = subject_tables(subject).expect("tables");
+        let mut tables = subject_tables(subject);
         tables.extend(derivative_table(subject));
         for line in text(&tables).lines() {
             assert!(line.chars().count() <= WIDTH, "{line}");
@@ -253,7 +257,7 @@ proptest! {
         check_figures(&subject, &figures);
         prop_assert_eq!(names(&figures).contains(&"chain_mode_shapes"), !is_rotation);
         prop_assert!(is_well_formed(&subject_page(&subject, &[], &name).expect("a page")));
-        prop_assert!(text(&subject_tables(&subject).expect("tables")).lines().all(|line| line.chars().count() <= WIDTH));
+        prop_assert!(text(&subject_tables(&subject)).lines().all(|line| line.chars().count() <= WIDTH));
     }
 
     /// Interpolation passes through what is measured and stays between the least and the most of it.

@@ -21,19 +21,18 @@ impl Subject {
         let stem = prepared.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let geometry = &prepared.source.geometry;
         let corners = |grids: &Vec<usize>| grids.iter().filter_map(|grid| geometry.places.get(grid).copied()).collect();
-        let mut frame: Vec<Vec<Vector3<f64>>> = geometry.elements.iter().map(corners).collect();
-        frame.extend(
-            prepared.data.lines.iter().filter(|_| geometry.elements.is_empty()).map(|line| corners(&line.to_vec())),
-        );
+        let lines =
+            prepared.data.lines.iter().filter(|_| geometry.elements.is_empty()).map(|line| corners(&line.to_vec()));
+        let mut frame: Vec<Vec<Vector3<f64>>> = geometry.elements.iter().map(corners).chain(lines).collect();
         frame.retain(|corners| corners.len() > 1);
         let still = |grid: &&usize| (0..3).all(|direction| !prepared.source.motions.contains_key(&(**grid, direction)));
         let base = match finished.map(|finished| &finished.history) {
-            Some(History::Paper(run)) => Self::of(&stem, &names, &first.test, run),
+            Some(History::Paper(run)) => Self::of(&stem, &names, &first.test, &run.initial, Some(run)),
             Some(History::GaussNewton(Some((run, _)))) => Self::of_weighted(&stem, &names, &first, run),
             history => Self {
                 best: history.map(|_| 0),
                 stages: finished.into_iter().map(stopped).collect(),
-                ..Self::untouched(&stem, &names, &first.test, &first.exact)
+                ..Self::of(&stem, &names, &first.test, &first.exact, None)
             },
         };
         let mass = prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last));
@@ -73,7 +72,7 @@ impl Subject {
             stop: if number == last { stop.to_owned() } else { String::new() },
         });
         let stages: Vec<Stage> = stages.collect();
-        Self { best: stages.len().checked_sub(1), stages, ..Self::untouched(name, names, &first.test, &first.exact) }
+        Self { best: stages.len().checked_sub(1), stages, ..Self::of(name, names, &first.test, &first.exact, None) }
     }
 }
 

@@ -2,11 +2,14 @@
 
 use super::{Derivatives, SensorPoint, Subject};
 use crate::cases::CaseResult;
-use crate::cases::torque_box::Reconstruction;
+use crate::cases::torque_box::dynamic_points;
 use crate::present::PresentError;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{GROUPS, WingCorrelation, first_model, measured_grids};
 use nalgebra::Vector3;
+
+/// Grids of the box's root, rear and front.
+const ROOT: [usize; 2] = [13, 15];
 
 impl Subject {
     /// A case of the paper: its nine dynamic points on the mid-plane of the box.
@@ -14,10 +17,13 @@ impl Subject {
     /// # Errors
     /// Those of the model and its analysis.
     pub fn of_case(result: &CaseResult) -> Result<Self, PresentError> {
-        let (case, names, test) = (&result.case, &result.parameter_names, &result.test);
+        let CaseResult { case, parameter_names: names, test, correlation: run, .. } = result;
         let model = case.model()?;
         let first = model.analyze(&vec![1.0; names.len()], test, None)?;
-        let (points, root) = mid_plane(&case.reconstruction);
+        let points = dynamic_points(&case.reconstruction)?;
+        let [rear, front] = ROOT.map(|grid| case.reconstruction.grids.get(&grid).copied().unwrap_or_default());
+        let [rear, front] = [rear, front].map(|[x, y, _]| Vector3::new(x, y, 0.0));
+        let root = [rear, rear + case.reconstruction.mid_chord_fraction * (front - rear), front];
         let rows: Vec<&[Vector3<f64>]> = points.chunks(3).chain([&root[..]]).collect();
         let bays = rows.windows(2).flat_map(|pair| [[0, 1], [1, 2]].map(|[a, b]| (pair, a, b)));
         let sensor = |(row, &at)| up(format!("D{}", row + 1), at);
@@ -31,7 +37,7 @@ impl Subject {
             mass: Some(case.reconstruction.mass()),
             tolerances: Some([case.settings.inner.tolerance, case.settings.later_inner_tolerance]),
             derivatives: Some(Derivatives::of(&first)?),
-            ..Self::of(&format!("case_{}", case.number), names, test, &result.correlation)
+            ..Self::of(&format!("case_{}", case.number), names, test, &run.initial, Some(run))
         })
     }
 
@@ -55,7 +61,7 @@ impl Subject {
             sensors: measured_grids(structure).into_iter().map(sensor).collect(),
             mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
             derivatives: Some(Derivatives::of(&first)?),
-            ..Self::of("delta_wing", &names, &run.test, &run.correlation).on(structure)
+            ..Self::of("delta_wing", &names, &run.test, &run.correlation.initial, Some(&run.correlation)).on(structure)
         })
     }
 }
@@ -63,15 +69,4 @@ impl Subject {
 /// A sensor that measures upward.
 fn up(name: String, place: Vector3<f64>) -> SensorPoint {
     SensorPoint { name, place: Some(place), direction: Vector3::z() }
-}
-
-/// The nine dynamic points of the box at mid-depth, and three of its root: rear, mid and front of every rib from the tip in.
-fn mid_plane(reconstruction: &Reconstruction) -> (Vec<Vector3<f64>>, [Vector3<f64>; 3]) {
-    let end =
-        |grid: usize| reconstruction.grids.get(&grid).map_or_else(Vector3::zeros, |at| [at[0], at[1], 0.0].into());
-    let rib = |rib: usize| {
-        let (rear, front) = (end(4 * rib + 1), end(4 * rib + 3));
-        [rear, rear + reconstruction.mid_chord_fraction * (front - rear), front]
-    };
-    ((0..3).flat_map(rib).collect(), rib(3))
 }

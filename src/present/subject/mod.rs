@@ -125,9 +125,9 @@ impl Derivatives {
 }
 
 impl Subject {
-    /// A correlation by the outer loop; what its history does not tell (title, sensors, frame, mass, deviations, derivatives) is
-    /// left empty, to be filled in.
-    pub fn of(name: &str, parameters: &[String], test: &ModeSet, run: &Correlation) -> Self {
+    /// A first model and what the outer loop made of it, if it ran; what that does not tell (title, sensors, frame, mass, deviations,
+    /// derivatives) is left empty, to be filled in.
+    pub fn of(name: &str, parameters: &[String], test: &ModeSet, initial: &Check, run: Option<&Correlation>) -> Self {
         let stage = |pass: &Pass| {
             let stop = match pass.inner.stop {
                 Stop::Tolerance => "tolerance",
@@ -137,18 +137,6 @@ impl Subject {
             let (factors, check, inner) = (pass.factors.clone(), pass.check.clone(), pass.inner.clone());
             Stage { factors, check, inner: Some(inner), stop: stop.to_owned() }
         };
-        Self {
-            stages: run.passes.iter().map(stage).collect(),
-            best: run.best,
-            converged: run.converged,
-            words: run.verdict.in_words(parameters),
-            verdict: Some(run.verdict.clone()),
-            ..Self::untouched(name, parameters, test, &run.initial)
-        }
-    }
-
-    /// A first model before any step, with the same left empty.
-    pub fn untouched(name: &str, parameters: &[String], test: &ModeSet, initial: &Check) -> Self {
         Self {
             name: name.to_owned(),
             title: name.to_owned(),
@@ -164,12 +152,12 @@ impl Subject {
             supports: Vec::new(),
             mass: None,
             initial: initial.clone(),
-            stages: Vec::new(),
             tolerances: None,
-            best: None,
-            converged: false,
-            words: String::new(),
-            verdict: None,
+            stages: run.iter().flat_map(|run| &run.passes).map(stage).collect(),
+            best: run.and_then(|run| run.best),
+            converged: run.is_some_and(|run| run.converged),
+            words: run.map_or_else(String::new, |run| run.verdict.in_words(parameters)),
+            verdict: run.map(|run| run.verdict.clone()),
             derivatives: None,
         }
     }
@@ -183,15 +171,18 @@ impl Subject {
         self
     }
 
+    fn best_stage(&self) -> Option<&Stage> {
+        self.stages.get(self.best?)
+    }
+
     /// The exact solution of the best stage.
     pub fn corrected(&self) -> &Check {
-        self.best.and_then(|stage| self.stages.get(stage)).map_or(&self.initial, |stage| &stage.check)
+        self.best_stage().map_or(&self.initial, |stage| &stage.check)
     }
 
     /// The factors of the best stage, all one without any.
     pub fn factors(&self) -> Vec<f64> {
-        let best = self.best.and_then(|stage| self.stages.get(stage));
-        best.map_or_else(|| vec![1.0; self.parameters.len()], |stage| stage.factors.clone())
+        self.best_stage().map_or_else(|| vec![1.0; self.parameters.len()], |stage| stage.factors.clone())
     }
 
     /// Whether the factor of a parameter is at an end of its range.

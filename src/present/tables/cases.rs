@@ -1,19 +1,23 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
 
 use super::readings::{case_readings, detection_table};
-use super::stages::Stages;
+use super::stages::{self, Stage};
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
-use super::{Cell, Digits, KINDS, PERCENT, PresentError, RMS_PERCENT, Table, in_words, remarks, rms};
+use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
 use crate::cases::fit::Fit;
 use crate::cases::published::PublishedTable;
 use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::cases::torque_box::gage_rms;
 use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
+use crate::method::inner_loop::InnerSettings;
 use crate::method::model::Check;
+use crate::method::outer_loop::Settings;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
+use crate::present::PresentError;
+use crate::present::table::{Cell, Digits, Table, numbers, percents};
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
 fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, PresentError> {
@@ -26,11 +30,11 @@ fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<Publishe
 /// An empty table of a case, named by the paper's number if it has one.
 fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label: &'static str) -> Table {
     let case = result.case.number;
-    let title = format!("Case {case}: {what} and errors");
-    match paper.map(|table| table.number) {
-        Some(number) => Table::new(format!("table_{number}"), format!("{title} (Table {number})"), label),
-        None => Table::new(format!("case_{case}_{what}"), title, label),
-    }
+    let (name, of_paper) = match paper.map(|table| table.number) {
+        Some(number) => (format!("table_{number}"), format!(" (Table {number})")),
+        None => (format!("case_{case}_{what}"), String::new()),
+    };
+    Table::new(name, format!("Case {case}: {what} and errors{of_paper}"), label)
 }
 
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
@@ -38,48 +42,28 @@ fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label:
 /// # Errors
 /// [`PresentError::Case`] if the published table were damaged, as for all tables of this module.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
-    let paper = published([3, 5, 7], result)?;
-    let (test, run) = (result.test.frequencies_hz(), &result.correlation);
-    let passes = run.passes.iter().enumerate().map(|(row, pass)| (format!("pass_{}", row + 1), &pass.check));
-    let checks: Vec<(String, &Check)> = std::iter::once(("initial".to_owned(), &run.initial)).chain(passes).collect();
-    let found = checks.iter().map(|(name, check)| (name.clone(), &check.frequencies_hz[..]));
-    let mut stages = Stages::of_modes(test.len(), &test, found.collect());
-    stages.paper = paper.as_ref();
-    let mut table = stages.fill(named(result, paper.as_ref(), "frequencies", "Mode"));
-    for (label, rms) in
-        [("frequency RMS", Errors::frequency_rms as fn(&Errors) -> f64), ("shape RMS", Errors::shape_rms)]
-    {
-        stages.add_errors(&mut table, label, RMS_PERCENT, checks.iter().map(|(_, check)| Some(rms(&check.errors))));
-    }
-    table.notes.extend(solver_note(result.solver, "", ", of the test configuration too;"));
-    table.notes.extend(remarks(paper.as_ref()));
-    Ok(table)
-}
-
-/// Gages at the start and after every pass, in, with the names of these stages.
-fn gage_stages(result: &CaseResult) -> Vec<(String, Vec<f64>)> {
-    let passes = result.pass_gages.iter().enumerate();
-    let pass = passes.map(|(row, gages)| (format!("pass_{}", row + 1), gages.clone()));
-    std::iter::once(("initial".to_owned(), result.case.first_gages())).chain(pass).collect()
+    let (paper, run) = (published([3, 5, 7], result)?, &result.correlation);
+    let checks = std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check)).enumerate();
+    let stage = |(pass, check): (usize, &Check)| {
+        Stage::of_pass(pass, &check.frequencies_hz, vec![check.errors.frequency_rms(), check.errors.shape_rms()])
+    };
+    let table = named(result, paper.as_ref(), "frequencies", "Mode");
+    let table = table.notes(solver_note(result.solver, "", ", of the test configuration too;"));
+    let (test_hz, stages) = (result.test.frequencies_hz(), checks.map(stage).collect::<Vec<_>>());
+    Ok(stages::fill(table, &[], &test_hz, &stages, &MODE_ERRORS, paper.as_ref()))
 }
 
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
 pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
-    let paper = published([4, 6, 8], result)?;
-    let panels = &result.case.panels;
-    let gages = gage_stages(result);
-    let found = gages.iter().map(|(name, gages)| (name.clone(), &gages[..])).collect();
-    let mut stages = Stages::of_gages(panels, found);
-    stages.paper = paper.as_ref();
-    let mut table = stages.fill(named(result, paper.as_ref(), "gages", "Element")).note(KINDS);
-    for (label, kind) in [("shear RMS", ElementKind::ShearPanel), ("membrane RMS", ElementKind::Membrane)] {
-        if panels.iter().any(|panel| panel.kind == kind) {
-            let errors = gages.iter().map(|(_, gages)| Some(gage_rms(panels, gages, kind)));
-            stages.add_errors(&mut table, label, PERCENT, errors);
-        }
-    }
-    table.notes.extend(remarks(paper.as_ref()));
-    Ok(table)
+    let (paper, panels) = (published([4, 6, 8], result)?, &result.case.panels);
+    let kinds = [("shear RMS", ElementKind::ShearPanel), ("membrane RMS", ElementKind::Membrane)];
+    let kinds = kinds.into_iter().filter(|(_, kind)| panels.iter().any(|panel| panel.kind == *kind));
+    let (errors, kinds): (Vec<_>, Vec<_>) = kinds.map(|(label, kind)| ((label, PERCENT), kind)).unzip();
+    let gages = std::iter::once(result.case.first_gages()).chain(result.pass_gages.iter().cloned()).enumerate();
+    let rms = |gages: &[f64]| kinds.iter().map(|&kind| gage_rms(panels, gages, kind)).collect();
+    let stages: Vec<Stage> = gages.map(|(pass, gages)| Stage::of_pass(pass, &gages, rms(&gages))).collect();
+    let table = named(result, paper.as_ref(), "gages", "Element");
+    Ok(stages::fill(table, panels, &[], &stages, &errors, paper.as_ref()))
 }
 
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
@@ -88,6 +72,12 @@ pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Pre
     let (row, is_papers) = (result.case.number.to_string(), result.case.grouping == Grouping::Elements);
     let printed = |pass: usize| paper.value(&row, &format!("pass_{pass}_iterations")).filter(|_| is_papers);
     Ok((1..=result.correlation.passes.len()).map(printed).collect())
+}
+
+/// The last exact solution.
+fn last(result: &CaseResult) -> &Check {
+    let run = &result.correlation;
+    run.passes.last().map_or(&run.initial, |pass| &pass.check)
 }
 
 /// Iterations of every pass.
@@ -99,84 +89,78 @@ fn iterations(result: &CaseResult) -> impl Iterator<Item = usize> {
 pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let most = results.iter().map(|result| result.correlation.passes.len()).max().unwrap_or(0);
     let title = "Inner loop iterations per pass (Table 13)";
-    let mut table = Table::new("table_13", title, "Case").columns((1..=most).map(|pass| format!("Pass {pass}")), "");
+    let mut table = Table::new("table_13", title, "Case").headings((1..=most).map(|pass| format!("Pass {pass}")), "");
     for result in results {
         let counts = iterations(result).map(|count| count as f64).zip(published_iterations(result)?);
         let cells = counts.map(|(count, printed)| Cell::beside(count, Digits::Fixed(0), printed));
-        table.row(result.case.number, cells.chain(std::iter::repeat(Cell::Blank)).take(most));
+        table.row(result.case.number, cells);
     }
-    table.notes = remarks(Some(&PublishedTable::number(13)?));
-    Ok(table)
+    Ok(table.notes(remarks(Some(&PublishedTable::number(13)?))))
 }
 
 /// The settings that each case was run with.
 pub fn settings_table(results: &[CaseResult]) -> Table {
-    let mut table = Table::new("settings", "Settings of the loops", "Case")
-        .columns(["Step", "Changes", "R", "Limits", "TOLI", "TOLO", "Iterations", "Passes"], "")
-        .note("R and TOLI: first, and after. Iterations and passes: at most.");
-    for CaseResult { case, .. } in results {
-        let (settings, inner) = (&case.settings, &case.settings.inner);
-        let changes = if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" };
-        let cells = [
-            inner.step.name().to_owned(),
-            changes.to_owned(),
-            format!("{} {}", inner.first_relaxation, inner.relaxation),
-            format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
-            format!("{} {}", inner.tolerance, settings.later_inner_tolerance),
-            settings.error_sum_tolerance.to_string(),
-            inner.iterations.to_string(),
-            settings.most_passes.to_string(),
-        ];
-        table.row(case.number, cells.map(Cell::text));
-    }
-    table
+    let of = |words: fn(&Settings, &InnerSettings) -> String| {
+        let settings = results.iter().map(|result| &result.case.settings);
+        settings.map(move |settings| Cell::text(words(settings, &settings.inner)))
+    };
+    Table::new("settings", "Settings of the loops", "Case")
+        .labels(results.iter().map(|result| result.case.number))
+        .column("Step", "", of(|_, inner| inner.step.name().to_owned()))
+        .column(
+            "Changes",
+            "",
+            of(|_, inner| if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" }.into()),
+        )
+        .column("R", "", of(|_, inner| format!("{} {}", inner.first_relaxation, inner.relaxation)))
+        .column("Limits", "", of(|_, inner| format!("{} {}", inner.factor_range.lower, inner.factor_range.upper)))
+        .column("TOLI", "", of(|settings, inner| format!("{} {}", inner.tolerance, settings.later_inner_tolerance)))
+        .column("TOLO", "", of(|settings, _| settings.error_sum_tolerance.to_string()))
+        .column("Iterations", "", of(|_, inner| inner.iterations.to_string()))
+        .column("Passes", "", of(|settings, _| settings.most_passes.to_string()))
+        .notes(["R and TOLI: first, and after. Iterations and passes: at most."])
 }
 
 /// How well the reconstructed box reproduces the published frequencies, column by column.
 pub fn fit_table(fit: &Fit) -> Table {
     let (case, stage, mode) = &fit.largest_at;
     let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
-    let title = "The reconstructed box: computed frequencies at published gages against published";
-    let mut table = Table::new("fit", title, "Column").columns(["RMS", "Largest"], "%").note(format!(
-        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper \
-            printed neither coordinates nor masses: the box was fitted to these frequencies, so agreement with them \
-            is calibration and agreement with everything else is evidence.",
+    let note = format!(
+        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither \
+        coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement \
+        with everything else is evidence.",
         100.0 * fit.rms,
         100.0 * fit.largest,
         in_words(stage),
-    ));
+    );
+    let title = "The reconstructed box: computed frequencies at published gages against published";
+    let mut table = Table::new("fit", title, "Column").headings(["RMS", "Largest"], "%").notes([note]);
     for column in &fit.columns {
         let differences: Vec<f64> = column.differences().collect();
         let largest = differences.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let cells = [rms(&differences), largest.unwrap_or(0.0)].map(|value| Cell::percent(value, RMS_PERCENT));
-        table.row(format!("Case {} {}", column.case, in_words(&column.column)), cells);
+        let label = format!("Case {} {}", column.case, in_words(&column.column));
+        table.row(label, percents([Some(rms(&differences)), largest], RMS_PERCENT));
     }
     table
 }
 
 /// What became of every case, a line each.
 pub fn outcome_table(results: &[CaseResult]) -> Table {
-    let mut table = Table::new("outcome", "What became of every case", "Case")
-        .columns(["Passes", "Error sum", "TOLO", "Outcome"], "")
-        .note(
-            "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
-             detect a modeling error; its gages are not corrected.",
-        );
-    for result in results {
-        let run = &result.correlation;
-        if !result.is_detection() {
-            let verdict = run.verdict.in_words(&result.parameter_names);
-            table.notes.push(format!("Case {}: {verdict}", result.case.number));
-        }
-        let cells = [
-            Cell::count(run.passes.len()),
-            Cell::number(run.passes.last().map_or(&run.initial, |pass| &pass.check).errors.sum(), Digits::Fixed(4)),
-            Cell::number(result.case.settings.error_sum_tolerance, Digits::Fixed(4)),
-            Cell::text(outcome(result)),
-        ];
-        table.row(result.case.number, cells);
-    }
-    table
+    let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
+        detect a modeling error; its gages are not corrected.";
+    let verdict = |result: &CaseResult| {
+        let words = result.correlation.verdict.in_words(&result.parameter_names);
+        (!result.is_detection()).then(|| format!("Case {}: {words}", result.case.number))
+    };
+    let sums = |of: fn(&CaseResult) -> f64| numbers(results.iter().map(of), Digits::Fixed(4));
+    Table::new("outcome", "What became of every case", "Case")
+        .labels(results.iter().map(|result| result.case.number))
+        .column("Passes", "", results.iter().map(|result| Cell::count(result.correlation.passes.len())))
+        .column("Error sum", "", sums(|result| last(result).errors.sum()))
+        .column("TOLO", "", sums(|result| result.case.settings.error_sum_tolerance))
+        .column("Outcome", "", results.iter().map(|result| Cell::text(outcome(result))))
+        .notes([note])
+        .notes(results.iter().filter_map(verdict))
 }
 
 /// Every table of a run, in the order of the report.
@@ -217,15 +201,12 @@ pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
 pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     let title = "RMS errors over nine modes, first and last model";
     let mut table = Table::new("summary", title, "Case")
-        .columns(["Frequency, first", "Frequency, last", "Shape, first", "Shape, last"], "%")
-        .columns(["Iterations by pass", "Outcome"], "");
+        .headings(["Frequency, first", "Frequency, last", "Shape, first", "Shape, last"], "%")
+        .headings(["Iterations by pass", "Outcome"], "");
     for result in results {
         let paper = published([3, 5, 7], result)?;
-        let last = format!("pass_{}", result.correlation.passes.len());
-        let ends = [
-            ("initial", &result.correlation.initial.errors),
-            (&last, &result.correlation.passes.last().map_or(&result.correlation.initial, |pass| &pass.check).errors),
-        ];
+        let name = format!("pass_{}", result.correlation.passes.len());
+        let ends = [("initial", &result.correlation.initial.errors), (&name, &last(result).errors)];
         let rms = |row: &str, value: fn(&Errors) -> f64| {
             ends.map(|(stage, errors)| {
                 let printed = paper.as_ref().and_then(|paper| paper.value(row, &format!("{stage}_percent")));
@@ -244,12 +225,10 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
 pub fn outcome(result: &CaseResult) -> String {
     let kind = if result.case.grouping == Grouping::Elements { "element " } else { "" };
     let detected = result.anomaly.as_ref().map(|found| format!("modeling error detected in {kind}{}", found.parameter));
-    match (detected, result.is_detection()) {
-        (Some(detected), true) => detected,
-        (None, true) => "no modeling error detected".to_owned(),
-        (None, ..) if result.correlation.converged => "correlated".to_owned(),
-        (Some(detected), ..) if result.correlation.converged => format!("correlated but {detected}"),
-        (None, ..) => "not converged".to_owned(),
-        (Some(detected), ..) => format!("not converged; {detected}"),
-    }
+    let (state, joint) = match (result.is_detection(), result.correlation.converged) {
+        (true, _) => return detected.unwrap_or_else(|| "no modeling error detected".to_owned()),
+        (_, true) => ("correlated", " but "),
+        (_, false) => ("not converged", "; "),
+    };
+    detected.map_or_else(|| state.to_owned(), |detected| format!("{state}{joint}{detected}"))
 }

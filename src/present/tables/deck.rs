@@ -1,9 +1,8 @@
 //! The modes of a deck as tables.
 
-use super::{Cell, Digits, Table};
 use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
-use crate::present::table::counted;
+use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::studies::whole_modes::WholeModes;
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.
@@ -17,42 +16,35 @@ const SHAPE: Digits = Digits::Fixed(5);
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
 pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
-    let scaled = UnitShapes::new(modes, count);
+    let (masses, shapes) = unit_shapes(modes, count);
     let dof = counted(modes.dof.len(), "degree", "degrees");
     let title = format!("Natural frequencies at {dof} of freedom with mass");
-    let mut table =
-        Table::new("frequencies", title, "Mode").column("Frequency", "Hz").column("Generalized mass", "lbf·s²/in");
-    table.notes = deck.unread.iter().filter(|unread| unread.reason != Reason::Ignored).map(not_read).collect();
-    if modes.rigid_body > 0 {
-        let rigid = counted(modes.rigid_body, "rigid-body mode is", "rigid-body modes are");
-        table = table.note(format!("The structure hangs free: {rigid} not listed."));
-    }
-    for (mode, frequency) in scaled.frequencies_hz.iter().enumerate() {
-        table.row(mode + 1, [Cell::number(*frequency, FREQUENCY), Cell::number(scaled.masses[mode], MASS)]);
-    }
-    let mut tables: Vec<Table> = ignored(deck).into_iter().chain([table]).collect();
-    for (part, shapes) in scaled.shapes.chunks(MODES_PER_TABLE).enumerate() {
+    let (left_out, others): (Vec<&Unread>, Vec<&Unread>) =
+        deck.unread.iter().partition(|unread| unread.reason == Reason::Ignored);
+    let rigid = counted(modes.rigid_body, "rigid-body mode is", "rigid-body modes are");
+    let rigid = (modes.rigid_body > 0).then(|| format!("The structure hangs free: {rigid} not listed."));
+    let frequencies = Table::new("frequencies", title, "Mode")
+        .labels(1..=masses.len())
+        .column("Frequency", "Hz", numbers(modes.modes.frequencies_hz(), FREQUENCY))
+        .column("Generalized mass", "lbf·s²/in", numbers(masses, MASS))
+        .notes(others.into_iter().map(not_read))
+        .notes(rigid);
+    let ignored = Table::new("ignored", "Cards left out by request: these modes lack what they say", "Card")
+        .labels(left_out.iter().map(|unread| &unread.card))
+        .column("Cards", "", left_out.iter().map(|unread| Cell::count(unread.count)))
+        .column("First line", "", left_out.iter().map(|unread| Cell::count(unread.line)));
+    let mut tables = if left_out.is_empty() { vec![frequencies] } else { vec![ignored, frequencies] };
+    let labels = || modes.dof.iter().map(|dof| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]));
+    for (part, shapes) in shapes.chunks(MODES_PER_TABLE).enumerate() {
         let (first, last) = (MODES_PER_TABLE * part + 1, MODES_PER_TABLE * part + shapes.len());
         let title = format!("Shapes of modes {first} to {last}, largest component one");
-        let mut table = Table::new(format!("shapes_{first}_to_{last}"), title, "Grid")
-            .columns((first..=last).map(|mode| format!("Mode {mode}")), "");
-        for (row, dof) in modes.dof.iter().enumerate() {
-            let label = format!("{} {}", dof.grid, DIRECTIONS[dof.direction]);
-            table.row(label, shapes.iter().map(|shape| Cell::number(shape[row], SHAPE)));
+        let mut table = Table::new(format!("shapes_{first}_to_{last}"), title, "Grid").labels(labels());
+        for (mode, shape) in (first..).zip(shapes) {
+            table = table.column(format!("Mode {mode}"), "", numbers(shape.iter().copied(), SHAPE));
         }
         tables.push(table);
     }
     tables
-}
-
-/// Cards left out by request, where there are any.
-fn ignored(deck: &Deck) -> Option<Table> {
-    let mut table = Table::new("ignored", "Cards left out by request: these modes lack what they say", "Card")
-        .columns(["Cards", "First line"], "");
-    for unread in deck.unread.iter().filter(|unread| unread.reason == Reason::Ignored) {
-        table.row(&unread.card, [unread.count, unread.line].map(Cell::count));
-    }
-    (!table.rows.is_empty()).then_some(table)
 }
 
 /// One sentence about cards that were not read.
@@ -66,25 +58,12 @@ pub fn not_read(unread: &Unread) -> String {
     format!("Not read: {}, {why}.", unread.place())
 }
 
-/// Modes scaled for a reader.
-pub(in crate::present) struct UnitShapes {
-    pub frequencies_hz: Vec<f64>,
-    /// Generalized masses.
-    pub masses: Vec<f64>,
-    /// By mode, then by DOF.
-    pub shapes: Vec<Vec<f64>>,
-}
-
-impl UnitShapes {
-    pub fn new(modes: &WholeModes, count: usize) -> Self {
-        let mut frequencies_hz = modes.modes.frequencies_hz();
-        frequencies_hz.truncate(count);
-        // Shapes come with unit generalized mass and a positive largest component.
-        let unit = |shape: nalgebra::DVectorView<f64>| {
-            let largest = shape.amax();
-            (largest.powi(-2), shape.iter().map(|component| component / largest).collect())
-        };
-        let (masses, shapes) = modes.modes.shapes.column_iter().take(count).map(unit).unzip();
-        Self { frequencies_hz, masses, shapes }
-    }
+/// Generalized masses and shapes (by mode, then by DOF) of the lowest modes, of a largest component of one.
+pub(in crate::present) fn unit_shapes(modes: &WholeModes, count: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
+    // Shapes come with unit generalized mass and a positive largest component.
+    let unit = |shape: nalgebra::DVectorView<f64>| {
+        let largest = shape.amax();
+        (largest.powi(-2), shape.iter().map(|component| component / largest).collect())
+    };
+    modes.modes.shapes.column_iter().take(count).map(unit).unzip()
 }

@@ -1,10 +1,12 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
 use super::subject::{history_table, paired_table};
-use super::{Cell, Digits, PERCENT, PresentError, RMS_PERCENT, Table};
+use super::{PERCENT, RMS_PERCENT};
 use crate::cases::published::PublishedTable;
+use crate::present::PresentError;
 use crate::present::subject::Subject;
-use crate::studies::delta_wing::correlation::{TEST_MODES, WingCorrelation};
+use crate::present::table::{Digits, Table, numbers, percents};
+use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
 /// NASTRAN printed seven digits.
@@ -13,6 +15,7 @@ const PRINTED: Digits = Digits::Significant(7);
 const READ: Digits = Digits::Fixed(3);
 /// Of differences in the seventh digit.
 const SMALL_PERCENT: Digits = Digits::Fixed(5);
+const FACTOR: Digits = Digits::Fixed(4);
 
 /// All tables: deflections under both loads, frequencies, and the correlation's groups, frequencies and passes.
 ///
@@ -40,21 +43,16 @@ fn beside_others(
     table: Table,
     known: &PublishedTable,
     unit: &'static str,
-    rows: impl Iterator<Item = (String, f64)>,
+    (labels, computed): (&[String], &[f64]),
     others: &[Other],
 ) -> Result<Table, PresentError> {
-    let mut table = table.column("Computed", unit);
-    for (who, ..) in others {
-        table = table.column(*who, unit).column(format!("{who} difference"), "%");
-    }
-    for (label, computed) in rows {
-        let mut cells = vec![Cell::number(computed, PRINTED)];
-        for (_, heading, digits, difference) in others {
-            let theirs = known.required(&label, heading)?;
-            cells.push(Cell::number(theirs, *digits));
-            cells.push(Cell::percent(computed / theirs - 1.0, *difference));
-        }
-        table.row(label, cells);
+    let mut table = table.labels(labels).column("Computed", unit, numbers(computed.iter().copied(), PRINTED));
+    for (who, heading, digits, difference) in others {
+        let theirs = labels.iter().map(|label| known.required(label, heading)).collect::<Result<Vec<_>, _>>()?;
+        let differences = computed.iter().zip(&theirs).map(|(computed, theirs)| computed / theirs - 1.0);
+        let differences = percents(differences, *difference);
+        table = table.column(*who, unit, numbers(theirs.iter().copied(), *digits));
+        table = table.column(format!("{who} difference"), "%", differences);
     }
     Ok(table)
 }
@@ -74,9 +72,8 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
     let title =
         format!("Delta wing: deflections under {} lbf down at the tip's {long}, grid {}", wing.tip_load, load.grid());
     let table = Table::new(format!("delta_wing_deflections_{short}"), title, "Grid");
-    let grids = MEASURED_GRIDS.iter().map(|grid| grid.to_string());
-    let rows = grids.zip(wing.deflections(load)?);
-    beside_others(table, &known_deflections()?, "in", rows, &others)
+    let grids = MEASURED_GRIDS.map(|grid| grid.to_string());
+    beside_others(table, &known_deflections()?, "in", (&grids, &wing.deflections(load)?), &others)
 }
 
 fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
@@ -86,24 +83,20 @@ fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
         ("Analog", "analog_hz".to_owned(), Digits::Significant(3), PERCENT),
     ];
     let table = Table::new("delta_wing_frequencies", "Delta wing: natural frequencies", "Mode");
-    let rows = known.labels.iter().cloned().zip(wing.modes()?.modes.frequencies_hz());
-    beside_others(table, &known, "Hz", rows, &others)
+    beside_others(table, &known, "Hz", (&known.labels, &wing.modes()?.modes.frequencies_hz()), &others)
 }
 
 fn group_table(run: &WingCorrelation) -> Table {
     let title = "Delta wing with wrong gages: factors that the correlation finds";
-    let mut table = Table::new("delta_wing_groups", title, "Group")
-        .column("First gage error", "%")
-        .columns(["True factor", "Found"], "")
-        .columns(["Last gage error", "Largest share"], "%")
-        .note(
-            "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: \
-        of the stiffness of any test mode.",
-        );
-    for group in &run.groups {
-        let [truth, found] = [group.true_factor(), group.factor].map(|factor| Cell::number(factor, Digits::Fixed(4)));
-        let [last, share] = [group.error(), group.share].map(|share| Cell::percent(share, RMS_PERCENT));
-        table.row(group.group.name, [Cell::percent(group.first_error(), PERCENT), truth, found, last, share]);
-    }
-    table
+    let note = "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the \
+        stiffness of any test mode.";
+    let groups = || run.groups.iter();
+    Table::new("delta_wing_groups", title, "Group")
+        .labels(groups().map(|found| found.group.name))
+        .column("First gage error", "%", percents(groups().map(Recovered::first_error), PERCENT))
+        .column("True factor", "", numbers(groups().map(Recovered::true_factor), FACTOR))
+        .column("Found", "", numbers(groups().map(|found| found.factor), FACTOR))
+        .column("Last gage error", "%", percents(groups().map(Recovered::error), RMS_PERCENT))
+        .column("Largest share", "%", percents(groups().map(|found| found.share), RMS_PERCENT))
+        .notes([note])
 }

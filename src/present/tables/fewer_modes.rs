@@ -1,36 +1,27 @@
 //! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
 
-use super::stages::Stages;
-use super::{Cell, Digits, KINDS, PERCENT, PresentError, RMS_PERCENT, Table, remarks};
+use super::stages::{self, Stage};
+use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
 use crate::cases::Case;
 use crate::cases::fewer_modes::{Agreement, FewerModesRun};
 use crate::cases::published::PublishedTable;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::present::PresentError;
+use crate::present::table::{Cell, Digits, Table};
+use std::collections::BTreeSet;
 
 /// The paper's frequencies with fewer modes are those of five test modes.
 const TABLE_9_TEST_MODES: usize = 5;
 /// The paper's tables of gages: number, and test modes.
 const GAGE_TABLES: [(usize, usize); 3] = [(10, 7), (11, 5), (12, 3)];
-
-/// The label of a row, and what stands in it.
-type RmsRow = (&'static str, fn(&Agreement) -> f64);
-
-/// RMS errors with their labels.
-const RMS_ROWS: [RmsRow; 2] = [("frequency RMS", |found| found.frequency_rms), ("shape RMS", |found| found.shape_rms)];
-
-/// Tables 9 to 12 and the iterations from the paper's runs, then the truncation tables from all runs.
-///
-/// # Errors
-/// [`PresentError::Case`] if published tables were damaged.
-pub fn fewer_modes_tables(
-    case: &Case,
-    published: &[FewerModesRun],
-    all: &[FewerModesRun],
-) -> Result<Vec<Table>, PresentError> {
-    let mut tables = published_tables(case, published)?;
-    tables.extend(truncation_tables(all));
-    Ok(tables)
-}
+/// Errors under the gages, with their digits.
+const GAGE_ERRORS: [(&str, Digits); 6] = [
+    ("shear RMS", PERCENT),
+    ("membrane RMS", PERCENT),
+    ("inner frequency RMS", RMS_PERCENT),
+    ("exact frequency RMS", RMS_PERCENT),
+    ("inner shape RMS", RMS_PERCENT),
+    ("exact shape RMS", RMS_PERCENT),
+];
 
 /// Tables 9 to 12 and the iterations, from the paper's runs.
 ///
@@ -39,16 +30,17 @@ pub fn fewer_modes_tables(
 pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table>, PresentError> {
     let with = |modes: usize| -> Vec<&FewerModesRun> { runs.iter().filter(|run| run.test_modes == modes).collect() };
     let five = with(TABLE_9_TEST_MODES);
-    let paper = PublishedTable::number(9)?;
-    let inner = "frequencies and errors by the inner loop (Table 9)";
-    let exact = "frequencies and errors by eigensolution at the gages found";
-    let mut table_9 = frequency_table("table_9", inner, &five, Some(&paper), |run| &run.inner).note(
-        "The inner loop's \
-    own modes: by perturbation of the analysis modes it was given, with the transformation B it began with. What the \
-    paper prints is read as these.",
-    );
-    table_9.notes.extend(remarks(Some(&paper)));
-    let mut tables = vec![table_9, frequency_table("table_9_exact", exact, &five, None, |run| &run.exact)];
+    let empty = |name: &str, what: &str| {
+        let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: frequencies and errors by {what}");
+        Table::new(name, title, "Mode")
+    };
+    let note = "The inner loop's own modes: by perturbation of the analysis modes it was given, with the transformation B it \
+        began with. What the paper prints is read as these.";
+    let table_9 = empty("table_9", "the inner loop (Table 9)").notes([note]);
+    let mut tables = vec![
+        frequency_table(table_9, &five, Some(&PublishedTable::number(9)?), |run| &run.inner),
+        frequency_table(empty("table_9_exact", "eigensolution at the gages found"), &five, None, |run| &run.exact),
+    ];
     for (paper, test_modes) in GAGE_TABLES {
         tables.push(gage_table(case, paper, test_modes, &with(test_modes))?);
     }
@@ -56,88 +48,67 @@ pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table
     Ok(tables)
 }
 
-/// How the published columns of a run begin.
-fn stage(run: &FewerModesRun) -> String {
-    format!("fem_{}", run.analysis_modes)
+/// A run, or the start of all, in a table of stages.
+fn stage(run: Option<&FewerModesRun>, values: &[f64], errors: &[f64]) -> Stage {
+    let name = run.map_or_else(|| "initial".to_owned(), |run| format!("fem_{}", run.analysis_modes));
+    Stage { name, values: values.to_vec(), errors: errors.to_vec() }
 }
 
 /// Frequencies and their errors at the start and at the end of every run.
 fn frequency_table(
-    name: &str,
-    what: &str,
+    table: Table,
     runs: &[&FewerModesRun],
     paper: Option<&PublishedTable>,
     end: fn(&FewerModesRun) -> &Agreement,
 ) -> Table {
     // The run with the most analysis modes knows the most initial frequencies.
     let most = runs.iter().max_by_key(|run| run.analysis_modes);
-    let initial = most.map(|run| ("initial".to_owned(), &run.initial));
-    let ends = runs.iter().map(|run| (stage(run), end(run)));
-    let found: Vec<(String, &Agreement)> = initial.into_iter().chain(ends).collect();
-    let modes = most.map_or(0, |run| run.initial.frequencies_hz.len());
     let test = most.map_or(&[][..], |run| &run.test_frequencies_hz);
-    let values = found.iter().map(|(name, at)| (name.clone(), &at.frequencies_hz[..]));
-    let mut stages = Stages::of_modes(modes, test, values.collect());
-    stages.paper = paper;
-    let title = format!("Case 2, pass 1, {TABLE_9_TEST_MODES} test modes: {what}");
-    let mut table = stages.fill(Table::new(name, title, "Mode"));
-    for (label, rms) in RMS_ROWS {
-        stages.add_errors(&mut table, label, RMS_PERCENT, found.iter().map(|(_, at)| Some(rms(at))));
-    }
-    table
+    let found = most.map(|run| (None, &run.initial)).into_iter().chain(runs.iter().map(|&run| (Some(run), end(run))));
+    let stage = |(run, at): (_, &Agreement)| stage(run, &at.frequencies_hz, &[at.frequency_rms, at.shape_rms]);
+    stages::fill(table, &[], test, &found.map(stage).collect::<Vec<_>>(), &MODE_ERRORS, paper)
 }
 
-/// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes.
+/// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes, which the start has none of.
 fn gage_table(case: &Case, number: usize, test_modes: usize, runs: &[&FewerModesRun]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(number)?;
-    let first = case.first_gages();
-    let found = runs.iter().map(|run| (stage(run), &run.gages_in[..]));
-    let values = std::iter::once(("initial".to_owned(), &first[..])).chain(found);
-    let mut stages = Stages::of_gages(&case.panels, values.collect());
-    stages.paper = Some(&paper);
-    let title = format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
-    let mut table = stages.fill(Table::new(format!("table_{number}"), title, "Element"));
-    // The start has none of these errors.
-    let mut add = |label: &str, digits, error: &dyn Fn(&FewerModesRun) -> f64| {
-        let errors = std::iter::once(None).chain(runs.iter().map(|run| Some(error(run))));
-        stages.add_errors(&mut table, label, digits, errors);
+    let found = |&run: &&FewerModesRun| {
+        let FewerModesRun { inner, exact, .. } = run;
+        let modes = [inner.frequency_rms, exact.frequency_rms, inner.shape_rms, exact.shape_rms];
+        stage(Some(run), &run.gages_in, &[&[run.shear_gage_rms, run.membrane_gage_rms], &modes[..]].concat())
     };
-    add("shear RMS", PERCENT, &|run| run.shear_gage_rms);
-    add("membrane RMS", PERCENT, &|run| run.membrane_gage_rms);
-    for (label, rms) in RMS_ROWS {
-        add(&format!("inner {label}"), RMS_PERCENT, &|run| rms(&run.inner));
-        add(&format!("exact {label}"), RMS_PERCENT, &|run| rms(&run.exact));
-    }
-    table.notes.push(KINDS.to_owned());
-    table.notes.extend(remarks(Some(&paper)));
-    Ok(table)
+    let start = stage(None, &case.first_gages(), &[]);
+    let stages: Vec<Stage> = std::iter::once(start).chain(runs.iter().map(found)).collect();
+    let title = format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
+    let table = Table::new(format!("table_{number}"), title, "Element");
+    Ok(stages::fill(table, &case.panels, &[], &stages, &GAGE_ERRORS, Some(&paper)))
 }
 
 /// Iterations of the paper's runs, as in Tables 10 to 12.
 fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
-    let mut papers = BTreeMap::new();
-    for (number, test_modes) in GAGE_TABLES {
-        papers.insert(test_modes, PublishedTable::number(number)?);
-    }
+    let papers = GAGE_TABLES.map(|(number, test_modes)| Ok((test_modes, PublishedTable::number(number)?)));
+    let papers = papers.into_iter().collect::<Result<Vec<_>, PresentError>>()?;
     let cell = |run: &FewerModesRun| {
-        let paper = papers.get(&run.test_modes);
-        let printed = paper.and_then(|table| table.value("iterations", &format!("{}_percent", stage(run))));
+        let paper = papers.iter().find(|(test_modes, _)| *test_modes == run.test_modes);
+        let heading = format!("fem_{}_percent", run.analysis_modes);
+        let printed = paper.and_then(|(_, table)| table.value("iterations", &heading));
         Cell::beside(run.iterations as f64, Digits::Fixed(0), printed)
     };
     let title = "Case 2, pass 1: iterations with fewer modes (Tables 10 to 12)";
-    Ok(pairs_table("fewer_modes_iterations", title, "", runs, &cell)
-        .note("At most 30: where the paper has as many, its error sum had not met the tolerance."))
+    let table = Table::new("fewer_modes_iterations", title, "Test modes");
+    Ok(pairs_table(table, "", runs, &cell)
+        .notes(["At most 30: where the paper has as many, its error sum had not met the tolerance."]))
 }
 
 /// What truncation costs over all pairs of numbers of modes, one table a quantity.
 pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     let table = |name: &str, what: &str, unit, cell: &dyn Fn(&FewerModesRun) -> Cell| {
         let title = format!("Cost of truncation, Case 2, pass 1: {what}");
-        pairs_table(&format!("truncation_{name}"), &title, unit, runs, cell)
+        pairs_table(Table::new(format!("truncation_{name}"), title, "Test modes"), unit, runs, cell)
     };
     let mut tables = vec![table("iterations", "iterations", "", &|run| Cell::count(run.iterations))];
     for (at, (name, what, digits)) in COSTS.into_iter().enumerate() {
-        let cell = |run: &FewerModesRun| Cell::percent(costs(run)[at], digits);
+        let cell = |run: &FewerModesRun| Cell::number(100.0 * costs(run)[at], digits);
         tables.push(table(name, what, "%", &cell));
     }
     tables
@@ -160,22 +131,15 @@ const COSTS: [(&str, &str, Digits); 4] = [
 
 /// Test modes down, analysis modes across.
 fn pairs_table(
-    name: &str,
-    title: &str,
+    table: Table,
     unit: &'static str,
     runs: &[FewerModesRun],
     cell: &dyn Fn(&FewerModesRun) -> Cell,
 ) -> Table {
     let counts = |of: fn(&FewerModesRun) -> usize| runs.iter().map(of).collect::<BTreeSet<usize>>();
-    let analyses = counts(|run| run.analysis_modes);
-    let headings = analyses.iter().map(|count| format!("FEM {count}"));
-    let mut table = Table::new(name, title, "Test modes").columns(headings, unit);
-    for test in counts(|run| run.test_modes) {
-        let cells = analyses.iter().map(|&analysis| {
-            let like = |run: &&FewerModesRun| (run.test_modes, run.analysis_modes) == (test, analysis);
-            runs.iter().find(like).map_or(Cell::Blank, cell)
-        });
-        table.row(test, cells);
-    }
-    table
+    let tests = counts(|run| run.test_modes);
+    counts(|run| run.analysis_modes).into_iter().fold(table.labels(&tests), |table, analysis| {
+        let run = |&test: &usize| runs.iter().find(|run| (run.test_modes, run.analysis_modes) == (test, analysis));
+        table.column(format!("FEM {analysis}"), unit, tests.iter().map(|test| run(test).map_or(Cell::Blank, cell)))
+    })
 }

@@ -1,13 +1,15 @@
-//! A job before and after: its sensors on the model, everything doubtful, the suspects, and what the test sees of the parameters.
+//! A job before and after: its sensors on the model, everything doubtful, the suspects, what the test sees of the parameters,
+//! and what many runs make of them.
 
 use crate::files::error::FileError;
-use crate::files::job::{ComparedModes, Finished, Prepared};
+use crate::files::job::{ComparedModes, Finished, PlacedSensor, Prepared, Study, Summary, Vary};
 use crate::files::test_data::DIRECTIONS;
-use crate::method::model::DynamicModel;
-use crate::present::table::{Cell, Digits, Table, counted};
+use crate::method::model::{DynamicModel, Range};
+use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::studies::localization::{by_factor, by_single_fit};
 use crate::studies::metrics::coordinate_assurance;
 use crate::studies::preflight::{Finding, coarse_condensation, preflight};
+use crate::studies::weighted::identifiability::Identifiability;
 use crate::studies::weighted::residuals::residuals;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
@@ -21,24 +23,24 @@ pub const MOST_SUSPECTS: usize = 20;
 /// # Errors
 /// Those of [`coordinate_assurance`].
 pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<Table, FileError> {
-    let models = finished.iter().flat_map(|finished| [&finished.first, &finished.last]);
-    let assurance = models.map(|model| {
-        let pairs: Vec<Option<usize>> = model.exact.pairing.analysis_mode.iter().copied().map(Some).collect();
-        coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)
-    });
-    let assurance = assurance.collect::<Result<Vec<_>, _>>()?;
-    let table = Table::new("sensors", "Sensors on the model", "Sensor").columns(["grid", "direction", "distance"], "");
-    let mut table = table.columns(["first COMAC", "corrected COMAC"].into_iter().take(assurance.len()), "");
-    for (row, sensor) in prepared.placed.iter().enumerate() {
+    let direction = |sensor: &PlacedSensor| {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
         // An axis of the test's own is told by its components.
         let own = || format!(" ({:.2} {:.2} {:.2})", sensor.axis.x, sensor.axis.y, sensor.axis.z);
         let own = if sensor.axis.amax() < 1.0 { own() } else { String::new() };
-        let direction = Cell::text(format!("{sign}{}{own}", DIRECTIONS[sensor.direction]));
-        let distance = sensor.distance.map_or(Cell::Blank, |distance| Cell::number(distance, Digits::Fixed(3)));
-        let place = [Cell::count(sensor.grid), direction, distance];
-        let assurance = assurance.iter().map(|assurance| Cell::number(assurance[row], Digits::Fixed(3)));
-        table.row(&sensor.name, place.into_iter().chain(assurance));
+        Cell::text(format!("{sign}{}{own}", DIRECTIONS[sensor.direction]))
+    };
+    let placed = || prepared.placed.iter();
+    let mut table = Table::new("sensors", "Sensors on the model", "Sensor")
+        .labels(placed().map(|sensor| &sensor.name))
+        .column("grid", "", placed().map(|sensor| Cell::count(sensor.grid)))
+        .column("direction", "", placed().map(direction))
+        .column("distance", "", numbers(placed().map(|sensor| sensor.distance), Digits::Fixed(3)));
+    let models = finished.into_iter().flat_map(|finished| [&finished.first, &finished.last]);
+    for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
+        let pairs: Vec<Option<usize>> = model.exact.pairing.analysis_mode.iter().copied().map(Some).collect();
+        let assurance = coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)?;
+        table = table.column(name, "", numbers(assurance.iter().copied(), Digits::Fixed(3)));
     }
     let all = prepared.data.sensors.len();
     if all > prepared.placed.len() {
@@ -56,50 +58,41 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
 pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
     let whole = &prepared.source.whole;
     let ones = vec![1.0; whole.parameters().len()];
-    let settings = &prepared.job.correlation;
-    let mut sentences = Vec::new();
+    let mut sentences: Vec<String> = Vec::new();
     match whole.condensed(&ones, &prepared.sensors) {
         Ok((condensed, mass)) => {
             let model = DynamicModel { stiffness: condensed.stiffness, mass, shares: Vec::new() };
-            let findings = preflight(&model, &prepared.test, settings, &whole.ranges())?;
-            sentences.extend(findings.iter().map(Finding::to_string));
+            let mut findings = preflight(&model, &prepared.test, &prepared.job.correlation, &whole.ranges())?;
             if prepared.job.compare.modes == ComparedModes::Condensed {
                 let count = prepared.test.len().min(model.mass.nrows());
-                let coarse = coarse_condensation(whole, &ones, &prepared.sensors, count)?;
-                sentences.extend(coarse.iter().map(Finding::to_string));
+                findings.extend(coarse_condensation(whole, &ones, &prepared.sensors, count)?);
             }
+            sentences.extend(findings.iter().map(Finding::to_string));
         }
         Err(error) => {
             sentences.push(format!("the pre-flight looks at condensed matrices, which are not to be had: {error}"))
         }
     }
+    let mut of_mode = |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
     for (mode, assurance) in &prepared.unpaired {
-        sentences.push(format!(
-            "test mode {}: no mode of the first model is like it (modal assurance {assurance:.2} at most); it is left out",
-            mode + 1
-        ));
+        let most = format!("modal assurance {assurance:.2} at most");
+        of_mode(*mode, format!("no mode of the first model is like it ({most}); it is left out"));
     }
     for (mode, report) in &prepared.deleted {
-        sentences.push(format!("test mode {}: deleted by Appendix B ({:?})", mode + 1, report.verdict));
+        of_mode(*mode, format!("deleted by Appendix B ({:?})", report.verdict));
     }
     for (mode, phase) in prepared.data.phase_collinearity.iter().enumerate().filter(|(_, phase)| **phase < COLLINEAR) {
-        sentences.push(format!("test mode {}: complex, with a phase collinearity of {phase:.2}", mode + 1));
+        of_mode(mode, format!("complex, with a phase collinearity of {phase:.2}"));
     }
     if !prepared.data.skipped.is_empty() {
         let numbers: Vec<String> = prepared.data.skipped.iter().map(usize::to_string).collect();
         sentences.push(format!("datasets of the Universal File that are not read: {}", numbers.join(", ")));
     }
-    if let Some(units) = &prepared.data.units {
-        sentences.push(format!("the test's file is in units of {units}; nothing is converted"));
-    }
-    let mut table = Table::new("doubts", "Before the first step", "Number").column("Finding", "");
-    for (row, sentence) in sentences.iter().enumerate() {
-        table.row(row + 1, [Cell::text(sentence)]);
-    }
-    if sentences.is_empty() {
-        table.row("", [Cell::text("nothing doubtful")]);
-    }
-    Ok(table)
+    let units = |units: &String| format!("the test's file is in units of {units}; nothing is converted");
+    sentences.extend(prepared.data.units.iter().map(units));
+    let labels = (1..=sentences.len()).map(|number| number.to_string()).chain(sentences.is_empty().then(String::new));
+    let cells = sentences.iter().map(Cell::text).chain([Cell::text("nothing doubtful")]);
+    Ok(Table::new("doubts", "Before the first step", "Number").labels(labels).column("Finding", "", cells))
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
@@ -113,30 +106,26 @@ pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
     let suspects = by_single_fit(&first, &weights)?;
     let slopes = by_factor(&first, &prepared.job.correlation.inner)?;
     let residuals = residuals(&first, &weights)?;
-    let mut table = Table::new("suspects", "Suspects: what one parameter alone explains", "Parameter")
-        .columns(["factor", "evidence", "paper's factor"], "")
-        .note(format!(
-            "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone \
-            has this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first \
-            leaves much more than half a unit a number, several are wrong, and it need not be among them. Modes are combined \
-            from {} of the first model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the \
-            first iteration.",
-            0.5 * residuals.norm_squared(),
-            residuals.len(),
-            first.exact.modes.len(),
-        ));
-    for suspect in suspects.iter().take(MOST_SUSPECTS) {
-        let slope = slopes.iter().find(|slope| slope.parameter == suspect.parameter);
-        let [factor, evidence] =
-            [suspect.factor, suspect.evidence].map(|value| Cell::number(value, Digits::Significant(3)));
-        let slope = slope.map_or(Cell::Blank, |slope| Cell::number(slope.factor, Digits::Fixed(2)));
-        table.row(&parameters[suspect.parameter].name, [factor, evidence, slope]);
-    }
-    if suspects.len() > MOST_SUSPECTS {
-        let left = counted(suspects.len() - MOST_SUSPECTS, "parameter explains", "parameters explain");
-        table.notes.push(format!("{left} less."));
-    }
-    Ok(table)
+    let note = format!(
+        "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone has \
+        this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first leaves much \
+        more than half a unit a number, several are wrong, and it need not be among them. Modes are combined from {} of the first \
+        model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the first iteration.",
+        0.5 * residuals.norm_squared(),
+        residuals.len(),
+        first.exact.modes.len(),
+    );
+    let left = suspects.len().saturating_sub(MOST_SUSPECTS);
+    let less = format!("{} less.", counted(left, "parameter explains", "parameters explain"));
+    let shown = || suspects.iter().take(MOST_SUSPECTS);
+    let slope = |parameter: usize| slopes.iter().find(|slope| slope.parameter == parameter).map(|slope| slope.factor);
+    Ok(Table::new("suspects", "Suspects: what one parameter alone explains", "Parameter")
+        .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
+        .column("factor", "", numbers(shown().map(|suspect| suspect.factor), Digits::Significant(3)))
+        .column("evidence", "", numbers(shown().map(|suspect| suspect.evidence), Digits::Significant(3)))
+        .column("paper's factor", "", numbers(shown().map(|suspect| slope(suspect.parameter)), Digits::Fixed(2)))
+        .notes([note])
+        .notes((left > 0).then_some(less)))
 }
 
 /// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.
@@ -144,28 +133,55 @@ pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, Fil
     let names: Vec<&str> = prepared.source.whole.parameters().iter().map(|parameter| parameter.name.as_str()).collect();
     let [before, after] = &finished.seen;
     let intervals = after.intervals(&finished.factors)?;
-    let table = Table::new("seen", "What the test sees of the parameters", "Parameter");
-    let mut table =
-        table.columns(["factor", "least (95 %)", "most (95 %)"], "").columns(["deviation", "deviation before"], "%");
-    for (e, name) in names.iter().enumerate() {
-        let ends = [finished.factors[e], intervals[e].lower, intervals[e].upper];
-        let numbers = ends.map(|value| Cell::number(value, Digits::Fixed(4)));
-        let deviations = [after, before].map(|seen| Cell::percent(seen.deviations[e], Digits::Significant(3)));
-        table.row(*name, numbers.into_iter().chain(deviations));
-    }
-    table.notes.push(format!(
+    let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
          from the standard deviations of the measurement.",
         counted(names.len(), "parameter", "parameters"),
         after.subset.len(),
         after.singular_values.first().copied().unwrap_or_default(),
         after.singular_values.last().copied().unwrap_or_default(),
-    ));
-    for &(a, b, cosine) in &after.parallel {
-        table.notes.push(format!("{} and {} do nearly the same (cosine {cosine:+.3}).", names[a], names[b]));
+    );
+    let parallel = |&(a, b, cosine): &(usize, usize, f64)| {
+        format!("{} and {} do nearly the same (cosine {cosine:+.3}).", names[a], names[b])
+    };
+    let ends = |end: fn(&Range) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
+    let deviations = |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
+    Ok(Table::new("seen", "What the test sees of the parameters", "Parameter")
+        .labels(&names)
+        .column("factor", "", numbers(finished.factors.iter().copied(), Digits::Fixed(4)))
+        .column("least (95 %)", "", ends(|interval| interval.lower))
+        .column("most (95 %)", "", ends(|interval| interval.upper))
+        .column("deviation", "%", deviations(after))
+        .column("deviation before", "%", deviations(before))
+        .notes([apart])
+        .notes(after.parallel.iter().map(parallel))
+        .notes(after.blind.iter().map(|&e| format!("{} is hardly seen.", names[e]))))
+}
+
+/// Mean, standard deviation and quantiles of every factor over the samples that did not fail.
+pub fn study_table(study: &Study, summary: &Summary) -> Table {
+    let name = |vary: &Vary| match vary {
+        Vary::Noise => "noise on the test",
+        Vary::Start => "the first point",
+        Vary::Subset => "sensors or modes left out",
+    };
+    let (Summary { spreads, within, outside, failed }, vary) = (summary, study.vary.iter().map(name));
+    let count = within + outside + failed.len();
+    let note = format!(
+        "{}, seed {}, with {}: {within} within tolerance, {outside} outside, {} failed.",
+        counted(count, "sample", "samples"),
+        study.seed,
+        vary.collect::<Vec<_>>().join(" and "),
+        failed.len(),
+    );
+    let why = |first| format!("What failed does not count; --sample {first} says why sample {first} did.");
+    let mut table = Table::new("study", format!("{}: factors over many runs", study.prepared.title), "Parameter")
+        .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
+        .notes([note])
+        .notes(failed.first().map(why));
+    for (name, spread) in spreads {
+        let spread = spread.iter().flat_map(|spread| [vec![spread.mean, spread.deviation], spread.quantiles.to_vec()]);
+        table.row(name, numbers(spread.flatten(), Digits::Fixed(4)));
     }
-    for &e in &after.blind {
-        table.notes.push(format!("{} is hardly seen.", names[e]));
-    }
-    Ok(table)
+    table
 }

@@ -12,32 +12,31 @@ pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;
-pub mod study;
 pub mod subject;
-pub mod table_1;
 pub mod unlimited;
 pub mod weighted;
 
-use super::PresentError;
-use super::table::{Cell, Digits, Table};
+use super::table::Digits;
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
+use crate::studies::noisy_modes::Noise;
 
-pub(super) const HERTZ: Digits = Digits::Significant(4);
-pub(super) const INCHES: Digits = Digits::Fixed(5);
-pub(super) const PERCENT: Digits = Digits::Fixed(1);
-pub(super) const RMS_PERCENT: Digits = Digits::Fixed(2);
-pub(super) const KINDS: &str = "S shear panel, M membrane.";
+const HERTZ: Digits = Digits::Significant(4);
+const INCHES: Digits = Digits::Fixed(5);
+const PERCENT: Digits = Digits::Fixed(1);
+const RMS_PERCENT: Digits = Digits::Fixed(2);
+/// Errors under frequencies, with their digits.
+const MODE_ERRORS: [(&str, Digits); 2] = [("frequency RMS", RMS_PERCENT), ("shape RMS", RMS_PERCENT)];
 
 /// What the paper's print of a table gets wrong, its rows and columns named as a reader sees them.
-pub(super) fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
+fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
     let words = |remark: &String| remark.split(' ').map(in_words).collect::<Vec<_>>().join(" ");
     let remarks = paper.into_iter().flat_map(|table| &table.remarks);
     remarks.map(|remark| format!("The print: {}", words(remark))).collect()
 }
 
 /// A row or column of the published tables' files as a reader's words: `pass_1_percent` is the pass 1 error.
-pub(super) fn in_words(name: &str) -> String {
+fn in_words(name: &str) -> String {
     if !name.contains('_') {
         return name.to_owned();
     }
@@ -68,6 +67,15 @@ pub fn paper_tables<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         "Of the paper's tables, here are {}; corfem tables prints Table 1, computed anew, and the others as published, \
         with their CPU seconds.",
         numbers.join(", ")
+    )
+}
+
+/// Noise of a test in words.
+fn noise_words(noise: Noise) -> String {
+    format!(
+        "{:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard deviations)",
+        100.0 * noise.shape,
+        100.0 * noise.frequency
     )
 }
 

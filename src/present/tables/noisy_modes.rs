@@ -1,7 +1,8 @@
 //! What noise of the test modes does to the gages, with Appendix B and without, as tables.
 
-use super::{Cell, Digits, PERCENT, RMS_PERCENT, Table};
+use super::{PERCENT, RMS_PERCENT, noise_words};
 use crate::method::appendix_b::LARGEST_SUSPENSION_RATIO;
+use crate::present::table::{Cell, Digits, Table, numbers};
 use crate::studies::noisy_modes::{Found, NoisyModes, NoisyRun};
 
 /// A quantity of a correlation: its name, its unit, how it is written, and its value in that unit.
@@ -36,66 +37,55 @@ pub fn noisy_tables(study: &NoisyModes) -> Vec<Table> {
     let better = |side: Side| count(&|run| side(run).gage_rms < run.raw.gage_rms);
     let [raw, orthogonal, screened] = SIDES.map(|(_, side)| side);
     let converged = |side: Side| count(&|run| side(run).converged);
-    let gages = table(study, "gages", "RMS gage errors", &GAGES)
-        .note(format!(
-            "Noise: {:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard \
-            deviations). Orthogonal: by Appendix B. Screened: those that its limits keep.",
-            100.0 * study.noise.shape,
-            100.0 * study.noise.frequency
-        ))
-        .note(study.support_ratio.map_or_else(
-            || "The modes are balanced first.".to_owned(),
-            |ratio| {
-                format!(
-                    "Balancing does not apply, because supports hold the structure: its stiffness against rigid-body \
-                    motion is {ratio:.0} times the inertia at the lowest frequency, where a suspension's is at most \
-                    {LARGEST_SUSPENSION_RATIO}."
-                )
-            },
-        ))
-        .note(format!(
-            "Of {} seeds, orthogonal modes give better gages than raw ones with {}, screened ones with {}.",
-            noisy.len(),
-            better(orthogonal),
-            better(screened)
-        ));
-    let mut course = table(study, "course", "how the correlations went", &COURSE).column("Modes kept", "").note(format!(
-        "Error sum: beside the test modes given. The case's tolerances are met with {} seeds raw, {} orthogonal, {} \
-        screened.",
+    let noise = format!(
+        "Noise: {}. Orthogonal: by Appendix B. Screened: those that its limits keep.",
+        noise_words(study.noise)
+    );
+    let balance = study.support_ratio.map_or_else(
+        || "The modes are balanced first.".to_owned(),
+        |ratio| {
+            format!(
+                "Balancing does not apply, because supports hold the structure: its stiffness against rigid-body motion is \
+                {ratio:.0} times the inertia at the lowest frequency, where a suspension's is at most {LARGEST_SUSPENSION_RATIO}."
+            )
+        },
+    );
+    let gains = format!(
+        "Of {} seeds, orthogonal modes give better gages than raw ones with {}, screened ones with {}.",
+        noisy.len(),
+        better(orthogonal),
+        better(screened)
+    );
+    let met = format!(
+        "Error sum: beside the test modes given. The case's tolerances are met with {} seeds raw, {} orthogonal, {} screened.",
         converged(raw),
         converged(orthogonal),
         converged(screened)
-    ));
-    let kept = study.runs.iter().map(|run| Cell::count(run.kept.len())).chain(std::iter::repeat(Cell::Blank));
-    course.rows.iter_mut().zip(kept).for_each(|(row, kept)| row.cells.push(kept));
-    let truth = table(study, "truth", "RMS errors beside the modes without noise", &TRUE_ERRORS);
-    vec![gages, course, truth]
+    );
+    let kept = study.runs.iter().map(|run| Cell::count(run.kept.len()));
+    vec![
+        table(study, "gages", "RMS gage errors", &GAGES).notes([noise, balance, gains]),
+        table(study, "course", "how the correlations went", &COURSE).column("Modes kept", "", kept).notes([met]),
+        table(study, "truth", "RMS errors beside the modes without noise", &TRUE_ERRORS),
+    ]
 }
 
 /// Quantities of all correlations run by run, and their median and largest value over the seeds.
 fn table(study: &NoisyModes, name: &str, what: &str, quantities: &[Quantity]) -> Table {
     let title = format!("Case {} with noisy test modes: {what}", study.case);
-    let mut table = Table::new(format!("noisy_{name}"), title, "Seed");
-    for (name, unit, ..) in quantities {
-        table = table.columns(SIDES.map(|(side, _)| format!("{side} {name}")), unit);
-    }
-    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); table.columns.len()];
-    let digits = |at: usize| quantities[at / SIDES.len()].2;
-    for run in &study.runs {
-        let values = quantities.iter().flat_map(|(.., value)| SIDES.map(|(_, side)| value(side(run))));
-        let values: Vec<f64> = values.collect();
-        let label = run.seed.map_or_else(|| "no noise".to_owned(), |seed| seed.to_string());
-        table.row(label, values.iter().enumerate().map(|(at, &value)| Cell::number(value, digits(at))));
-        if run.seed.is_some() {
-            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+    let labels = study.runs.iter().map(|run| run.seed.map_or_else(|| "no noise".to_owned(), |seed| seed.to_string()));
+    let mut table = Table::new(format!("noisy_{name}"), title, "Seed").labels(labels).labels(["median", "worst"]);
+    for (name, unit, digits, value) in quantities {
+        for (side_name, side) in SIDES {
+            let values = study.runs.iter().map(|run| value(side(run)));
+            let of_seeds = study.runs.iter().filter(|run| run.seed.is_some()).map(|run| value(side(run)));
+            let mut of_seeds: Vec<f64> = of_seeds.collect();
+            of_seeds.sort_by(f64::total_cmp);
+            let last = of_seeds.len().checked_sub(1);
+            let median = last.map(|last| 0.5 * (of_seeds[last / 2] + of_seeds[last.div_ceil(2)]));
+            let all = values.map(Some).chain([median, of_seeds.last().copied()]);
+            table = table.column(format!("{side_name} {name}"), unit, numbers(all, *digits));
         }
-    }
-    columns.iter_mut().for_each(|column| column.sort_by(f64::total_cmp));
-    let last = study.runs.len().saturating_sub(2);
-    for (label, places) in [("median", [last / 2, last.div_ceil(2)]), ("worst", [last; 2])] {
-        let mean = |column: &Vec<f64>| Some(0.5 * (column.get(places[0])? + column.get(places[1])?));
-        let cell = |(at, column)| mean(column).map_or(Cell::Blank, |value| Cell::number(value, digits(at)));
-        table.row(label, columns.iter().enumerate().map(cell));
     }
     table
 }

@@ -1,14 +1,15 @@
 //! The pre-flight as tables: what is found, and how often mistakes made on purpose are.
 
-use super::{Cell, Table};
+use super::noise_words;
+use crate::present::table::{Cell, Table};
 use crate::studies::noisy_modes::Noise;
 use crate::studies::preflight::rates::{Rate, Rates};
 use crate::studies::preflight::{Finding, MISTAKES, Mistake};
 
 /// What is found before the first step, structure by structure.
 pub fn findings_table(found: &[(String, Vec<Finding>)]) -> Table {
-    let mut table = Table::new("preflight_findings", "Before the first step: what is found", "Structure");
-    table = table.column("Finding", "");
+    let title = "Before the first step: what is found";
+    let mut table = Table::new("preflight_findings", title, "Structure").headings(["Finding"], "");
     for (name, findings) in found {
         if findings.is_empty() {
             table.row(name, [Cell::text("nothing")]);
@@ -34,21 +35,18 @@ pub fn rate_tables(rates: &[Rates]) -> Vec<Table> {
     ];
     let mut tables = sides.map(|(name, what, count)| {
         let title = format!("Mistakes made on purpose: {what}, of {seeds} seeds");
-        let mut table = Table::new(format!("preflight_{name}"), title, "Mistake");
-        table = table.columns(rates.iter().map(|rates| rates.name.as_str()), "");
-        for mistake in MISTAKES {
-            let rate = |rates: &Rates| rates.rates.iter().find(|rate| rate.mistake == mistake).map(count);
-            table.row(words(mistake), rates.iter().map(|rates| rate(rates).map_or(Cell::Blank, Cell::count)));
-        }
-        table
+        let table = Table::new(format!("preflight_{name}"), title, "Mistake").labels(MISTAKES.map(words));
+        rates.iter().fold(table, |table, rates| {
+            let rate = |mistake| rates.rates.iter().find(|rate| rate.mistake == mistake);
+            let counts = MISTAKES.map(|mistake| rate(mistake).map_or(Cell::Blank, |rate| Cell::count(count(rate))));
+            table.column(&rates.name, "", counts)
+        })
     });
     tables[0].row("none: false alarms", rates.iter().map(|rates| Cell::count(rates.false_alarms)));
     tables[0].row("none: a low pair by noise", rates.iter().map(|rates| Cell::count(rates.low_pairs)));
     tables[0].notes.push(format!(
-        "Noise: {:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard \
-        deviations). What a mistake hits is drawn anew with every seed. Named: with all its places right.",
-        100.0 * Noise::USUAL.shape,
-        100.0 * Noise::USUAL.frequency
+        "Noise: {}. What a mistake hits is drawn anew with every seed. Named: with all its places right.",
+        noise_words(Noise::USUAL)
     ));
     tables.to_vec()
 }

@@ -1,8 +1,11 @@
-//! The paper's own tables, with nothing computed beside them.
+//! The paper's own tables, with nothing computed beside them, and Table 1 computed anew, whose numbers are lost.
 
 use super::stages::stage_title;
-use super::{Cell, PresentError, Table, in_words, remarks};
+use super::{in_words, remarks};
 use crate::cases::published::PublishedTable;
+use crate::cases::table_1::{Formula, TwoMasses, problems, table_1};
+use crate::present::PresentError;
+use crate::present::table::{Cell, Digits, Table, numbers, percents};
 
 /// Ends of column headings, and the units that they stand for.
 const UNITS: [(&str, &str); 4] = [("_hz", "Hz"), ("_in", "in"), ("_percent", "%"), ("_seconds", "s")];
@@ -13,15 +16,51 @@ const UNITS: [(&str, &str); 4] = [("_hz", "Hz"), ("_in", "in"), ("_percent", "%"
 /// Those of [`PublishedTable::number`].
 pub fn published_table(number: usize) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(number)?;
-    let mut table = Table::new(format!("published_{number}"), &paper.title, "Row");
+    let labels = paper.labels.iter();
+    let mut table = Table::new(format!("published_{number}"), &paper.title, "Row")
+        .labels(labels.clone().map(|label| in_words(label)));
     for heading in &paper.headings {
-        let unit = UNITS.iter().find(|(end, _)| heading.ends_with(end));
-        table = table.column(stage_title(heading), unit.map_or("", |(_, unit)| unit));
+        let unit = UNITS.iter().find(|(end, _)| heading.ends_with(end)).map_or("", |(_, unit)| unit);
+        let cells = labels.clone().map(|label| paper.text(label, heading));
+        let cells = cells.map(|text| text.map_or(Cell::Blank, |text| Cell::Printed(text.to_owned())));
+        table = table.column(stage_title(heading), unit, cells);
     }
-    for label in &paper.labels {
-        let cell = |heading| paper.text(label, heading).map_or(Cell::Blank, |text| Cell::Printed(text.to_owned()));
-        table.row(in_words(label), paper.headings.iter().map(|heading| cell(heading)));
+    Ok(table.notes(remarks(Some(&paper))))
+}
+
+/// Orders of Table 1 that are shown.
+const ORDERS: usize = 6;
+
+/// The larger error of the two roots of every problem, in percent, by rule and order.
+///
+/// The paper's own numbers, and its problems, are lost in the scan: nothing stands beside these.
+///
+/// # Errors
+/// Those of [`table_1`].
+pub fn root_error_table() -> Result<Table, PresentError> {
+    let found = table_1(&problems(), ORDERS)?;
+    let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
+    let note = "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. \
+        Exact roots in closed form. The paper's own numbers are lost in the scan.";
+    let problems =
+        |of: fn(&TwoMasses) -> f64| numbers(found.rows.iter().map(move |row| of(&row.problem)), Digits::Fixed(2));
+    let mut table = Table::new("table_1", title, "Problem")
+        .labels(1..=found.rows.len())
+        .column("Coupling", "", problems(|problem| problem.coupling))
+        .column("Change", "", problems(|problem| problem.change))
+        .notes([note]);
+    for (at, &rule) in found.formulae.iter().enumerate() {
+        let errors = found.rows.iter().map(|row| row.root_errors[at].map(f64::abs).into_iter().fold(0.0, f64::max));
+        table = table.column(rule_name(rule), "%", percents(errors, Digits::Scientific(1)));
     }
-    table.notes = remarks(Some(&paper));
     Ok(table)
+}
+
+fn rule_name(rule: Formula) -> String {
+    match rule {
+        Formula::FirstOrder => "First order".to_owned(),
+        Formula::Original => "Original".to_owned(),
+        Formula::Recursive1 { order } => format!("Recursive 1, order {order}"),
+        Formula::Recursive2 { order } => format!("Recursive 2, order {order}"),
+    }
 }

@@ -1,8 +1,8 @@
 //! What the first iteration of a case asks of its parameters before any limit, which gives a modeling error away.
 
-use super::{Cell, Digits, Table};
 use crate::cases::{CaseResult, Grouping, anomaly};
 use crate::present::figures::factors::Factor;
+use crate::present::table::{Cell, Digits, Table};
 
 /// What stands out so far that a modeling error must be looked for ([`anomaly`]).
 pub const ANOMALY: &str = "anomaly";
@@ -28,23 +28,21 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
     let (case, factors) = (result.case.number, unlimited_factors(result));
     let bounds = result.case.settings.inner.factor_range;
     let title = format!("Case {case}: unlimited stiffness change factors, first iteration");
-    let mut table = Table::new(format!("case_{case}_factors"), title, "Parameter")
-        .columns(["Factor", "Verdict"], "")
-        .note(format!("Bounds of one iteration: {:.2} to {:.2}.", bounds.lower, bounds.upper));
-    for factor in &factors {
-        let within = if bounds.contains(factor.value) { "within bounds" } else { "limited" };
-        let number = Cell::beside(factor.value, Digits::Fixed(1), factor.published);
-        table.row(&factor.name, [number, Cell::text(factor.remark.unwrap_or(within))]);
-    }
-    for factor in factors.iter().filter(|factor| factor.remark.is_some()) {
-        let kind = if result.case.grouping == Grouping::Elements { "element" } else { "group" };
-        let next = factors.iter().filter(|other| other.name != factor.name).map(|other| other.value);
-        table = table.note(format!(
-            "Anomaly: {kind} {} asks for {:.1} times its stiffness, the next for {:.1}: look for a modeling error there.",
-            factor.name,
-            factor.value,
-            next.fold(f64::MIN, f64::max),
-        ));
-    }
-    table
+    let word = |factor: &Factor| match factor.remark {
+        None if bounds.contains(factor.value) => Cell::text("within bounds"),
+        remark => Cell::text(remark.unwrap_or("limited")),
+    };
+    let kind = if result.case.grouping == Grouping::Elements { "element" } else { "group" };
+    let anomalies = factors.iter().filter(|factor| factor.remark.is_some()).map(|Factor { name, value, .. }| {
+        let next = factors.iter().filter(|other| other.name != *name).map(|other| other.value).fold(f64::MIN, f64::max);
+        let asks = format!("{kind} {name} asks for {value:.1} times its stiffness, the next for {next:.1}");
+        format!("Anomaly: {asks}: look for a modeling error there.")
+    });
+    let number = |factor: &Factor| Cell::beside(factor.value, Digits::Fixed(1), factor.published);
+    Table::new(format!("case_{case}_factors"), title, "Parameter")
+        .labels(factors.iter().map(|factor| &factor.name))
+        .column("Factor", "", factors.iter().map(number))
+        .column("Verdict", "", factors.iter().map(word))
+        .notes([format!("Bounds of one iteration: {:.2} to {:.2}.", bounds.lower, bounds.upper)])
+        .notes(anomalies)
 }

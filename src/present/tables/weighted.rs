@@ -1,7 +1,7 @@
 //! Which parameter is wrong, two rules of the step side by side, and how often intervals hold the truth, as tables.
 
-use super::{PERCENT, RMS_PERCENT};
-use crate::present::table::{Cell, Digits, Table};
+use super::{PERCENT, RMS_PERCENT, noise_words};
+use crate::present::table::{Cell, Table, percents};
 use crate::studies::coverage::{Coverage, SEEN};
 use crate::studies::localization::{Located, NOISE, RATIOS};
 use crate::studies::noisy_modes::Noise;
@@ -14,8 +14,8 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
         let tests = of_ratio().find(|of| of.is_noisy).map_or(0, |of| of.tests);
         let title = format!("One panel {ratio} times as thick as it should be: found, of {tests} noisy tests");
         let mut table = Table::new(format!("localization_{ratio}"), title, "Panel")
-            .columns(["Factor, no noise", "Factor first", "Factor in three"], "")
-            .columns(["Fit, no noise", "Fit first", "Fit in three"], "");
+            .headings(["Factor, no noise", "Factor first", "Factor in three"], "")
+            .headings(["Fit, no noise", "Fit first", "Fit in three"], "");
         let mut sums = [0; 6];
         for pair in of_ratio().collect::<Vec<_>>().chunks_exact(2) {
             let (exact, noisy) = (pair[0], pair[1]);
@@ -31,29 +31,28 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
     tables[0].notes.push(format!(
         "Factor: by the paper's unlimited factor of the first iteration. Fit: by how much of the weighted squared error each \
         panel alone can take away. No noise: whether it stands first (1) in the one exact test. Noise: {}.",
-        words(NOISE)
+        noise_words(NOISE)
     ));
     tables.to_vec()
 }
 
 /// Cases 1 to 3 and the delta wing at the start, by the paper's rule, and by the weighted one.
 pub fn rules_table(compared: &[[Compared; 3]]) -> Table {
-    let mut table = Table::new("rules", "The paper's rule and weighted Gauss\u{2013}Newton steps, without noise", "Structure")
-        .columns(["Steps", "Analyses"], "")
-        .columns(["Factor RMS", "Factor worst"], "%")
-        .note(
-            "Analyses: exact ones, by the finite element model. Factor: its error beside the one that makes the model right. The \
-            paper's rule stops within the tolerances of its case, the weighted one where nothing falls any more.",
-        );
+    let note = "Analyses: exact ones, by the finite element model. Factor: its error beside the one that makes the model right. The \
+        paper's rule stops within the tolerances of its case, the weighted one where nothing falls any more.";
+    let title = "The paper's rule and weighted Gauss\u{2013}Newton steps, without noise";
+    let mut table = Table::new("rules", title, "Structure")
+        .headings(["Steps", "Analyses"], "")
+        .headings(["Factor RMS", "Factor worst"], "%")
+        .notes([note]);
     for of in compared.as_flattened() {
         let rule = match of.rule {
             "none" => "first model",
             "paper" => "paper's rule",
             _ => "weighted",
         };
-        let errors = [of.factor_rms, of.largest].map(|error| Cell::percent(error, RMS_PERCENT));
-        let counts = [of.steps, of.analyses].map(Cell::count);
-        table.row(format!("{}, {rule}", of.name), counts.into_iter().chain(errors));
+        let counts = [of.steps, of.analyses].map(Cell::count).into_iter();
+        table.row(format!("{}, {rule}", of.name), counts.chain(percents([of.factor_rms, of.largest], RMS_PERCENT)));
     }
     table
 }
@@ -62,41 +61,34 @@ pub fn rules_table(compared: &[[Compared; 3]]) -> Table {
 pub fn coverage_tables(coverages: &[Coverage]) -> Vec<Table> {
     let tests = coverages.first().map_or(0, |of| of.tests);
     let title = format!("95 % intervals that hold the true factor, over {tests} noisy tests");
+    let note = format!(
+        "Noise: {}. Seen: parameters of whose prior variance the test takes away {:.0} % or more. Least held: of the one of them \
+        whose intervals hold the truth least often.",
+        noise_words(Noise::USUAL),
+        100.0 * SEEN
+    );
     let mut all = Table::new("coverage", title, "Structure")
-        .columns(["Parameters", "Seen"], "")
-        .columns(["Held, seen", "Least held, seen", "Held, all"], "%")
-        .note(format!(
-            "Noise: {}. Seen: parameters of whose prior variance the test takes away {:.0} % or more. Least held: of the one of \
-            them whose intervals hold the truth least often.",
-            words(Noise::USUAL),
-            100.0 * SEEN
-        ));
-    let held = |of: &Coverage, held: usize| held as f64 / of.tests.max(1) as f64;
+        .headings(["Parameters", "Seen"], "")
+        .headings(["Held, seen", "Least held, seen", "Held, all"], "%")
+        .notes([note]);
     let mut tables = Vec::new();
     for of in coverages {
+        let held = |tests: usize| tests as f64 / of.tests.max(1) as f64;
         let seen = || of.parameters.iter().filter(|held| held.learned >= SEEN);
         let least = seen().map(|seen| seen.tests).min();
-        let of_seen = least.map(|least| [of.overall(SEEN), held(of, least)].map(|part| Cell::percent(part, PERCENT)));
-        let every = Cell::percent(of.overall(f64::NEG_INFINITY), PERCENT);
+        let fractions = [least.map(|_| of.overall(SEEN)), least.map(held), Some(of.overall(f64::NEG_INFINITY))];
         let counts = [of.parameters.len(), seen().count()].map(Cell::count);
-        all.row(&of.name, counts.into_iter().chain(of_seen.unwrap_or([Cell::Blank, Cell::Blank])).chain([every]));
+        all.row(&of.name, counts.into_iter().chain(percents(fractions, PERCENT)));
         let name = format!("coverage_{}", of.name.to_lowercase().replace(' ', "_"));
         let title = format!("{}: intervals that hold the truth, and what the test says", of.name);
-        let mut table = Table::new(name, title, "Parameter").columns(["Held", "Learned"], "%");
-        for parameter in &of.parameters {
-            let fractions = [held(of, parameter.tests), parameter.learned];
-            table.row(&parameter.parameter, fractions.map(|fraction| Cell::percent(fraction, Digits::Fixed(1))));
-        }
-        tables.push(table);
+        let parameters = || of.parameters.iter();
+        tables.push(
+            Table::new(name, title, "Parameter")
+                .labels(parameters().map(|of| &of.parameter))
+                .column("Held", "%", percents(parameters().map(|of| held(of.tests)), PERCENT))
+                .column("Learned", "%", percents(parameters().map(|of| of.learned), PERCENT)),
+        );
     }
     tables.insert(0, all);
     tables
-}
-
-fn words(noise: Noise) -> String {
-    format!(
-        "{:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard deviations)",
-        100.0 * noise.shape,
-        100.0 * noise.frequency
-    )
 }
