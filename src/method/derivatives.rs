@@ -39,6 +39,7 @@ pub enum DerivativeRule {
 ///
 /// # Errors
 /// Those of [`by_definition`].
+#[doc = include_str!("../../paper/examples/derivatives/error_changes.md")]
 pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRule) -> Result<Vec<f64>, Error> {
     if rule == DerivativeRule::Definition {
         return by_definition(model, state);
@@ -55,6 +56,7 @@ pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRul
 ///
 /// # Errors
 /// [`Error::LostRoot`] when a change takes a root's sign; those of [`gradient`].
+#[doc = include_str!("../../paper/examples/derivatives/by_definition.md")]
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
@@ -100,6 +102,7 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a state of another model; [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/derivatives/gradient.md")]
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let pull = shape_pull(model, state);

@@ -76,6 +76,7 @@ pub struct Correlation {
 impl Correlation {
     /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
     /// improved on the start.
+    #[doc = include_str!("../../paper/examples/outer_loop/correlation_best_factors.md")]
     pub fn best_factors(&self) -> Vec<f64> {
         let best = self.best.and_then(|pass| self.passes.get(pass));
         best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
@@ -91,6 +92,7 @@ impl Correlation {
 /// # Errors
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
+#[doc = include_str!("../../paper/examples/outer_loop/correlate.md")]
 pub fn correlate<E: From<Error>>(
     analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],

@@ -97,6 +97,7 @@ pub struct Examination {
 /// # Errors
 /// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and
 /// [`orthogonalize`], with modes numbered as they came.
+#[doc = include_str!("../../../paper/examples/appendix_b/examine.md")]
 pub fn examine(
     raw: &ModeSet,
     mass: &DMatrix<f64>,

@@ -17,6 +17,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.
+#[doc = include_str!("../../../paper/examples/elements/triangle.md")]
 pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
     let [a, b, c] = corners;
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
@@ -61,6 +62,7 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
+#[doc = include_str!("../../../paper/examples/elements/membrane.md")]
 pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     mean_plane(corners)?;
     let mut stiffness = DMatrix::zeros(12, 12);

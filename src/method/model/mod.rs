@@ -80,6 +80,7 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`LoadDistribution::of`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
     /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
+    #[doc = include_str!("../../../paper/examples/model/new.md")]
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -95,6 +96,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::new`].
+    #[doc = include_str!("../../../paper/examples/model/with_loads.md")]
     pub fn with_loads(
         structure: Structure,
         load_distribution: LoadDistribution,
@@ -126,6 +128,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`check_length`] for their number, of [`check_shape`] and [`check_symmetric`] for each.
+    #[doc = include_str!("../../../paper/examples/model/with_unit_stiffness.md")]
     pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
         check_length("element matrices", units.len(), self.element_matrices.len())?;
         let mut model = self.clone();
@@ -139,26 +142,31 @@ impl FiniteElementModel {
     }
 
     /// The structure with its first sizes.
+    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn structure(&self) -> &Structure {
         &self.structure
     }
 
     /// Unit matrices of the elements at the free DOF.
+    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn element_matrices(&self) -> &[ElementMatrix] {
         &self.element_matrices
     }
 
     /// The load distribution $T$ (free SDOF × d).
+    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn load_distribution(&self) -> &LoadDistribution {
         &self.load_distribution
     }
 
     /// The dynamic mass $M$, lbf·s²/in (d × d).
+    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn mass(&self) -> &DMatrix<f64> {
         &self.mass
     }
 
     /// What may change.
+    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
@@ -172,6 +180,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
+    #[doc = include_str!("../../../paper/examples/model/factor_ranges.md")]
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
         let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             // A mass has no size: its rows may be those of points.
@@ -199,6 +208,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
+    #[doc = include_str!("../../../paper/examples/model/sizes.md")]
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
         self.scaled(self.first_sizes(), Scaled::Stiffness, factors)
     }
@@ -207,6 +217,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`].
+    #[doc = include_str!("../../../paper/examples/model/mass_sizes.md")]
     pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
         self.scaled(self.first_sizes(), Scaled::ElementMass, factors)
     }
@@ -215,6 +226,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`].
+    #[doc = include_str!("../../../paper/examples/model/point_masses.md")]
     pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
         let ones = vec![1.0; self.mass.nrows()];
         let mut mass = self.mass.clone();

@@ -46,6 +46,7 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// # Errors
 /// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
 /// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/complex_modes_solve.md")]
 pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let size = stiffness.nrows();
     at_least_one("degrees of freedom", size)?;
