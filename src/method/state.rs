@@ -69,11 +69,6 @@ impl ModalState {
         self.pairing.check(&self.modes, model.test.len())
     }
 
-    /// Whether these are the exact modes themselves, before any change.
-    pub fn is_exact(&self) -> bool {
-        self.factors.iter().all(|&factor| factor == 1.0)
-    }
-
     /// The state at `factors` on the shares, the whole change since the last exact modes taken at once:
     ///
     /// $$ \beta = \sum_{stiffness} (c_e - 1) V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1) V^t M_e V $$

@@ -91,12 +91,6 @@ impl ElementKind {
             Self::ShearPanel | Self::Membrane => 4,
         }
     }
-
-    /// What its size is called.
-    #[doc = include_str!("../../paper/examples/structure/element_kind_size_name.md")]
-    pub fn size_name(self) -> &'static str {
-        if self == Self::Rod { "area" } else { "gage" }
-    }
 }
 
 /// One finite element.
@@ -125,7 +119,7 @@ impl Element {
             return Err(Error::Unknown { owner: owner(), what: "grid", label });
         }
         self.material.check().map_err(|error| error.in_element(self.label))?;
-        positive(self.kind.size_name(), owner, self.size)
+        positive(if self.kind == ElementKind::Rod { "area" } else { "gage" }, owner, self.size)
     }
 }
 

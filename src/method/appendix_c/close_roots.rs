@@ -66,7 +66,7 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     check_symmetric("generalized stiffness change", &change.beta)?;
     check_symmetric("generalized mass change", &change.alpha)?;
     cholesky("changed generalized mass", &pencil.1, 0.0)?;
-    let size = change.len();
+    let size = change.roots.len();
     let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
     let identity = DMatrix::identity(size, size);
     let mut alone = solve_in(&blocks, &pencil, &identity)?;

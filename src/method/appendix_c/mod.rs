@@ -105,7 +105,7 @@ impl<T: Number> Settled<T> {
 #[doc = include_str!("../../../paper/examples/appendix_c/eigensolution.md")]
 pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     let (stiffness, mass) = change.pencil()?;
-    let modes = solve(&stiffness, &mass, change.len())?;
+    let modes = solve(&stiffness, &mass, stiffness.nrows())?;
     // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
     let pairing = pair_modes(&modes.shapes.transpose())?;
     let mut continued = modes.select(&pairing.analysis_mode);

@@ -26,39 +26,7 @@ use std::sync::Arc;
 /// parameter if there is one: in the paper, too, the mass is known and never changes. A gage that a correlation finds is
 /// therefore a statement about stiffness and does not make the element heavier. [`Self::sizes`], [`Self::mass_sizes`] and
 /// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
-///
-/// Two rods whose areas a test knows better:
-///
-/// ```rust
-/// use corfem::method::model::{FiniteElementModel, Parameter};
-/// use corfem::method::modes::ModeSet;
-/// use corfem::method::outer_loop::{Settings, correlate};
-/// use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-/// use nalgebra::{DMatrix, Vector3, dmatrix};
-///
-/// // Two rods end to end from a wall, 10 in each, free to move along x.
-/// let material = Material::isotropic(1.0e7, 0.3)?;
-/// let grids = [1, 2, 3].map(|label| {
-///     Grid { label, position: Vector3::new(10.0 * label as f64, 0.0, 0.0), constrained: [label == 1, true, true] }
-/// });
-/// let rods = [1, 2].map(|label| {
-///     Element { label, kind: ElementKind::Rod, grids: vec![label, label + 1], size: 0.1, material }
-/// });
-/// let structure = Structure::new(grids.to_vec(), rods.to_vec())?;
-/// let t = DMatrix::identity(2, 2); // measured are the structure's own two DOF
-/// let mass = DMatrix::from_diagonal_element(2, 2, 0.01);
-/// let parameters = [1, 2].map(|rod| Parameter::element(rod, None));
-/// let model = FiniteElementModel::new(structure, t, mass, parameters.to_vec())?;
-///
-/// // Frequencies in hertz; shapes of any scale, one a column.
-/// let test = ModeSet::from_measured(&[291.340, 851.875], &dmatrix![0.7208, 1.0; 1.0, -0.7208])?;
-/// let limits = model.factor_ranges()?;
-/// let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.002, ..Settings::default() };
-/// let result = correlate(|factors| model.analyze(factors, &test, None), &limits, &settings, |_, _| {})?;
-/// let areas = model.sizes(&result.best_factors())?;
-/// assert!((areas[0] - 0.08).abs() < 0.001 && (areas[1] - 0.12).abs() < 0.001);
-/// Ok::<(), corfem::method::error::Error>(())
-/// ```
+#[doc = include_str!("../../../paper/examples/model/finite_element_model.md")]
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
     structure: Structure,

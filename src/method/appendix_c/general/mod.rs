@@ -81,7 +81,7 @@ fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> 
     coupling.0.fill_diagonal(T::zero());
     coupling.1.fill_diagonal(T::zero());
     // Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
-    let shapes = DMatrix::identity(change.len(), change.len());
+    let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
     let order_zero = Perturbed { roots: explicit_roots(&pencil, &shapes)?, shapes };
     let mut now = next_order(&pencil, &coupling, order_zero)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);

@@ -78,19 +78,9 @@ impl<T: Number> ModalChange<T> {
         Self { beta: self.beta.transpose(), alpha: self.alpha.transpose(), ..self.clone() }
     }
 
-    /// Number of modes.
-    pub fn len(&self) -> usize {
-        self.roots.len()
-    }
-
-    /// Whether there are no modes.
-    pub fn is_empty(&self) -> bool {
-        self.roots.is_empty()
-    }
-
     /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
     pub(crate) fn pencil(&self) -> Result<Pencil<T>, Error> {
-        let size = self.len();
+        let size = self.roots.len();
         at_least_one("modes", size)?;
         let k = &self.generalized_stiffness;
         let column = |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
