@@ -131,8 +131,7 @@ pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> R
     check_shape("generalized mass change", alpha, shapes.nrows(), shapes.nrows())?;
     for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
         let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
-        let owner = || format!("mode {mode} (from zero)");
-        positive("changed generalized mass", owner, mass)?;
+        positive("changed generalized mass", || format!("mode {mode} (from zero)"), mass)?;
         shape /= mass.sqrt();
     }
     Ok(())

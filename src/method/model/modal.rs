@@ -146,9 +146,6 @@ impl ModalModel {
     /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
     /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
     /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
-    ///
-    /// # Errors
-    /// Those of [`signed_assurance`] and of `pair`; [`Error::Empty`] without parameters.
     pub(crate) fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
         let cross = signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
         let pairing = pair(&cross)?;
