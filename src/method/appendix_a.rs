@@ -35,6 +35,7 @@ pub struct Condensed {
 /// # Errors
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
+#[doc = include_str!("../../paper/examples/appendix_a/condense.md")]
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let loads = LoadDistribution::of(load_distribution)?;
     let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;

@@ -35,6 +35,7 @@ pub(crate) fn check_elements(elements: &[ElementMatrix], sizes: &[f64], dof_coun
 ///
 /// # Errors
 /// [`Error::InElement`] around the geometry error of the first bad element.
+#[doc = include_str!("../../paper/examples/assembly/element_matrices.md")]
 pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Error> {
     let of_element = |element: &Element| {
         let &Element { label, kind, ref grids, material, .. } = element;
@@ -57,6 +58,7 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF; [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/assembly/dense_stiffness.md")]
 pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
     check_elements(elements, sizes, dof_count)?;
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
@@ -70,6 +72,7 @@ pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usi
 ///
 /// # Errors
 /// Those of [`dense_stiffness`].
+#[doc = include_str!("../../paper/examples/assembly/lumped_mass.md")]
 pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DVector<f64>, Error> {
     check_elements(elements, sizes, dof_count)?;
     let mut lumped = DVector::zeros(dof_count);

@@ -39,6 +39,7 @@ pub enum DerivativeRule {
 ///
 /// # Errors
 /// Those of [`by_definition`].
+#[doc = include_str!("../../paper/examples/derivatives/error_changes.md")]
 pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRule) -> Result<Vec<f64>, Error> {
     if rule == DerivativeRule::Definition {
         return by_definition(model, state);
@@ -55,12 +56,14 @@ pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRul
 ///
 /// # Errors
 /// [`Error::LostRoot`] when a change takes a root's sign; those of [`gradient`].
+#[doc = include_str!("../../paper/examples/derivatives/by_definition.md")]
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
+    let are_close = |i: usize, j: usize| i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
     let of_parameter = |(share, factor): (&Share, &f64)| {
-        let mut change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
-        hold_close_modes(k, &mut change);
+        let change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
+        let change = change.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
         let perturbed = match share {
             Share::Stiffness(_) => first_order(k, &change)?,
             Share::Mass(_) => general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?,
@@ -72,17 +75,6 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
     };
     let changes = model.shares.iter().zip(&state.factors).map(of_parameter).collect::<Result<_, _>>()?;
     finite_list("changes of the error sum", changes)
-}
-
-/// Takes the coupling of close modes out of a generalized change.
-fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
-    for j in 0..k.len() {
-        for i in (0..k.len()).filter(|&i| i != j) {
-            if (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]) {
-                change[(i, j)] = 0.0;
-            }
-        }
-    }
 }
 
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
@@ -100,6 +92,7 @@ fn hold_close_modes(k: &DVector<f64>, change: &mut DMatrix<f64>) {
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a state of another model; [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/derivatives/gradient.md")]
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let pull = shape_pull(model, state);
@@ -130,7 +123,7 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
         // the scale takes away at component m.
         let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
         unit_shape_difference(shape, sign, model.test.shapes.column(j), to_shape);
-        let largest = first_largest(shape.as_slice());
+        let largest = shape.iamax();
         to_shape[largest] -= product(to_shape, shape.as_slice()) / shape[largest];
         let scale =
             model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
@@ -144,12 +137,6 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The place of the first of the components of largest magnitude.
-fn first_largest(shape: &[f64]) -> usize {
-    let larger = |largest: usize, place: usize| if shape[place].abs() > shape[largest].abs() { place } else { largest };
-    (1..shape.len()).fold(0, larger)
 }
 
 /// $\Sigma$ (n × n) in place of the pull, with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.
@@ -182,7 +169,7 @@ fn sensitivity(
 
 /// A sensitivity in the present modes $V p$ as one in the exact modes $V$, which the shares belong to: $p \Sigma p^t$.
 fn in_exact_modes(sensitivity: DMatrix<f64>, state: &ModalState) -> DMatrix<f64> {
-    if state.is_exact() {
+    if state.factors.iter().all(|&factor| factor == 1.0) {
         return sensitivity;
     }
     let p = &state.generalized_shapes;

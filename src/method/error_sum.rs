@@ -21,16 +21,19 @@ pub struct Errors {
 
 impl Errors {
     /// The error sum $e_S = e_f + e_v$.
+    #[doc = include_str!("../../paper/examples/error_sum/errors_sum.md")]
     pub fn sum(&self) -> f64 {
         self.frequency + self.shape
     }
 
     /// Root mean square frequency error, $e_f/\sqrt n$.
+    #[doc = include_str!("../../paper/examples/error_sum/errors_rms.md")]
     pub fn frequency_rms(&self) -> f64 {
         self.frequency / (self.mode_count.max(1) as f64).sqrt()
     }
 
     /// Root mean square shape error, $e_v/\sqrt n$.
+    #[doc = include_str!("../../paper/examples/error_sum/errors_rms.md")]
     pub fn shape_rms(&self) -> f64 {
         self.shape / (self.mode_count.max(1) as f64).sqrt()
     }
@@ -50,6 +53,7 @@ pub enum ErrorMeasure {
 
 impl ErrorMeasure {
     /// What the errors over `modes` test modes are multiplied with.
+    #[doc = include_str!("../../paper/examples/error_sum/error_measure_scale.md")]
     pub fn scale(self, modes: usize) -> f64 {
         match self {
             Self::Sum => 1.0,
@@ -72,6 +76,7 @@ pub struct ModeError {
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for modes other than those paired; [`Error::NotFinite`] for frequencies so far
 /// apart, or shapes so small, that their squares are no number.
+#[doc = include_str!("../../paper/examples/error_sum/mode_errors.md")]
 pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Vec<ModeError>, Error> {
     check_shape("test mode shapes", &test.shapes, analysis.shapes.nrows(), test.len())?;
     pairing.check(analysis, test.len())?;
@@ -116,6 +121,7 @@ impl ModeWeight {
 ///
 /// # Errors
 /// Those of [`mode_errors`].
+#[doc = include_str!("../../paper/examples/error_sum/errors.md")]
 pub fn errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Errors, Error> {
     weighted_errors(analysis, pairing, test, &vec![ModeWeight::ONE; test.len()])
 }

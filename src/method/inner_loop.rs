@@ -115,6 +115,7 @@ pub struct InnerRun {
 /// [`Error::Setting`], [`Error::Limits`], [`Error::WrongShape`] for settings, bounds and lists; those of [`error_changes`]
 /// and [`stiffness_changes`]. A step too far for the perturbation is halved like one that raises $e_S$;
 /// [`Error::CoalescingModes`] or [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
+#[doc = include_str!("../../paper/examples/inner_loop/run.md")]
 pub fn run(
     model: &ModalModel,
     base: &[f64],

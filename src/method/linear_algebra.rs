@@ -19,6 +19,7 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 ///
 /// # Errors
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
+#[doc = include_str!("../../paper/examples/linear_algebra/check_finite.md")]
 pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
     let Some(index) = matrix.iter().position(|value| !value.is_finite()) else { return Ok(()) };
     let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
@@ -30,6 +31,7 @@ pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Resul
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both shapes.
+#[doc = include_str!("../../paper/examples/linear_algebra/check_shape.md")]
 pub fn check_shape<T>(
     what: &'static str,
     matrix: &DMatrix<T>,
@@ -45,6 +47,7 @@ pub fn check_shape<T>(
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both lengths as rows of one column.
+#[doc = include_str!("../../paper/examples/linear_algebra/check_length.md")]
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
     let refused = Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 };
     if found == expected { Ok(()) } else { Err(refused) }
@@ -54,6 +57,7 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`].
+#[doc = include_str!("../../paper/examples/linear_algebra/check_symmetric.md")]
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
@@ -90,6 +94,7 @@ pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
 /// has none and comes back as it is.
+#[doc = include_str!("../../paper/examples/linear_algebra/symmetric_part.md")]
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if matrix.is_square() { 0.5 * matrix + 0.5 * matrix.transpose() } else { matrix.clone() }
 }
@@ -100,6 +105,7 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
+#[doc = include_str!("../../paper/examples/linear_algebra/cholesky.md")]
 pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) -> Result<DMatrix<f64>, Error> {
     check_symmetric(what, matrix)?;
     let lower = match to_faer(matrix).llt(Side::Lower) {
@@ -123,6 +129,7 @@ pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) 
 ///
 /// # Errors
 /// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
+#[doc = include_str!("../../paper/examples/linear_algebra/check_solution.md")]
 pub fn check_solution(
     what: &'static str,
     product: impl Fn(&DVector<f64>) -> DVector<f64>,
@@ -167,6 +174,7 @@ pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
+#[doc = include_str!("../../paper/examples/linear_algebra/symmetric_eigen.md")]
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;

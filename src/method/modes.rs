@@ -27,6 +27,7 @@ impl ModeSet {
     /// # Errors
     /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency that is not
     /// positive or a shape that is zero.
+    #[doc = include_str!("../../paper/examples/modes/mode_set_from_measured.md")]
     pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
         at_least_one("test modes", frequencies_hz.len())?;
         check_shape("test mode shapes", shapes, shapes.nrows(), frequencies_hz.len())?;
@@ -41,16 +42,19 @@ impl ModeSet {
     }
 
     /// Number of modes.
+    #[doc = include_str!("../../paper/examples/modes/mode_set_len.md")]
     pub fn len(&self) -> usize {
         self.omega_squared.len()
     }
 
     /// Whether there are no modes.
+    #[doc = include_str!("../../paper/examples/modes/mode_set_len.md")]
     pub fn is_empty(&self) -> bool {
         self.omega_squared.is_empty()
     }
 
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz.
+    #[doc = include_str!("../../paper/examples/modes/mode_set_frequencies_hz.md")]
     pub fn frequencies_hz(&self) -> Vec<f64> {
         self.omega_squared.iter().map(|omega_squared| omega_squared.sqrt() / (2.0 * PI)).collect()
     }
@@ -82,6 +86,7 @@ impl ModeSet {
     /// # Errors
     /// [`Error::Empty`]; [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
     /// [`Error::NotPositive`] for a squared frequency or a generalized mass that is not positive.
+    #[doc = include_str!("../../paper/examples/modes/mode_set_scaled_with.md")]
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
         let mut scaled = self.clone();
         for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(self.generalized_masses(mass)?) {
@@ -130,6 +135,7 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Empty`] for none; [`Error::TooMany`] for more than there are.
+    #[doc = include_str!("../../paper/examples/modes/modes_lowest.md")]
     pub fn lowest(&self, count: usize) -> Result<Self, Error> {
         check_count("modes", count, self.len())?;
         Ok(Self(self.select(&(0..count).collect::<Vec<_>>())))
@@ -152,6 +158,7 @@ pub(crate) fn check_count(what: &'static str, requested: usize, available: usize
 /// # Errors
 /// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass; [`Error::NotAVibration`] for a mode with
 /// $\omega^2 \le 0$; [`Error::Empty`] or [`Error::TooMany`] for a bad `count`.
+#[doc = include_str!("../../paper/examples/modes/solve.md")]
 pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
@@ -165,6 +172,7 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
 }
 
 /// Makes the first of the largest components of every column positive.
+#[doc = include_str!("../../paper/examples/modes/apply_sign_rule.md")]
 pub fn apply_sign_rule(shapes: &mut DMatrix<f64>) {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();

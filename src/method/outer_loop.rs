@@ -3,7 +3,7 @@
 
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{Errors, mode_errors};
-use crate::method::inner_loop::{InnerRun, InnerSettings, run};
+use crate::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::method::verdict::{Outcome, Verdict};
@@ -76,6 +76,7 @@ pub struct Correlation {
 impl Correlation {
     /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
     /// improved on the start.
+    #[doc = include_str!("../../paper/examples/outer_loop/correlation_best_factors.md")]
     pub fn best_factors(&self) -> Vec<f64> {
         let best = self.best.and_then(|pass| self.passes.get(pass));
         best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
@@ -91,6 +92,7 @@ impl Correlation {
 /// # Errors
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
+#[doc = include_str!("../../paper/examples/outer_loop/correlate.md")]
 pub fn correlate<E: From<Error>>(
     analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
@@ -104,9 +106,6 @@ pub fn correlate<E: From<Error>>(
 }
 
 /// The same, ended after a pass for which `progress` returns false: what was found until then is kept.
-///
-/// # Errors
-/// Those of [`correlate`].
 pub(crate) fn correlate_while<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
@@ -155,7 +154,13 @@ pub(crate) fn correlate_while<E: From<Error>>(
         .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
     let converged = meets(&check.errors, settings);
     let errors = mode_errors(&check.modes, &check.pairing, &test)?;
-    let outcome = Outcome::of(&passes, converged);
+    let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
+    let outcome = match passes.last() {
+        _ if !has_stepped && !converged => Outcome::Nothing,
+        Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
+        _ if converged => Outcome::Tolerance,
+        _ => Outcome::Cap,
+    };
     let verdict = Verdict::new(outcome, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
     let parameter_count = total_ranges.len();
     Ok(Correlation { parameter_count, initial, passes, best, converged, verdict })

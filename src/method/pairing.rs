@@ -33,6 +33,7 @@ impl Pairing {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
+#[doc = include_str!("../../paper/examples/pairing/cross_orthogonality.md")]
 pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
     check_shape("dynamic mass", mass, dof_count, dof_count)?;
@@ -50,6 +51,7 @@ pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f6
 /// # Errors
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero;
 /// [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/pairing/modal_assurance.md")]
 pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
@@ -89,6 +91,7 @@ pub(crate) fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> 
 /// # Errors
 /// [`Error::Empty`] without test modes; [`Error::TooMany`] with more test modes than analysis modes;
 /// [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/pairing/pair_modes.md")]
 pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let (analysis_count, test_count) = cross.shape();
     check_count("test modes", test_count, analysis_count)?;
@@ -113,6 +116,7 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for a pairing of other modes; [`Error::NotFinite`].
+#[doc = include_str!("../../paper/examples/pairing/paired.md")]
 pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> Result<ModeSet, Error> {
     pairing.check(analysis, pairing.sign.len())?;
     let mut paired = analysis.select(&pairing.analysis_mode);

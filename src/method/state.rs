@@ -47,6 +47,7 @@ pub struct ModalState {
 
 impl ModalState {
     /// The state before any change: all factors one, the exact modes.
+    #[doc = include_str!("../../paper/examples/state/start.md")]
     pub fn start(model: &ModalModel) -> Self {
         let count = model.exact.modes.len();
         Self {
@@ -68,11 +69,6 @@ impl ModalState {
         self.pairing.check(&self.modes, model.test.len())
     }
 
-    /// Whether these are the exact modes themselves, before any change.
-    pub fn is_exact(&self) -> bool {
-        self.factors.iter().all(|&factor| factor == 1.0)
-    }
-
     /// The state at `factors` on the shares, the whole change since the last exact modes taken at once:
     ///
     /// $$ \beta = \sum_{stiffness} (c_e - 1) V^t K_e V, \qquad \alpha = \sum_{mass} (c_e - 1) V^t M_e V $$
@@ -80,6 +76,7 @@ impl ModalState {
     /// # Errors
     /// [`Error::WrongShape`] for factors or a model that do not fit; those of [`recursive_1_converged`], with changes of mass
     /// [`general::recursive_1_converged`], or [`eigensolution`]; those of [`normalize_with_mass`].
+    #[doc = include_str!("../../paper/examples/state/at.md")]
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
         model.check()?;
         check_length("parameter factors", factors.len(), model.shares.len())?;

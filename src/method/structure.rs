@@ -38,6 +38,7 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless $E > 0$; [`Error::Setting`] unless $-1 < \nu \le 1/2$.
+    #[doc = include_str!("../../paper/examples/structure/material_isotropic.md")]
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self { youngs_modulus, poissons_ratio, shear_modulus, density: 0.0 };
@@ -48,6 +49,7 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless the density is positive.
+    #[doc = include_str!("../../paper/examples/structure/material_with_density.md")]
     pub fn with_density(self, density: f64) -> Result<Self, Error> {
         positive("density", material, density)?;
         Ok(Self { density, ..self })
@@ -81,17 +83,13 @@ pub enum ElementKind {
 
 impl ElementKind {
     /// How many grid points the element joins.
+    #[doc = include_str!("../../paper/examples/structure/element_kind_corner_count.md")]
     pub fn corner_count(self) -> usize {
         match self {
             Self::Rod => 2,
             Self::Triangle => 3,
             Self::ShearPanel | Self::Membrane => 4,
         }
-    }
-
-    /// What its size is called.
-    pub fn size_name(self) -> &'static str {
-        if self == Self::Rod { "area" } else { "gage" }
     }
 }
 
@@ -121,7 +119,7 @@ impl Element {
             return Err(Error::Unknown { owner: owner(), what: "grid", label });
         }
         self.material.check().map_err(|error| error.in_element(self.label))?;
-        positive(self.kind.size_name(), owner, self.size)
+        positive(if self.kind == ElementKind::Rod { "area" } else { "gage" }, owner, self.size)
     }
 }
 
@@ -153,6 +151,7 @@ impl Structure {
     /// # Errors
     /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
     /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or number of grids.
+    #[doc = include_str!("../../paper/examples/structure/structure_new.md")]
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         at_least_one("elements", elements.len())?;
         let (mut index_of_grid, mut free, mut free_index) = (HashMap::new(), Vec::new(), HashMap::new());
@@ -181,26 +180,31 @@ impl Structure {
     }
 
     /// The grids, in the order given.
+    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn grids(&self) -> &[Grid] {
         &self.grids
     }
 
     /// The elements, in the order given.
+    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
 
     /// The free structural DOF, in the order of every SDOF matrix.
+    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn free_dof(&self) -> &[StructuralDof] {
         &self.free
     }
 
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
+    #[doc = include_str!("../../paper/examples/structure/structure_free_dof_index.md")]
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
         self.free_index.get(&(grid, direction)).copied()
     }
 
     /// Positions of an element's grids, in.
+    #[doc = include_str!("../../paper/examples/structure/structure_corners.md")]
     pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
         let rows = element.grids.iter().filter_map(|grid| self.index_of_grid.get(grid));
         rows.map(|&row| self.grids[row].position).collect()

@@ -2,9 +2,7 @@
 //! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 use crate::method::error_sum::ModeError;
-use crate::method::inner_loop::Stop;
 use crate::method::model::Range;
-use crate::method::outer_loop::Pass;
 use serde::Serialize;
 use std::fmt;
 
@@ -24,19 +22,6 @@ pub enum Outcome {
     Cap,
     /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
     Nothing,
-}
-
-impl Outcome {
-    /// Why a correlation that made `passes` ended.
-    pub(crate) fn of(passes: &[Pass], is_within: bool) -> Self {
-        let steps: usize = passes.iter().map(|pass| pass.inner.iterations.len()).sum();
-        match passes.last() {
-            _ if steps == 0 && !is_within => Self::Nothing,
-            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Self::LocalMinimum,
-            _ if is_within => Self::Tolerance,
-            _ => Self::Cap,
-        }
-    }
 }
 
 /// What a correlation came to. It judges the best factors, [`super::outer_loop::Correlation::best_factors`].
@@ -85,6 +70,7 @@ impl Verdict {
     }
 
     /// The verdict in sentences, with the parameters' names; numbers stand for those that have none.
+    #[doc = include_str!("../../paper/examples/verdict/in_words.md")]
     pub fn in_words(&self, names: &[String]) -> String {
         let named = |indices: &[usize]| {
             let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());

@@ -1,5 +1,6 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
+use corfem::closed_forms::spring_chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::factorization::FactorizedStiffness;
@@ -24,15 +25,7 @@ pub fn rod(label: usize, ends: [usize; 2], area: f64) -> Element {
 
 /// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
 pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
-    let last = springs.len() + 1;
-    let grids = (1..=last)
-        .map(|label| {
-            let fixed = (label == 1 && constrained[0]) || (label == last && constrained[1]);
-            grid(label, [label as f64, 0.0, 0.0], [fixed, true, true])
-        })
-        .collect();
-    let rods = springs.iter().zip(1..).map(|(&spring, label)| rod(label, [label, label + 1], spring)).collect();
-    Structure::new(grids, rods).expect("a chain")
+    rods(springs, constrained).expect("a chain")
 }
 
 /// Elements that change together, with bounds on their sizes.

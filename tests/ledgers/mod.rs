@@ -4,6 +4,7 @@
 pub mod documents;
 pub mod equations;
 pub mod errata;
+pub mod examples;
 pub mod formulas;
 pub mod package;
 pub mod places;

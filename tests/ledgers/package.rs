@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
@@ -20,7 +20,7 @@ fn packaged() -> BTreeSet<String> {
 }
 
 /// Files that the sources are compiled with, from the root.
-fn included() -> BTreeSet<String> {
+pub fn included() -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for file in files_below(&root().join("src")) {
         let text = fs::read_to_string(&file).expect("it reads");

@@ -95,7 +95,7 @@ proptest! {
         let exact = roots_by_qz(&changed_k, &changed_g);
         prop_assert!(largest_root_error(right.roots.as_slice(), &exact) < COMPLEX_EIGEN_ROUND_OFF);
         prop_assert!(amax(&DMatrix::from_column_slice(
-            change.len(), 1, (&left.roots - &right.roots).as_slice())) < COMPLEX_EIGEN_ROUND_OFF);
+            change.roots.len(), 1, (&left.roots - &right.roots).as_slice())) < COMPLEX_EIGEN_ROUND_OFF);
         let v = &modes.right * &right.shapes;
         let u = &modes.left * &left.shapes;
         let lambda = DMatrix::from_diagonal(&right.roots);

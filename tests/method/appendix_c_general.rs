@@ -50,7 +50,7 @@ proptest! {
     /// More stiffness and as much more mass everywhere: the modes stay as they are, by every rule.
     #[test]
     fn scaling_stiffness_and_mass_alike_changes_nothing(change in separate_change(), scale in -0.5..1.0_f64) {
-        let size = change.len();
+        let size = change.roots.len();
         let k = change.generalized_stiffness.clone();
         let alike = ModalChange::of_vibrations(
             &k,
@@ -70,7 +70,7 @@ proptest! {
     fn normalized_shapes_are_orthonormal_in_the_changed_mass(change in separate_change()) {
         let mut shapes = general::recursive_1_converged(&change, 1e-13, 60)?.perturbed.shapes;
         normalize_with_mass(&mut shapes, &change.alpha)?;
-        let size = change.len();
+        let size = change.roots.len();
         let mass = DMatrix::identity(size, size) + &change.alpha;
         let product = shapes.tr_mul(&(mass * &shapes));
         prop_assert!((product - DMatrix::identity(size, size)).amax() < EIGEN_ROUND_OFF);

@@ -113,7 +113,6 @@ fn input_that_does_not_fit_is_refused_by_every_function() {
     for error in broken(|change| change.beta[(2, 2)] = -6.0) {
         assert!(matches!(error, Error::LostStiffness { mode: 2, ratio: 0.0 }));
     }
-    assert!(good.len() == 4 && !good.is_empty());
 }
 
 #[test]

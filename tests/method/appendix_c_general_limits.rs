@@ -4,7 +4,7 @@ use crate::common::appendix_c::FORMULAE;
 use crate::common::tolerances::CANCELLED_DIFFERENCE;
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::error::Error;
-use nalgebra::{DMatrix, DVector, dvector};
+use nalgebra::{DMatrix, dvector};
 
 /// The separation that an error names is the denominator relative to $(k_{ii} + \beta_{ii})\gamma_j$, here ten.
 #[test]
@@ -23,17 +23,6 @@ fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
     }
     change.alpha[(1, 1)] = meeting_at(1e-8);
     assert!(general::first_order(&change).is_ok());
-}
-
-#[test]
-fn no_modes_are_empty() {
-    let of = |size: usize| {
-        let none = DMatrix::zeros(size, size);
-        ModalChange::of_vibrations(&DVector::from_element(size, 1.0), none.clone(), none)
-    };
-    assert!(of(0).is_empty());
-    assert!(!of(1).is_empty());
-    assert_eq!((of(0).len(), of(2).len()), (0, 2));
 }
 
 /// A change of mass that takes all of a mode's inertia, or more, leaves a root that is zero or negative. Such roots are those

@@ -44,6 +44,7 @@ pub struct Balanced {
 /// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] when the balance equations are
 /// singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
 /// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
+#[doc = include_str!("../../../paper/examples/appendix_b/balance.md")]
 pub fn balance(
     raw: &ModeSet,
     stiffness: &DMatrix<f64>,
@@ -119,6 +120,7 @@ impl Motion {
     /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
     ///
     /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
+    #[doc = include_str!("../../../paper/examples/appendix_b/motion_displacement.md")]
     pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::ForeAft => Vector3::x(),
@@ -136,6 +138,7 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
+#[doc = include_str!("../../../paper/examples/appendix_b/rigid_body_vectors.md")]
 pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
     at_least_one("rigid-body motions", motions.len())?;
     at_least_one("dynamic degrees of freedom", dofs.len())?;

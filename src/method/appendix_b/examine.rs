@@ -1,7 +1,7 @@
 //! Which test modes are fit for correlation: both steps, the report, and the deletion of deviant modes.
 
 use super::balance::{Balanced, balance};
-use super::orthogonalize::{Movement, Orthogonalized, orthogonalize};
+use super::orthogonalize::{Movement, orthogonalize};
 use crate::method::error::{Error, at_least_one, positive_setting, setting};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
@@ -97,6 +97,7 @@ pub struct Examination {
 /// # Errors
 /// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and
 /// [`orthogonalize`], with modes numbered as they came.
+#[doc = include_str!("../../../paper/examples/appendix_b/examine.md")]
 pub fn examine(
     raw: &ModeSet,
     mass: &DMatrix<f64>,
@@ -130,16 +131,11 @@ pub fn examine(
         if !result.movement.iter().any(|movement| limits.excess(movement) > 1.0) {
             return Ok(Examination { modes: result.modes, kept, reports });
         }
-        let deleted = kept.remove(most_overlapping(&result, limits));
+        let moved = |i: usize| limits.excess(&result.movement[i]);
+        let others = |i: usize| (0..kept.len()).filter(move |&j| j != i);
+        let overlaps = |i: usize| -> f64 { others(i).map(|j| result.overlap[(j, i)].powi(2)).sum() };
+        let order = |a: &usize, b: &usize| overlaps(*a).total_cmp(&overlaps(*b)).then(moved(*a).total_cmp(&moved(*b)));
+        let deleted = kept.remove((0..kept.len()).max_by(order).unwrap_or(0));
         reports[deleted].verdict = ModeVerdict::NotOrthogonal;
     }
-}
-
-/// The place of the mode with the largest sum of squared overlaps; of equal ones, that which moved farthest.
-fn most_overlapping(result: &Orthogonalized, limits: &MovementLimits) -> usize {
-    let count = result.movement.len();
-    let overlaps = |i: usize| -> f64 { (0..count).filter(|&j| j != i).map(|j| result.overlap[(j, i)].powi(2)).sum() };
-    let moved = |i: usize| limits.excess(&result.movement[i]);
-    let order = |a: &usize, b: &usize| overlaps(*a).total_cmp(&overlaps(*b)).then(moved(*a).total_cmp(&moved(*b)));
-    (0..count).max_by(order).unwrap_or(0)
 }

@@ -39,6 +39,7 @@ pub struct Orthogonalized {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotFinite`].
+#[doc = include_str!("../../../paper/examples/appendix_b/generalized_mass.md")]
 pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
     finite("generalized mass", shapes.tr_mul(&(mass * shapes)))
@@ -57,6 +58,7 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// # Errors
 /// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] for a shape that is a combination
 /// of those before it.
+#[doc = include_str!("../../../paper/examples/appendix_b/orthogonalize.md")]
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;

@@ -57,6 +57,7 @@ pub struct SolvedInBlocks {
 /// [`Error::Setting`] for a separation outside 0 to 1 or no orders; those of [`check_symmetric`] and [`cholesky`] for the
 /// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
+#[doc = include_str!("../../../paper/examples/appendix_c/close_roots.md")]
 pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> Result<SolvedInBlocks, Error> {
     let CloseRootsSettings { separation, tolerance, orders } = settings;
     check_order(orders)?;
@@ -65,7 +66,7 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     check_symmetric("generalized stiffness change", &change.beta)?;
     check_symmetric("generalized mass change", &change.alpha)?;
     cholesky("changed generalized mass", &pencil.1, 0.0)?;
-    let size = change.len();
+    let size = change.roots.len();
     let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
     let identity = DMatrix::identity(size, size);
     let mut alone = solve_in(&blocks, &pencil, &identity)?;

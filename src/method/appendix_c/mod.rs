@@ -102,9 +102,10 @@ impl<T: Number> Settled<T> {
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] for bad input; those of [`solve`];
 /// [`Error::LostRoot`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+#[doc = include_str!("../../../paper/examples/appendix_c/eigensolution.md")]
 pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     let (stiffness, mass) = change.pencil()?;
-    let modes = solve(&stiffness, &mass, change.len())?;
+    let modes = solve(&stiffness, &mass, stiffness.nrows())?;
     // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
     let pairing = pair_modes(&modes.shapes.transpose())?;
     let mut continued = modes.select(&pairing.analysis_mode);
@@ -125,12 +126,12 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
 ///
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
+#[doc = include_str!("../../../paper/examples/appendix_c/normalize_with_mass.md")]
 pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
     check_shape("generalized mass change", alpha, shapes.nrows(), shapes.nrows())?;
     for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
         let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
-        let owner = || format!("mode {mode} (from zero)");
-        positive("changed generalized mass", owner, mass)?;
+        positive("changed generalized mass", || format!("mode {mode} (from zero)"), mass)?;
         shape /= mass.sqrt();
     }
     Ok(())

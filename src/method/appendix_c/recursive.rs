@@ -20,6 +20,7 @@ use nalgebra::{DMatrix, DVector};
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
 /// [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
+#[doc = include_str!("../../../paper/examples/appendix_c/first_order.md")]
 pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
@@ -41,6 +42,7 @@ pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) ->
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
+#[doc = include_str!("../../../paper/examples/appendix_c/recursive_1.md")]
 pub fn recursive_1(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
@@ -55,6 +57,7 @@ pub fn recursive_1(
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
 /// [`super::LARGEST_UNSETTLED_CHANGE`], as happens where roots are close; [`Error::CoalescingModes`] when two of them settle on one
 /// mode, as a strong change can make them.
+#[doc = include_str!("../../../paper/examples/appendix_c/recursive_1_converged.md")]
 pub fn recursive_1_converged(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,

@@ -17,22 +17,14 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.
+#[doc = include_str!("../../../paper/examples/elements/triangle.md")]
 pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
     let [a, b, c] = corners;
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
-    let (normal, area) = normal_and_area((b - a).cross(&(c - a)), longest)?;
-    let strain = strain_matrix(corners, normal, area);
-    let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
-    let e = youngs_modulus / (1.0 - nu * nu);
-    let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
-    finite("element stiffness", area * strain.transpose() * (elasticity * &strain))
-}
-
-/// $B$, 3 × 9: strains $\epsilon_x, \epsilon_y, \gamma_{xy}$ in a frame with its first axis along the first side.
-///
-/// The gradient of corner $n$'s shape function is $k \times s_n / (2A)$, $s_n$ the side opposite to it.
-fn strain_matrix(corners: [Vector3<f64>; 3], k: Vector3<f64>, area: f64) -> DMatrix<f64> {
-    let i = (corners[1] - corners[0]).normalize();
+    let (k, area) = normal_and_area((b - a).cross(&(c - a)), longest)?;
+    // B in a frame with its first axis along the first side. The gradient of corner n's shape function is k × s/(2A), with s the
+    // side opposite to it.
+    let i = (b - a).normalize();
     let j = k.cross(&i);
     let mut strain = DMatrix::zeros(3, 9);
     for n in 0..3 {
@@ -45,7 +37,10 @@ fn strain_matrix(corners: [Vector3<f64>; 3], k: Vector3<f64>, area: f64) -> DMat
             strain[(2, 3 * n + axis)] = dy * i[axis] + dx * j[axis];
         }
     }
-    strain
+    let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
+    let e = youngs_modulus / (1.0 - nu * nu);
+    let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
+    finite("element stiffness", area * strain.transpose() * (elasticity * &strain))
 }
 
 /// The four triangles of a quadrilateral 1-2-3-4; each of its two diagonals splits it once.
@@ -61,6 +56,7 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
+#[doc = include_str!("../../../paper/examples/elements/membrane.md")]
 pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     mean_plane(corners)?;
     let mut stiffness = DMatrix::zeros(12, 12);

@@ -19,6 +19,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`], and those of the element's own function.
+#[doc = include_str!("../../../paper/examples/elements/unit_stiffness.md")]
 pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Material) -> Result<DMatrix<f64>, Error> {
     match (kind, corners) {
         (ElementKind::Rod, &[a, b]) => rod([a, b], material.youngs_modulus),
@@ -38,6 +39,7 @@ pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Ma
 ///
 /// # Errors
 /// [`Error::ZeroLength`] when the ends coincide to working precision; [`Error::NotFinite`].
+#[doc = include_str!("../../../paper/examples/elements/rod.md")]
 pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>, Error> {
     let along = ends[1] - ends[0];
     let length = along.norm();
@@ -62,6 +64,7 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind; [`Error::NotFinite`].
+#[doc = include_str!("../../../paper/examples/elements/corner_volumes.md")]
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
     let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
     let volumes = match (kind, corners) {

@@ -28,6 +28,7 @@ pub struct MeanPlane {
 /// # Errors
 /// [`Error::ZeroArea`] when the diagonals are parallel or one has no length;
 /// [`Error::NotConvex`] naming the first corner with an interior angle of 180° or more or at the place of a neighbor.
+#[doc = include_str!("../../../paper/examples/elements/mean_plane.md")]
 pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     let d13 = corners[2] - corners[0];
     let d24 = corners[3] - corners[1];
@@ -50,10 +51,8 @@ pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     Ok(MeanPlane { corners: flat, diagonals: [d13, d24], area })
 }
 
-/// Unit normal and area of a triangle or panel from a normal of twice its area's length.
-///
-/// # Errors
-/// [`Error::ZeroArea`] when the area vanishes beside the square of `longest`, its longest side or diagonal.
+/// Unit normal and area of a triangle or panel from a normal of twice its area's length, unless the area vanishes beside the square
+/// of `longest`, its longest side or diagonal.
 pub(crate) fn normal_and_area(normal: Vector3<f64>, longest: f64) -> Result<(Vector3<f64>, f64), Error> {
     let area = 0.5 * normal.norm();
     let ratio = area / (longest * longest);

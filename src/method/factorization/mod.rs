@@ -54,6 +54,7 @@ impl FactorizedStiffness {
     /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
     /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
     /// factor does not solve its own matrix.
+    #[doc = include_str!("../../../paper/examples/factorization/new.md")]
     pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
         check_sizes(elements, sizes, free)?;
         Self::planned(&Arc::new(FactorizationPlan::of(elements, free, |_| None)?), elements, sizes, free)
@@ -63,6 +64,7 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// Those of [`Self::new`]; [`Error::WrongShape`] for a plan of other elements.
+    #[doc = include_str!("../../../paper/examples/factorization/planned.md")]
     pub fn planned(
         plan: &Arc<FactorizationPlan>,
         elements: &[ElementMatrix],
@@ -113,6 +115,7 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless `loads` has one row per free DOF; [`Error::NotFinite`].
+    #[doc = include_str!("../../../paper/examples/factorization/solve.md")]
     pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", loads, self.scale.len(), loads.ncols())?;
         check_finite("loads", loads)?;
@@ -142,6 +145,7 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
+    #[doc = include_str!("../../../paper/examples/factorization/flexibility.md")]
     pub fn flexibility(&self, load_distribution: &LoadDistribution) -> Result<DMatrix<f64>, Error> {
         check_length("load distribution", load_distribution.rows(), self.scale.len())?;
         let count = load_distribution.columns().len();

@@ -44,6 +44,7 @@ impl FactorizationPlan {
     /// # Errors
     /// Those of [`super::FactorizedStiffness::new`] for elements that do not fit the DOF; [`Error::TooMany`] for more entries than are
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
+    #[doc = include_str!("../../../paper/examples/factorization/plan_new.md")]
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
         let position: HashMap<usize, Vector3<f64>> =
             structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
@@ -100,6 +101,7 @@ impl FactorizationPlan {
     }
 
     /// How many numbers the factor holds.
+    #[doc = include_str!("../../../paper/examples/factorization/plan_factor_entries.md")]
     pub fn factor_entries(&self) -> usize {
         self.symbolic.len_val()
     }

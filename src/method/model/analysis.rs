@@ -32,6 +32,7 @@ impl CondensedModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
+    #[doc = include_str!("../../../paper/examples/model/structural_shapes.md")]
     pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("mode shapes", shapes, self.stiffness.nrows(), shapes.ncols())?;
         self.transposed_shapes(shapes).map(|transposed| transposed.transpose())
@@ -51,6 +52,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`] and [`FactorizedStiffness::new`]; [`Error::Dependent`] when a dynamic DOF is a combination of others.
+    #[doc = include_str!("../../../paper/examples/model/condense.md")]
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let point_mass = self.point_masses(factors)?;
@@ -100,6 +102,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`] and [`DynamicModel::analyze`].
+    #[doc = include_str!("../../../paper/examples/model/analyze.md")]
     pub fn analyze(&self, factors: &[f64], test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
@@ -116,6 +119,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`].
+    #[doc = include_str!("../../../paper/examples/model/matrices.md")]
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
@@ -127,6 +131,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`] and [`solve`].
+    #[doc = include_str!("../../../paper/examples/model/modes.md")]
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
         let condensed = self.condense(factors)?;
         solve(&condensed.stiffness, &condensed.mass, condensed.mass.nrows())

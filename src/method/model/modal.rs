@@ -23,6 +23,7 @@ pub enum Share {
 
 impl Share {
     /// The matrix, whatever it is a share of.
+    #[doc = include_str!("../../../paper/examples/model/share_matrix.md")]
     pub fn matrix(&self) -> &DMatrix<f64> {
         match self {
             Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
@@ -30,6 +31,7 @@ impl Share {
     }
 
     /// A share of the same kind with another matrix made from this one's.
+    #[doc = include_str!("../../../paper/examples/model/share_map.md")]
     pub fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
         match self {
             Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
@@ -55,6 +57,7 @@ impl DynamicModel {
     /// # Errors
     /// Those of [`solve`], [`ModeSet::scaled_with`], [`pair_modes`] and [`errors`]; [`Error::Empty`] without parameters;
     /// [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
+    #[doc = include_str!("../../../paper/examples/model/dynamic_model_analyze.md")]
     pub fn analyze(&self, test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
@@ -143,9 +146,6 @@ impl ModalModel {
     /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
     /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
     /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
-    ///
-    /// # Errors
-    /// Those of [`signed_assurance`] and of `pair`; [`Error::Empty`] without parameters.
     pub(crate) fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
         let cross = signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
         let pairing = pair(&cross)?;
@@ -191,6 +191,7 @@ impl ModalModel {
     /// # Errors
     /// [`Error::WrongShape`] unless there is one weight a test mode; [`Error::Setting`] for one that is negative or no number, and when
     /// all are zero.
+    #[doc = include_str!("../../../paper/examples/model/modal_model_weighted.md")]
     pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
         check_length("weights", weights.len(), self.test.len())?;
         let all = || weights.iter().flat_map(|weight| [weight.frequency, weight.shape]);

@@ -83,11 +83,6 @@ pub const LOOPS: &[Entry] = &[
         ModalState::start(&model);
         Ok(Vec::new())
     }),
-    ("ModalState::is_exact", |d| {
-        let model = d.bent_chain()?;
-        d.state(&model).is_exact();
-        Ok(Vec::new())
-    }),
     ("derivatives::by_definition", |d| {
         let model = d.bent_chain()?;
         by_definition(&model, &d.state(&model))

@@ -46,6 +46,7 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// # Errors
 /// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
 /// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/complex_modes_solve.md")]
 pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let size = stiffness.nrows();
     at_least_one("degrees of freedom", size)?;
@@ -65,7 +66,9 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     let mut right = reduced_right.clone();
     lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
     for (mut shape, mut reduced) in right.column_iter_mut().zip(reduced_right.column_iter_mut()) {
-        let phase = phase(&shape.clone_owned());
+        let largest = shape.map(Complex::norm).max();
+        let first = shape.iter().find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
+        let phase = first.map_or(Complex::from(1.0), |value| value / value.norm());
         shape /= phase;
         reduced /= phase;
     }
@@ -79,11 +82,4 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     }
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
     Ok(LeftRightModes { roots: DVector::from_fn(size, |j, _| root(order[j])), right, left })
-}
-
-/// Phase, of unit magnitude, of the first of the largest components.
-fn phase(shape: &DVector<Complex<f64>>) -> Complex<f64> {
-    let largest = shape.map(Complex::norm).max();
-    let first = shape.iter().find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
-    first.map_or(Complex::from(1.0), |value| value / value.norm())
 }

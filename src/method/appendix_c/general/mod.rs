@@ -38,6 +38,7 @@ pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when some
 /// $A_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/first_order.md")]
 pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     recursive_1(change, 1)
 }
@@ -52,6 +53,7 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1.md")]
 pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
     Ok(settle(change, 0.0, order)?.perturbed)
 }
@@ -63,6 +65,7 @@ pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<P
 ///
 /// # Errors
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] as [`super::recursive_1_converged`].
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1_converged.md")]
 pub fn recursive_1_converged<T: Number>(
     change: &ModalChange<T>,
     tolerance: f64,
@@ -78,7 +81,7 @@ fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> 
     coupling.0.fill_diagonal(T::zero());
     coupling.1.fill_diagonal(T::zero());
     // Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
-    let shapes = DMatrix::identity(change.len(), change.len());
+    let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
     let order_zero = Perturbed { roots: explicit_roots(&pencil, &shapes)?, shapes };
     let mut now = next_order(&pencil, &coupling, order_zero)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
@@ -129,6 +132,7 @@ fn next_order<T: Number>(
 ///
 /// # Errors
 /// As [`recursive_1`], and [`Error::CoalescingModes`] when the linear system of a mode is singular.
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_2.md")]
 pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
     check_order(order)?;
     let pencil = change.pencil()?;
@@ -144,6 +148,7 @@ pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<P
 ///
 /// # Errors
 /// As [`first_order`].
+#[doc = include_str!("../../../../paper/examples/appendix_c/general/original.md")]
 pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     let Perturbed { shapes, .. } = first_order(change)?;
     Ok(Perturbed { roots: explicit_roots(&change.pencil()?, &shapes)?, shapes })

@@ -27,6 +27,7 @@ pub struct ModalChange<T> {
 impl ModalChange<f64> {
     /// A change seen through mass-orthonormal modes of vibration, whose $k_{ii} = \omega_i^2$ (rad²/s²) and
     /// $\lambda_i = 1/\omega_i^2$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
+    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_of_vibrations.md")]
     pub fn of_vibrations(omega_squared: &DVector<f64>, beta: DMatrix<f64>, alpha: DMatrix<f64>) -> Self {
         Self { generalized_stiffness: omega_squared.clone(), roots: omega_squared.map(f64::recip), beta, alpha }
     }
@@ -38,6 +39,7 @@ impl<T: Number> ModalChange<T> {
     /// # Errors
     /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotOrthonormal`] when
     /// $U^t K V$ is not diagonal (C.10).
+    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_new.md")]
     pub fn new(
         stiffness: &DMatrix<T>,
         modes: &LeftRightModes<T>,
@@ -71,23 +73,14 @@ impl<T: Number> ModalChange<T> {
     }
 
     /// The same change seen by the transposed pencil (C.2); the changed left modes are $U$ times its shapes.
+    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_transposed.md")]
     pub fn transposed(&self) -> Self {
         Self { beta: self.beta.transpose(), alpha: self.alpha.transpose(), ..self.clone() }
     }
 
-    /// Number of modes.
-    pub fn len(&self) -> usize {
-        self.roots.len()
-    }
-
-    /// Whether there are no modes.
-    pub fn is_empty(&self) -> bool {
-        self.roots.is_empty()
-    }
-
     /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
     pub(crate) fn pencil(&self) -> Result<Pencil<T>, Error> {
-        let size = self.len();
+        let size = self.roots.len();
         at_least_one("modes", size)?;
         let k = &self.generalized_stiffness;
         let column = |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
