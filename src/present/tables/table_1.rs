@@ -1,7 +1,7 @@
 //! Table 1 for a reader: root errors of the perturbation formulae by order.
 
 use super::{Cell, Digits, PresentError, Table};
-use crate::cases::table_1::{Formula, problems, table_1};
+use crate::cases::table_1::{Formula, formulae, problems};
 
 /// Orders shown.
 const ORDERS: usize = 6;
@@ -11,23 +11,23 @@ const ORDERS: usize = 6;
 /// The paper's own numbers, and its problems, are lost in the scan: nothing stands beside these.
 ///
 /// # Errors
-/// Those of [`table_1`].
+/// Those of [`crate::cases::table_1::TwoMasses::root_errors`].
 pub fn root_error_table() -> Result<Table, PresentError> {
-    let found = table_1(&problems(), ORDERS)?;
+    let formulae = formulae(ORDERS);
     let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
     let mut table = Table::new("table_1", title, "Problem")
         .columns(["Coupling", "Change"], "")
-        .columns(found.formulae.iter().map(|&rule| rule_name(rule)), "%")
+        .columns(formulae.iter().map(|&rule| rule_name(rule)), "%")
         .note(
             "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring \
         is changed. Exact roots in closed form. The paper's own numbers are lost in the scan.",
         );
-    for (number, row) in found.rows.iter().enumerate() {
-        let problem = [row.problem.coupling, row.problem.change];
-        let problem = problem.map(|value| Cell::number(value, Digits::Fixed(2)));
-        let errors =
-            row.root_errors.iter().map(|[one, other]| Cell::percent(one.abs().max(other.abs()), Digits::Scientific(1)));
-        table.row(number + 1, problem.into_iter().chain(errors));
+    for (number, problem) in problems().into_iter().enumerate() {
+        let errors = formulae.iter().map(|&formula| problem.root_errors(formula)).collect::<Result<Vec<_>, _>>()?;
+        let springs = [problem.coupling, problem.change].map(|value| Cell::number(value, Digits::Fixed(2)));
+        let largest = errors.iter().map(|[one, other]| one.abs().max(other.abs()));
+        let cells = largest.map(|error| Cell::percent(error, Digits::Scientific(1)));
+        table.row(number + 1, springs.into_iter().chain(cells));
     }
     Ok(table)
 }
