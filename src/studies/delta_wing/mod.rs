@@ -32,12 +32,6 @@ use planform::{
 };
 use serde::Deserialize;
 
-/// First numbers of the elements of one sort, in the order they are made; the gaps are those of NASA's deck.
-const FIRST_COVER: usize = 1;
-const FIRST_WEB: usize = 18;
-const FIRST_POST: usize = 60;
-const FIRST_CAP: usize = 100;
-
 /// Kind, grids and size of an element.
 type Member = (ElementKind, Vec<usize>, f64);
 
@@ -109,14 +103,13 @@ impl DeltaWing {
         let rods = Material::isotropic(self.youngs_modulus, self.poissons_ratio)?;
         let sheet = rods.with_density(self.sheet_density)?;
         let mut elements = Vec::new();
-        let mut put = |first: usize, members: Vec<Member>, material| {
-            let members = (first..).zip(members);
-            elements.extend(members.map(|(label, (kind, grids, size))| Element { label, kind, grids, size, material }));
-        };
-        put(FIRST_COVER, self.covers(), sheet);
-        put(FIRST_WEB, self.webs(), sheet);
-        put(FIRST_POST, self.posts(), rods);
-        put(FIRST_CAP, self.caps(), rods);
+        // From the first numbers of each sort in NASA's deck.
+        for (first, members, material) in
+            [(1, self.covers(), sheet), (18, self.webs(), sheet), (60, self.posts(), rods), (100, self.caps(), rods)]
+        {
+            let element = |(label, (kind, grids, size))| Element { label, kind, grids, size, material };
+            elements.extend((first..).zip(members).map(element));
+        }
         Structure::new(self.grids(), elements)
     }
 
@@ -164,12 +157,11 @@ impl DeltaWing {
     }
 
     fn posts(&self) -> Vec<Member> {
-        let mut posts = Vec::new();
-        for (line, areas) in self.post_areas.iter().enumerate() {
-            let ends = |station| vec![mid_grid(line, station), upper_grid(line, station)];
-            posts.extend((0..).zip(areas).map(|(station, &area)| (ElementKind::Rod, ends(station), area)));
-        }
-        posts
+        let post = |line, station| vec![mid_grid(line, station), upper_grid(line, station)];
+        let of_line = |(line, areas): (usize, &Vec<f64>)| {
+            (0..).zip(areas.clone()).map(move |(station, area)| (ElementKind::Rod, post(line, station), area))
+        };
+        self.post_areas.iter().enumerate().flat_map(of_line).collect()
     }
 
     /// Over the webs, those of the leading edge from the root out.

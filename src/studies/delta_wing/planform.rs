@@ -5,11 +5,11 @@ pub(super) const STATIONS: [f64; 6] = [0.0, 10.0, 30.0, 50.0, 70.0, 90.0];
 /// Lines forward of the trailing edge, in.
 pub(super) const LINES: [f64; 5] = [0.0, 20.0, 40.0, 60.0, 80.0];
 /// Where the leading edge is: the sum of both coordinates, in.
-pub(super) const LEADING_EDGE: f64 = 110.0;
+const LEADING_EDGE: f64 = 110.0;
 /// The station at the side of the body, where the wing is supported.
 pub(super) const SUPPORTED_STATION: usize = 2;
 /// Grid numbers from one line to the next.
-pub(super) const LINE_STEP: usize = 20;
+const LINE_STEP: usize = 20;
 /// Grid numbers from the mid-plane to the upper surface.
 pub(super) const SURFACE_STEP: usize = 10;
 

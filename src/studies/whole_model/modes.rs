@@ -49,8 +49,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
     if stiffness.rows() <= MOST_DENSE_ROWS {
         let all = counted_modes(&stiffness.dense(), &mass.dense())?;
         check_count(FINITE, count, all.vibrations.len())?;
-        let lowest: Vec<usize> = (0..count).collect();
-        return Ok(CountedModes { vibrations: all.vibrations.select(&lowest), ..all });
+        return Ok(CountedModes { vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations, ..all });
     }
     let (factor, shift) = shifted(stiffness, mass)?;
     let mut wanted = count + BEYOND;
@@ -64,10 +63,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
         }
         check_count(FINITE, count, omega_squared.len() - rigid)?;
         check_number(stiffness, mass, &omega_squared, rigid + count, found.is_all)?;
-        let of = |places: Vec<usize>| (omega_squared.select_rows(&places), found.shapes.select_columns(&places));
-        let ((_, rigid_body), (omega_squared, shapes)) =
-            (of((0..rigid).collect()), of((rigid..rigid + count).collect()));
-        return Ok(CountedModes { rigid_body, vibrations: ModeSet { omega_squared, shapes } });
+        return Ok(CountedModes::of(&ModeSet { omega_squared, shapes: found.shapes }, rigid, count));
     }
 }
 
@@ -174,11 +170,8 @@ fn squared_frequencies(
     shapes: &DMatrix<f64>,
 ) -> Result<DVector<f64>, Error> {
     let (forces, momenta) = (stiffness.times(shapes)?, mass.times(shapes)?);
-    let quotient = |mode: usize| {
-        let shape = shapes.column(mode);
-        (shape.dot(&forces.column(mode)) / shape.dot(&momenta.column(mode))).max(0.0)
-    };
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| quotient(mode)))
+    let square = |mode: usize, of: &DMatrix<f64>| shapes.column(mode).dot(&of.column(mode));
+    Ok(DVector::from_fn(shapes.ncols(), |mode, _| (square(mode, &forces) / square(mode, &momenta)).max(0.0)))
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
