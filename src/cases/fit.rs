@@ -82,7 +82,12 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
     let at = |column: &FitColumn, mode| (column.case, column.column.clone(), mode + 1);
     let of = |column| FitColumn::differences(column).enumerate().map(move |(mode, off)| (off.abs(), at(column, mode)));
     let all: Vec<_> = columns.iter().flat_map(of).collect();
-    let rms = (all.iter().map(|(off, _)| off * off).sum::<f64>() / all.len() as f64).sqrt();
+    let rms = rms(&all.iter().map(|(off, _)| *off).collect::<Vec<_>>());
     let (largest, largest_at) = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     Ok(Fit { columns, rms, largest, largest_at })
+}
+
+/// Root mean square of a list; NaN of none.
+pub(crate) fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

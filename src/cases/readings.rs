@@ -5,6 +5,7 @@
 
 use crate::cases::error::CaseError;
 use crate::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
+use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
 use crate::cases::{Case, CaseResult, published_passes, run_case};
@@ -78,8 +79,8 @@ impl ReadingColumn {
 
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
     pub fn difference(&self) -> f64 {
-        let squares = self.errors().zip(&self.published_errors).map(|(error, printed)| (error - printed).powi(2));
-        (squares.sum::<f64>() / self.gages_in.len() as f64).sqrt()
+        let pairs = self.errors().zip(&self.published_errors);
+        rms(&pairs.map(|(error, printed)| error - printed).collect::<Vec<_>>())
     }
 }
 

@@ -3,6 +3,7 @@
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
+use crate::cases::fit::rms;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use crate::method::appendix_b::{
     Examination, MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, rigid_body_vectors,
@@ -135,13 +136,13 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
     let factors = correlation.best_factors();
     let gages = model.sizes(&factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(&factors, exact, None)?.exact.errors;
-    let squares: f64 = gages.iter().map(|gage| (gage / TEST_GAGE - 1.0).powi(2)).sum();
+    let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {
         converged: correlation.converged,
         iterations: correlation.passes.iter().map(|pass| pass.inner.iterations.len()).sum(),
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
-        gage_rms: (squares / PANEL_COUNT as f64).sqrt(),
+        gage_rms: rms(&errors),
         error_sum: model.analyze(&factors, test, None)?.exact.errors.sum(),
         true_frequency_rms: truth.frequency_rms(),
         true_shape_rms: truth.shape_rms(),

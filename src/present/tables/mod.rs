@@ -20,6 +20,7 @@ pub mod weighted;
 
 use super::PresentError;
 use super::table::{Cell, Digits, Table};
+use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
 
@@ -69,11 +70,6 @@ pub fn paper_tables<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         with their CPU seconds.",
         numbers.join(", ")
     )
-}
-
-/// Root mean square.
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// The letter that stands for a kind of element.

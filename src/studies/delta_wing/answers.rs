@@ -1,7 +1,6 @@
 //! What the wing does under load and in vibration, and what others found.
 
-use super::DeltaWing;
-use super::planform::{STATIONS, upper_grid};
+use super::{DeltaWing, STATIONS, upper_grid};
 use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
 use crate::method::assembly::{ElementMatrix, element_matrices, lumped_mass};

@@ -17,7 +17,6 @@
 
 mod answers;
 pub mod correlation;
-mod planform;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
@@ -26,11 +25,20 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::Vector3;
-use planform::{
-    LINES, STATIONS, SUPPORTED_STATION, SURFACE_STEP, along_lines, along_stations, leading_edge, lines_at, mid_grid,
-    stations_on, upper_grid,
-};
 use serde::Deserialize;
+
+/// Stations outboard of the root's center, in.
+const STATIONS: [f64; 6] = [0.0, 10.0, 30.0, 50.0, 70.0, 90.0];
+/// Lines forward of the trailing edge, in.
+const LINES: [f64; 5] = [0.0, 20.0, 40.0, 60.0, 80.0];
+/// Where the leading edge is: the sum of both coordinates, in.
+const LEADING_EDGE: f64 = 110.0;
+/// The station at the side of the body, where the wing is supported.
+const SUPPORTED_STATION: usize = 2;
+/// Grid numbers from one line to the next.
+const LINE_STEP: usize = 20;
+/// Grid numbers from the mid-plane to the upper surface.
+const SURFACE_STEP: usize = 10;
 
 /// Kind, grids and size of an element.
 type Member = (ElementKind, Vec<usize>, f64);
@@ -174,4 +182,41 @@ impl DeltaWing {
         let cap = |ends: [usize; 2]| ends.map(|grid| grid + SURFACE_STEP).to_vec();
         sides.into_iter().zip(areas).map(|(ends, &area)| (ElementKind::Rod, cap(ends), area)).collect()
     }
+}
+
+/// How many stations a line has behind the leading edge.
+fn stations_on(line: usize) -> usize {
+    STATIONS.iter().filter(|x| **x + LINES[line] <= LEADING_EDGE).count()
+}
+
+/// How many lines a station has behind the leading edge.
+fn lines_at(station: usize) -> usize {
+    LINES.iter().filter(|y| STATIONS[station] + **y <= LEADING_EDGE).count()
+}
+
+/// Number of the grid in the mid-plane.
+fn mid_grid(line: usize, station: usize) -> usize {
+    LINE_STEP * line + station + 1
+}
+
+/// Number of the grid on the upper surface.
+fn upper_grid(line: usize, station: usize) -> usize {
+    mid_grid(line, station) + SURFACE_STEP
+}
+
+/// Mid-plane grids at the ends of every member along a line, line by line from the root out.
+fn along_lines() -> Vec<[usize; 2]> {
+    let side = |line, station| [mid_grid(line, station - 1), mid_grid(line, station)];
+    (0..LINES.len()).flat_map(|line| (1..stations_on(line)).map(move |station| side(line, station))).collect()
+}
+
+/// The same along every station but the first: nothing shears the plane of symmetry.
+fn along_stations() -> Vec<[usize; 2]> {
+    let side = |line, station| [mid_grid(line - 1, station), mid_grid(line, station)];
+    (1..STATIONS.len()).flat_map(|station| (1..lines_at(station)).map(move |line| side(line, station))).collect()
+}
+
+/// Mid-plane grids on the leading edge, from the tip in.
+fn leading_edge() -> Vec<usize> {
+    (1..LINES.len()).map(|line| mid_grid(line, stations_on(line) - 1)).collect()
 }
