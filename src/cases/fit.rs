@@ -79,17 +79,15 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
             });
         }
     }
-    let (mut sum, mut count) = (0.0, 0.0);
-    let (mut largest, mut largest_at) = (0.0_f64, (0, String::new(), 0));
-    for column in &columns {
-        for (mode, difference) in column.differences().enumerate() {
-            sum += difference * difference;
-            count += 1.0;
-            if difference.abs() > largest {
-                largest = difference.abs();
-                largest_at = (column.case, column.column.clone(), mode + 1);
-            }
-        }
-    }
-    Ok(Fit { columns, rms: (sum / f64::max(count, 1.0)).sqrt(), largest, largest_at })
+    let at = |column: &FitColumn, mode| (column.case, column.column.clone(), mode + 1);
+    let of = |column| FitColumn::differences(column).enumerate().map(move |(mode, off)| (off.abs(), at(column, mode)));
+    let all: Vec<_> = columns.iter().flat_map(of).collect();
+    let rms = rms(&all.iter().map(|(off, _)| *off).collect::<Vec<_>>());
+    let (largest, largest_at) = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+    Ok(Fit { columns, rms, largest, largest_at })
+}
+
+/// Root mean square of a list; NaN of none.
+pub(crate) fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

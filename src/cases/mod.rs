@@ -81,16 +81,16 @@ impl Case {
         let gage_heading = format!("gage_{number}");
         let panel = |label: usize| {
             let row = label.to_string();
-            let grids = (1..=4).map(|corner| Ok(table.required(&row, &format!("grid_{corner}"))? as usize));
-            let grids = grids.collect::<Result<_, CaseError>>()?;
+            let grid = |corner: usize| Ok(table.required(&row, &format!("grid_{corner}"))? as usize);
+            let grids = (1..=4).map(grid).collect::<Result<_, CaseError>>()?;
             let kind = match table.text(&row, &format!("type_{number}")) {
-                Some("S") => Ok(ElementKind::ShearPanel),
-                Some("M") => Ok(ElementKind::Membrane),
+                Some("S") => ElementKind::ShearPanel,
+                Some("M") => ElementKind::Membrane,
                 other => {
                     let expected = format!("S or M for element {label}");
-                    Err(CaseError::table(&table.name, expected, other.unwrap_or("nothing")))
+                    return Err(CaseError::table(&table.name, expected, other.unwrap_or("nothing")));
                 }
-            }?;
+            };
             Ok(Panel { label, grids, kind, gage: table.required(&row, &gage_heading)? })
         };
         Ok(Self {
@@ -130,8 +130,8 @@ impl Case {
         // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
         let ratio = |range: Range| Range { lower: range.lower / range.upper, upper: range.upper / range.lower };
         let factor_range = self.gage_range.map(ratio);
-        let groups = SUBSTRUCTURES.iter();
-        groups.map(|&(name, elements)| Parameter { factor_range, ..Parameter::group(name, elements) }).collect()
+        let group = |&(name, elements): &(_, _)| Parameter { factor_range, ..Parameter::group(name, elements) };
+        SUBSTRUCTURES.iter().map(group).collect()
     }
 
     /// The model with the case's first gages.
@@ -185,8 +185,8 @@ pub fn published_reading(case: usize) -> StepRule {
 
 /// The paper's tolerances, and by them as many passes as it takes; Case 4 is a single iteration.
 ///
-/// Errors are sums over the modes compared, nine, or fewer in Tables 9 to 12. The paper does not print the tolerance of its outer loop on the error sum. It is taken as the one that the inner loop of the
-/// first pass is given.
+/// Errors are sums over the modes compared. The tolerance of the outer loop on the error sum is not printed: it is taken as that of
+/// the first inner loop.
 fn published_settings(number: usize) -> Settings {
     let (most_passes, iterations) = if number == 4 { (1, 1) } else { (10, 30) };
     let measure = ErrorMeasure::Sum;

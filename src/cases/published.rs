@@ -6,20 +6,12 @@
 use crate::cases::error::CaseError;
 use std::collections::HashMap;
 
-const TABLES: [(usize, &str); 12] = [
-    (2, include_str!("../../paper/tables/table_2.csv")),
-    (3, include_str!("../../paper/tables/table_3.csv")),
-    (4, include_str!("../../paper/tables/table_4.csv")),
-    (5, include_str!("../../paper/tables/table_5.csv")),
-    (6, include_str!("../../paper/tables/table_6.csv")),
-    (7, include_str!("../../paper/tables/table_7.csv")),
-    (8, include_str!("../../paper/tables/table_8.csv")),
-    (9, include_str!("../../paper/tables/table_9.csv")),
-    (10, include_str!("../../paper/tables/table_10.csv")),
-    (11, include_str!("../../paper/tables/table_11.csv")),
-    (12, include_str!("../../paper/tables/table_12.csv")),
-    (13, include_str!("../../paper/tables/table_13.csv")),
-];
+macro_rules! tables {
+    ($($number:literal)*) => {
+        [$(($number, include_str!(concat!("../../paper/tables/table_", $number, ".csv")))),*]
+    };
+}
+const TABLES: [(usize, &str); 12] = tables!(2 3 4 5 6 7 8 9 10 11 12 13);
 
 /// How comments begin that say what is wrong with the print.
 const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
@@ -77,8 +69,8 @@ impl PublishedTable {
             labels.push(label);
         }
         let title = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned();
-        let remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
-        let remarks = remarks.filter(|remark| REMARKS.iter().any(|kind| remark.starts_with(kind)));
+        let comments = text.lines().filter_map(|line| line.strip_prefix("# "));
+        let remarks = comments.filter(|comment| REMARKS.iter().any(|kind| comment.starts_with(kind)));
         let remarks = remarks.map(str::to_owned).collect();
         Ok(Self { number, title, remarks, name: name.to_owned(), headings, labels, cells })
     }

@@ -5,12 +5,14 @@
 
 use crate::cases::error::CaseError;
 use crate::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
+use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
-use crate::cases::{Case, CaseResult, anomaly, published_passes, run_case};
+use crate::cases::{Case, CaseResult, published_passes, run_case};
 use crate::method::outer_loop::{Pass, Settings};
 use crate::method::step::StepRule;
 use crate::method::structure::ElementKind;
+use nalgebra::DVector;
 use serde::Serialize;
 
 /// The readings of the step that the tables are asked about, the library's own first.
@@ -67,22 +69,18 @@ impl ReadingColumn {
 
     /// Correlation coefficient of the gage errors with the printed ones.
     pub fn correlation(&self) -> f64 {
-        let count = self.gages_in.len() as f64;
-        let mean = self.errors().sum::<f64>() / count;
-        let printed_mean = self.published_errors.iter().sum::<f64>() / count;
-        let (mut product, mut square, mut printed_square) = (0.0, 0.0, 0.0);
-        for (error, printed) in self.errors().zip(&self.published_errors) {
-            product += (error - mean) * (printed - printed_mean);
-            square += (error - mean).powi(2);
-            printed_square += (printed - printed_mean).powi(2);
-        }
-        product / (square * printed_square).sqrt()
+        let about_mean = |errors: Vec<f64>| {
+            let errors = DVector::from_vec(errors);
+            errors.add_scalar(-errors.mean())
+        };
+        let (found, printed) = (about_mean(self.errors().collect()), about_mean(self.published_errors.clone()));
+        found.dot(&printed) / (found.norm() * printed.norm())
     }
 
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
     pub fn difference(&self) -> f64 {
-        let squares = self.errors().zip(&self.published_errors).map(|(error, printed)| (error - printed).powi(2));
-        (squares.sum::<f64>() / self.gages_in.len() as f64).sqrt()
+        let pairs = self.errors().zip(&self.published_errors);
+        rms(&pairs.map(|(error, printed)| error - printed).collect::<Vec<_>>())
     }
 }
 
@@ -128,7 +126,7 @@ pub struct Detection {
 }
 
 /// The element that Case 4 has a hundred times too thin.
-pub const FAULTY_ELEMENT: usize = 8;
+const FAULTY_ELEMENT: usize = 8;
 
 /// Case 4 by one reading.
 ///
@@ -136,15 +134,14 @@ pub const FAULTY_ELEMENT: usize = 8;
 /// Those of [`run_by_reading`].
 pub fn detection(reconstruction: &Reconstruction, reading: StepRule) -> Result<Detection, CaseError> {
     let result = run_by_reading(&Case::on(4, reconstruction.clone())?, reading)?;
-    let factors = result.unlimited_factors();
+    let factors = result.unlimited_factors().to_vec();
     let faulty = FAULTY_ELEMENT - 1;
     let others = factors.iter().enumerate().filter(|(element, _)| *element != faulty).map(|(_, factor)| *factor);
     Ok(Detection {
         reading,
         factor: factors[faulty],
         next: others.fold(f64::MIN, f64::max),
-        is_reported: anomaly(&result.parameter_names, factors)
-            .is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
+        is_reported: result.anomaly.is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
     })
 }
 
@@ -162,8 +159,8 @@ pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>
         let mut case = Case::on(PUBLISHED_CASE, reconstruction.clone())?;
         case.settings = case.settings_by(reading);
         for run in published_runs(&case)? {
-            let table = (10..).zip([7, 5, 3]).find(|(_, test_modes)| *test_modes == run.test_modes);
-            let table = table.map_or(0, |(table, _)| table);
+            let table = [(7, 10), (5, 11), (3, 12)].into_iter().find(|(modes, _)| *modes == run.test_modes);
+            let table = table.map_or(0, |(_, table)| table);
             let rms = [run.inner.frequency_rms, run.inner.shape_rms];
             let stage = format!("fem_{}", run.analysis_modes);
             columns.push(ReadingColumn::new(&case, (table, stage), &run.gages_in, run.iterations, rms)?);

@@ -107,11 +107,9 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
 /// The parameter whose unlimited factor stands out from all others, by [`ANOMALY_RATIO`]: in all likelihood it was modeled far too
 /// soft.
 pub fn anomaly(names: &[String], unlimited_factors: &[f64]) -> Option<Anomaly> {
-    let mut order: Vec<usize> = (0..names.len().min(unlimited_factors.len())).collect();
-    order.sort_by(|&a, &b| unlimited_factors[b].total_cmp(&unlimited_factors[a]));
-    let (&first, others) = order.split_first()?;
-    let factor = unlimited_factors[first];
-    let next = others.first().map_or(1.0, |&next| unlimited_factors[next].max(1.0));
-    let found = Anomaly { parameter: names[first].clone(), factor, ratio: factor / next };
-    Some(found).filter(|found| found.ratio > ANOMALY_RATIO)
+    let mut order: Vec<(f64, &String)> = unlimited_factors.iter().copied().zip(names).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (&(factor, name), others) = order.split_first()?;
+    let ratio = factor / others.first().map_or(1.0, |next| next.0.max(1.0));
+    (ratio > ANOMALY_RATIO).then_some(Anomaly { parameter: name.clone(), factor, ratio })
 }

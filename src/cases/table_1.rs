@@ -9,11 +9,9 @@ use crate::method::appendix_c::general::{ModalChange, original, recursive_2};
 use crate::method::appendix_c::{first_order, recursive_1};
 use crate::method::error::{Error, setting};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use serde::Serialize;
 
 /// A column of the table: one of the formulae of Appendix C, at an order of approximation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Formula {
     /// First order (C.20, C.21).
     FirstOrder,
@@ -36,7 +34,7 @@ pub enum Formula {
 ///
 /// $$ K = \begin{bmatrix} 1 + \kappa & -\kappa \newline -\kappa & 1 + \kappa \end{bmatrix}, \qquad
 ///    \Delta K = \begin{bmatrix} \varepsilon & 0 \newline 0 & 0 \end{bmatrix}, \qquad M = I $$
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoMasses {
     /// Coupling spring $\kappa$ relative to a ground spring, positive. The weaker, the closer the two roots.
     pub coupling: f64,
@@ -94,41 +92,12 @@ impl TwoMasses {
     }
 }
 
-/// One problem of the table.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RootErrors {
-    /// The problem.
-    pub problem: TwoMasses,
-    /// Its exact roots, the larger first.
-    pub exact_roots: [f64; 2],
-    /// Relative error of both roots by each formula, as fractions, in the order of [`Table1::formulae`].
-    pub root_errors: Vec<[f64; 2]>,
-}
-
-/// Root errors of original and recursive methods by order.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Table1 {
-    /// The columns: first order, the original formulae (roots of second order), then Recursive 1 and Recursive 2 from
-    /// second order on.
-    pub formulae: Vec<Formula>,
-    /// The problems.
-    pub rows: Vec<RootErrors>,
-}
-
-/// The table for any problems, to order `orders`.
-///
-/// # Errors
-/// Those of [`TwoMasses::root_errors`].
-pub fn table_1(problems: &[TwoMasses], orders: usize) -> Result<Table1, Error> {
-    let mut formulae = vec![Formula::FirstOrder, Formula::Original];
-    formulae.extend((2..=orders).map(|order| Formula::Recursive1 { order }));
-    formulae.extend((2..=orders).map(|order| Formula::Recursive2 { order }));
-    let row = |&problem: &TwoMasses| {
-        let root_errors = formulae.iter().map(|&formula| problem.root_errors(formula));
-        let root_errors = root_errors.collect::<Result<_, Error>>()?;
-        Ok(RootErrors { problem, exact_roots: problem.exact_roots(), root_errors })
-    };
-    Ok(Table1 { rows: problems.iter().map(row).collect::<Result<_, Error>>()?, formulae })
+/// The columns of the table: first order, the original formulae (roots of second order), then Recursive 1 and Recursive 2 from
+/// second order to the order `orders`.
+pub fn formulae(orders: usize) -> Vec<Formula> {
+    let recursive_1 = (2..=orders).map(|order| Formula::Recursive1 { order });
+    let recursive_2 = (2..=orders).map(|order| Formula::Recursive2 { order });
+    [Formula::FirstOrder, Formula::Original].into_iter().chain(recursive_1).chain(recursive_2).collect()
 }
 
 /// The problems of the printed table: couplings from a quarter to twice a ground spring, changes from −50 to +100 %.

@@ -5,6 +5,7 @@
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
 use crate::cases::error::{CaseError, read_toml};
+use crate::cases::fit::rms;
 use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
@@ -98,8 +99,7 @@ pub struct Panel {
 /// RMS relative error of the gages of one kind of panel against [`TEST_GAGE`]; NaN when there is none of the kind.
 pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
     let gages = panels.iter().zip(gages).filter(|(panel, _)| panel.kind == kind);
-    let errors: Vec<f64> = gages.map(|(_, gage)| (gage / TEST_GAGE - 1.0).powi(2)).collect();
-    (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
+    rms(&gages.map(|(_, gage)| gage / TEST_GAGE - 1.0).collect::<Vec<_>>())
 }
 
 /// The 24 rods, by their end grids, elements 16 to 39: twelve spar caps (rear upper, rear lower, front upper,
@@ -132,14 +132,10 @@ pub fn structure(reconstruction: &Reconstruction, panels: &[Panel], rod_area: f6
         let constrained = [label >= FIRST_FIXED_GRID; 3];
         Grid { label, position: Vector3::from(position), constrained }
     });
-    let panels = panels.iter().map(|panel| {
-        let Panel { label, kind, grids, gage } = panel.clone();
-        Element { label, kind, grids, size: gage, material }
-    });
-    let rods = (PANEL_COUNT + 1..).zip(rod_ends()).map(|(label, ends)| {
-        let (kind, grids) = (ElementKind::Rod, ends.to_vec());
-        Element { label, kind, grids, size: rod_area, material }
-    });
+    let element = |label, kind, grids, size| Element { label, kind, grids, size, material };
+    let panels = panels.iter().map(|panel| element(panel.label, panel.kind, panel.grids.clone(), panel.gage));
+    let rods = (PANEL_COUNT + 1..).zip(rod_ends());
+    let rods = rods.map(|(label, ends)| element(label, ElementKind::Rod, ends.to_vec(), rod_area));
     Structure::new(grids.collect(), panels.chain(rods).collect())
 }
 
@@ -202,14 +198,11 @@ fn nonzero(length: f64) -> Result<f64, Error> {
 /// # Errors
 /// [`CaseError::MissingGrid`] for a box without a grid it must have.
 pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, CaseError> {
-    let at = |grid| reconstruction.at(grid);
-    let mut points = Vec::with_capacity(3 * FREE_RIBS);
-    for rib in 0..FREE_RIBS {
+    let middle = |one, other| Ok::<_, CaseError>(0.5 * (reconstruction.at(one)? + reconstruction.at(other)?));
+    let of_rib = |rib| {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
-        let rear = 0.5 * (at(rear_upper)? + at(rear_lower)?);
-        let front = 0.5 * (at(front_upper)? + at(front_lower)?);
-        let mid = rear + reconstruction.mid_chord_fraction * (front - rear);
-        points.extend([rear, mid, front]);
-    }
-    Ok(points)
+        let (rear, front) = (middle(rear_upper, rear_lower)?, middle(front_upper, front_lower)?);
+        Ok([rear, rear + reconstruction.mid_chord_fraction * (front - rear), front])
+    };
+    Ok((0..FREE_RIBS).map(of_rib).collect::<Result<Vec<_>, CaseError>>()?.concat())
 }

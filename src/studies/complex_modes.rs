@@ -1,7 +1,7 @@
 //! Complex mode shapes, as tests of damped structures find them: how near to real, and the nearest real shape.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_finite;
+use crate::method::linear_algebra::{check_finite, finite};
 use crate::method::modes::apply_sign_rule;
 use crate::method::structure::positive;
 use nalgebra::{Complex, DMatrix};
@@ -38,5 +38,5 @@ pub fn realize(shapes: &DMatrix<Complex<f64>>) -> Result<(DMatrix<f64>, Vec<f64>
         real.set_column(mode, &((x * cosine + y * sine) * unit));
     }
     apply_sign_rule(&mut real);
-    check_finite("real mode shapes", &real).map(|()| (real, collinearity))
+    Ok((finite("real mode shapes", real)?, collinearity))
 }

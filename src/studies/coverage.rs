@@ -44,21 +44,17 @@ impl Coverage {
     }
 }
 
-/// Correlates a structure with noisy tests, with weights of that noise, and counts the intervals that hold the truth.
-///
-/// Bounds on the factors are left out: an estimate at one has no interval of its own.
-///
-/// # Errors
-/// Those of [`with_noise`] and [`gauss_newton`].
-pub fn coverage(known: &Known, noise: Noise, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
-    let (weights, count) = (Weights::uniform(noise, known.test.len())?, known.truth.len());
+/// Correlates a structure with noisy tests and counts the intervals that hold the truth. Bounds on the factors are left out: an
+/// estimate at one has no interval of its own.
+fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
+    let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
+    let weights = Weights::uniform(Noise::USUAL, known.test.len())?;
     let names = known.model.parameters().iter().map(|parameter| parameter.name.clone());
     let mut parameters: Vec<Held> = names.map(|parameter| Held { parameter, ..Held::default() }).collect();
     let mut tests = 0;
     for seed in seeds {
-        let test = with_noise(&known.test, noise, seed)?;
+        let test = with_noise(&known.test, Noise::USUAL, seed)?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &test, None);
-        let (ones, ranges) = (vec![1.0; count], vec![None; count]);
         let found = gauss_newton(analyze, &ones, &ranges, &weights, &WeightedSettings::default())?;
         let intervals = found.identifiability.intervals(&found.factors)?;
         tests += 1;
@@ -71,14 +67,14 @@ pub fn coverage(known: &Known, noise: Noise, seeds: RangeInclusive<u64>) -> Resu
     Ok(Coverage { name: known.name.clone(), tests, parameters })
 }
 
-/// Coverage on Cases 2 and 3, on the delta wing, and on [`Known::case_2_by_bays`], with [`Noise::USUAL`].
+/// Coverage on Cases 2 and 3, on the delta wing, and on [`Known::case_2_by_bays`], with weights of the noise, [`Noise::USUAL`].
 ///
 /// Where upper and lower cover of a bay are alike, they do the same to every mode: Case 2 leaves their ratio to the prior. In
 /// Case 3 they begin unlike, and near the truth modes depend on the ratio by its square alone, which no linear interval describes.
 ///
 /// # Errors
-/// Those of the structures and of [`coverage`].
+/// Those of the structures, of [`with_noise`] and of [`gauss_newton`].
 pub fn all_coverages(seeds: RangeInclusive<u64>) -> Result<Vec<Coverage>, CaseError> {
     let all = [Known::of_case(2)?, Known::of_case(3)?, Known::delta_wing()?, Known::case_2_by_bays()?];
-    all.iter().map(|known| coverage(known, Noise::USUAL, seeds.clone())).collect()
+    all.iter().map(|known| coverage(known, seeds.clone())).collect()
 }

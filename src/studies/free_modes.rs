@@ -1,8 +1,5 @@
-//! Modes of structures that hang free, and where some degrees of freedom have no mass: found by a shift, and counted.
-//!
-//! An aircraft is tested hanging in soft cords. Its model then has rigid-body modes, which the flexibility of a held structure does
-//! not exist for, and a lumped mass leaves some degrees of freedom without any. Both are ordinary eigenvalues of the pencil, zero
-//! and infinite ones, and must neither be lost nor counted as vibrations.
+//! Modes of structures that hang free, as an aircraft in its test, and where some degrees of freedom have no mass: found by a shift, and
+//! counted. Zero and infinite eigenvalues of the pencil must neither be lost nor counted as vibrations.
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part};
@@ -19,6 +16,14 @@ pub struct CountedModes {
     pub rigid_body: DMatrix<f64>,
     /// Every vibration of finite frequency, ascending, of unit generalized mass.
     pub vibrations: ModeSet,
+}
+
+impl CountedModes {
+    /// Of modes in ascending order the first ones, which are rigid-body modes, and the `count` vibrations behind them.
+    pub(crate) fn of(modes: &ModeSet, rigid: usize, count: usize) -> Self {
+        let vibrations: Vec<usize> = (rigid..rigid + count).collect();
+        Self { rigid_body: modes.shapes.columns(0, rigid).into_owned(), vibrations: modes.select(&vibrations) }
+    }
 }
 
 /// Every mode of finite frequency of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), d × d.
@@ -70,11 +75,7 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
             return Err(Error::Miscounted { bound, counted, found });
         }
     }
-    let (first, vibrations) = (0..rigid, rigid..=last);
-    let of = |range: Vec<usize>| (omega_squared.select_rows(&range), shapes.select_columns(&range));
-    let (_, rigid_body) = of(first.collect());
-    let (omega_squared, shapes) = of(vibrations.collect());
-    Ok(CountedModes { rigid_body, vibrations: ModeSet { omega_squared, shapes } })
+    Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, last + 1 - rigid))
 }
 
 /// How many eigenvalues $\omega^2$ of the pencil lie below a bound that is none of them: the number of negative eigenvalues of

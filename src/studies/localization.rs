@@ -1,5 +1,4 @@
-//! Which parameter is wrong, before any correlation: by the paper's unlimited factor, which is a slope and says little of gross
-//! errors, and by what each parameter can do alone.
+//! Which parameter is wrong: by the paper's unlimited factor, a slope that says little of gross errors, and by single fits.
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
@@ -46,8 +45,8 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
     let stiffnesses = stiffness_changes(model, &state.factors, &state.factors, &changes, settings.step)?;
     let error_sum = settings.measure.scale(model.test.len()) * state.errors.sum();
     let factors = unlimited_factors(&changes, &stiffnesses, error_sum, settings.first_relaxation);
-    let suspect = |(parameter, &factor): (usize, &f64)| Suspect { parameter, factor, evidence: (factor - 1.0).abs() };
-    Ok(ranked(factors.iter().enumerate().map(suspect).collect()))
+    let suspect = |(parameter, factor): (usize, f64)| Suspect { parameter, factor, evidence: (factor - 1.0).abs() };
+    Ok(ranked(factors.into_iter().enumerate().map(suspect)))
 }
 
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
@@ -76,10 +75,11 @@ pub fn by_single_fit(model: &ModalModel, weights: &Weights) -> Result<Vec<Suspec
         }
         Suspect { parameter, factor: 10.0_f64.powf(log), evidence: start - lowest }
     };
-    Ok(ranked((0..model.shares.len()).map(best).collect()))
+    Ok(ranked((0..model.shares.len()).map(best)))
 }
 
-fn ranked(mut suspects: Vec<Suspect>) -> Vec<Suspect> {
+fn ranked(suspects: impl Iterator<Item = Suspect>) -> Vec<Suspect> {
+    let mut suspects: Vec<Suspect> = suspects.collect();
     suspects.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     suspects
 }

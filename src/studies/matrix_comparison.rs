@@ -1,22 +1,18 @@
 //! Why elements and not matrices: the same box, the same test modes, and what either correction knows afterwards.
 //!
-//! A case is corrected once by factors on its elements and once by closed forms on its matrices, with its lowest test
-//! modes alone. Both then predict all modes of the tested box, and all modes of the box after a design change that is
-//! no part of the test: thicker covers. The truth is the box with the right gages.
+//! Both corrections are given the lowest test modes alone, and then predict all modes of the box, as tested and after a design change
+//! that is no part of the test: thicker covers. The truth is the box with the right gages.
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
-pub use crate::cases::torque_box::COVERS;
-use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
+use crate::cases::torque_box::{COVERS, PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::outer_loop::correlate;
 use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
 use crate::method::step::StepRule;
-use crate::studies::matrix_correction::{
-    baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, mass_weighted, weighted_norm,
-};
+use crate::studies::matrix_correction::{baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -110,34 +106,34 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
     let read = as_read(&test, &start.mass)?;
     let corrected_mass = berman_nagy_mass(&start.mass, &read.shapes)?;
-    let berman_nagy = berman_nagy_stiffness(&start.stiffness, &corrected_mass, &read)?;
+    let berman_nagy = baruch_stiffness(&start.stiffness, &corrected_mass, &read)?;
 
-    let truth = [TEST_GAGE; PANEL_COUNT];
-    let doubled = |gages: &[f64]| Ok::<_, CaseError>(analysis(case, &with_doublers(gages))?.stiffness);
+    let right = [TEST_GAGE; PANEL_COUNT];
+    let tested = |gages: &[f64]| analysis(case, gages).map(|model| model.stiffness);
+    let doubled = |gages: &[f64]| tested(&with_doublers(gages));
+    let (mass, truth, changed_truth) = (&start.mass, tested(&right)?, doubled(&right)?);
     let design_change = doubled(&first)? - &start.stiffness;
-    let mass = &start.mass;
-    let candidates = [
-        ("Initial", start.stiffness.clone(), doubled(&first)?, mass),
-        (TRUTH, analysis(case, &truth)?.stiffness, doubled(&truth)?, mass),
-        ("Element factors", analysis(case, &found)?.stiffness, doubled(&found)?, mass),
-        ("Baruch", baruch.clone(), &baruch + &design_change, mass),
-        ("Berman and Nagy", berman_nagy.clone(), &berman_nagy + &design_change, &corrected_mass),
-    ];
-    let true_modes = solve(&candidates[1].1, mass, mass.nrows())?;
-    let true_changed = solve(&candidates[1].2, mass, mass.nrows())?;
-    let start_distance = weighted_norm(&(&start.stiffness - &candidates[1].1), mass)?;
-    let predict = |(name, stiffness, changed, own_mass): &Candidate| {
-        let change = stiffness - &start.stiffness;
+    let (true_modes, true_changed) = (solve(&truth, mass, mass.nrows())?, solve(&changed_truth, mass, mass.nrows())?);
+    let distance = |stiffness: &DMatrix<f64>| weighted_norm(&(stiffness - &truth), mass);
+    let predict = |(model, stiffness, changed, own_mass): Candidate| {
+        let change = &stiffness - &start.stiffness;
         Ok(Prediction {
-            model: name,
-            as_tested: frequency_errors(stiffness, own_mass, &true_modes)?,
-            after_change: frequency_errors(changed, own_mass, &true_changed)?,
+            model,
+            as_tested: frequency_errors(&stiffness, own_mass, &true_modes)?,
+            after_change: frequency_errors(&changed, own_mass, &true_changed)?,
             stiffness_change: relative_entries(&change, &start.stiffness),
-            mass_change: relative_entries(&(*own_mass - mass), mass),
-            distance_left: weighted_norm(&(stiffness - &candidates[1].1), mass)? / start_distance,
+            mass_change: relative_entries(&(own_mass - mass), mass),
+            distance_left: distance(&stiffness)? / distance(&start.stiffness)?,
             beyond_elements: nearest_factors(&change, &start)?.1,
         })
     };
+    let candidates = [
+        ("Initial", start.stiffness.clone(), doubled(&first)?, mass),
+        (TRUTH, truth.clone(), changed_truth, mass),
+        ("Element factors", tested(&found)?, doubled(&found)?, mass),
+        ("Baruch", baruch.clone(), &baruch + &design_change, mass),
+        ("Berman and Nagy", berman_nagy.clone(), berman_nagy + design_change, &corrected_mass),
+    ];
     let nearest = nearest_factors(&(&baruch - &start.stiffness), &start)?.0;
     let factor = |e: usize| ElementFactor {
         element: case.panels[e].label,
@@ -150,7 +146,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
         test_modes,
         as_tested_hz: true_modes.frequencies_hz(),
         after_change_hz: true_changed.frequencies_hz(),
-        predictions: candidates.iter().map(predict).collect::<Result<_, Error>>()?,
+        predictions: candidates.into_iter().map(predict).collect::<Result<_, Error>>()?,
         factors: (0..PANEL_COUNT).map(factor).collect(),
     })
 }
@@ -162,11 +158,8 @@ fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, CaseError> {
 }
 
 fn with_doublers(gages: &[f64]) -> Vec<f64> {
-    let mut doubled = gages.to_vec();
-    for cover in COVERS {
-        doubled[cover - 1] += COVER_DOUBLER;
-    }
-    doubled
+    let doubled = |(gage, number)| if COVERS.contains(&number) { gage + COVER_DOUBLER } else { gage };
+    gages.iter().copied().zip(1..).map(doubled).collect()
 }
 
 /// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
@@ -185,8 +178,7 @@ fn frequency_errors(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, truth: &Modes
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
     let pairs = paired(&modes, &pairing)?.frequencies_hz();
-    let errors = pairs.iter().zip(truth.frequencies_hz());
-    Ok(errors.map(|(found, truth)| found / truth - 1.0).collect())
+    Ok(pairs.iter().zip(truth.frequencies_hz()).map(|(found, truth)| found / truth - 1.0).collect())
 }
 
 /// $\Delta_{ij}/\sqrt{A_{ii} A_{jj}}$, row by row.
@@ -206,12 +198,13 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         let weighted = mass_weighted(matrix, &start.mass)?;
         Ok::<_, Error>(DVector::from_column_slice(weighted.as_slice()))
     };
-    let columns = start.shares.iter().map(|share| weighted(share.matrix())).collect::<Result<Vec<_>, _>>()?;
-    let shares = DMatrix::from_columns(&columns.iter().map(DVector::normalize).collect::<Vec<_>>());
+    let mut shares: Vec<_> = start.shares.iter().map(|share| weighted(share.matrix())).collect::<Result<_, _>>()?;
+    let norms: Vec<f64> = shares.iter_mut().map(DVector::normalize_mut).collect();
+    let shares = DMatrix::from_columns(&shares);
     let target = weighted(change)?;
     let nearest = shares.clone().svd(true, true).solve(&target, SMALLEST_SINGULAR_VALUE);
     let coefficients = nearest.map_err(|_| Error::NoConvergence("element shares"))?;
     let (left, whole) = ((&target - shares * &coefficients).norm(), target.norm());
-    let factors = coefficients.iter().zip(&columns).map(|(c, column)| c / column.norm());
+    let factors = coefficients.iter().zip(&norms).map(|(c, norm)| c / norm);
     Ok((factors.collect(), if whole > 0.0 { left / whole } else { 0.0 }))
 }

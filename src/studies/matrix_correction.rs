@@ -1,8 +1,7 @@
 //! Corrections of whole matrices: what the method does not do, and is to be compared with.
 //!
-//! In closed form, with the smallest change in a weighted norm, they give a model that has the measured modes exactly.
-//! The change is spread over all entries of the matrix: nothing says which element it belongs to, nor that any could
-//! make it.
+//! In closed form, with the smallest change in a weighted norm, they give a model that has the measured modes exactly. Nothing says
+//! which element the change belongs to, nor that any could make it.
 //!
 //! Sources: Baruch, "Optimization Procedure to Correct Stiffness and Flexibility Matrices Using Vibration Tests", *AIAA
 //! Journal* 16 (1978), 1208–1210; Berman and Nagy, "Improvement of a Large Analytical Model Using Test Data", *AIAA
@@ -15,29 +14,27 @@ use nalgebra::DMatrix;
 
 /// Departure of $\Phi^t M \Phi$ from $I$ above which test shapes are refused where they must be orthonormal.
 const LARGEST_CROSS_MASS: f64 = 1e-8;
+/// Pivot of the generalized mass relative to its diagonal below which a test shape is a combination of others.
+const SMALLEST_MASS_PIVOT: f64 = 1e-12;
 
 /// Baruch's correction of the stiffness, lbf/in (d × d):
 ///
-/// $$ K = K_A - K_A \Phi\Phi^t M - M \Phi\Phi^t K_A + M \Phi\Phi^t K_A \Phi\Phi^t M + M \Phi \Omega^2 \Phi^t M $$
+/// $$ K = K_A + \Delta + \Delta^t, \qquad
+///    \Delta = \tfrac12 M \Phi (\Phi^t K_A \Phi + \Omega^2) \Phi^t M - K_A \Phi \Phi^t M $$
 ///
 /// with the analysis stiffness $K_A$, the mass $M$, and test shapes $\Phi$ (d × g, $\Phi^t M \Phi = I$) of squared
 /// circular frequencies $\Omega^2$. Of all symmetric $K$ with $K\Phi = M\Phi \Omega^2$ it is the one of smallest
-/// [`weighted_norm`] of $K - K_A$.
+/// [`weighted_norm`] of $K - K_A$. With the corrected mass for $M$ it is Berman and Nagy's too, who write it so.
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for
 /// test shapes that are not orthonormal with this mass.
 pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
-    // M Φ, and with it the projections M Φ Φᵗ and Φ Φᵗ M.
-    let inertia = mass * &test.shapes;
-    let projection = &inertia * test.shapes.transpose();
-    let cross = &projection * stiffness;
-    let omega_squared = DMatrix::from_diagonal(&test.omega_squared);
-    let corrected = stiffness - cross.transpose() - &cross
-        + &cross * projection.transpose()
-        + &inertia * omega_squared * inertia.transpose();
-    Ok(symmetric_part(&corrected))
+    let (inertia, forces) = (mass * &test.shapes, stiffness * &test.shapes);
+    let generalized = test.shapes.tr_mul(&forces) + DMatrix::from_diagonal(&test.omega_squared);
+    let half = 0.5 * &inertia * generalized * inertia.transpose() - forces * inertia.transpose();
+    Ok(symmetric_part(&(stiffness + &half + half.transpose())))
 }
 
 /// Berman and Nagy's correction of the mass, lbf·s²/in (d × d):
@@ -66,31 +63,6 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DM
     Ok(symmetric_part(&(mass + solved.tr_mul(&(missing * &solved)))))
 }
 
-/// Pivot of the generalized mass relative to its diagonal below which a test shape is a combination of others.
-const SMALLEST_MASS_PIVOT: f64 = 1e-12;
-
-/// Berman and Nagy's correction of the stiffness, lbf/in (d × d), to follow that of the mass:
-///
-/// $$ K = K_A + \Delta + \Delta^t, \qquad
-///    \Delta = \tfrac12 M \Phi (\Phi^t K_A \Phi + \Omega^2) \Phi^t M - K_A \Phi \Phi^t M $$
-///
-/// with the *corrected* mass $M$, so that $\Phi^t M \Phi = I$. With the same mass it is Baruch's, written another way.
-///
-/// # Errors
-/// Those of [`baruch_stiffness`].
-pub fn berman_nagy_stiffness(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    test: &ModeSet,
-) -> Result<DMatrix<f64>, Error> {
-    check_problem(stiffness, mass, test)?;
-    let inertia = mass * &test.shapes;
-    let forces = stiffness * &test.shapes;
-    let generalized = test.shapes.tr_mul(&forces) + DMatrix::from_diagonal(&test.omega_squared);
-    let half = 0.5 * &inertia * generalized * inertia.transpose() - forces * inertia.transpose();
-    Ok(symmetric_part(&(stiffness + &half + half.transpose())))
-}
-
 /// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2} \Delta M^{-1/2} \rVert$: the root of
 /// the sum of squares of all entries, each divided by the masses of its row and column when $M$ is diagonal.
 ///
@@ -102,8 +74,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
     Ok(mass_weighted(change, mass)?.norm())
 }
 
-/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: the same up to a rotation as $M^{-1/2} \Delta M^{-1/2}$, and of the same
-/// norm.
+/// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: up to a rotation the same as $M^{-1/2} \Delta M^{-1/2}$.
 pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
@@ -117,15 +88,12 @@ fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) 
     check_shape("test mode shapes", &test.shapes, mass.nrows(), test.len())?;
     check_finite("test mode shapes", &test.shapes)?;
     let cross = test.shapes.tr_mul(&(mass * &test.shapes));
-    for first in 0..test.len() {
-        for second in 0..=first {
-            let expected = if first == second { 1.0 } else { 0.0 };
-            let found = cross[(first, second)];
-            // NaN comes from shapes so large that their products overflow.
-            if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
-                let what = "generalized mass of test modes";
-                return Err(Error::NotOrthonormal { what, first, second, expected, found });
-            }
+    for (first, second) in (0..test.len()).flat_map(|first| (0..=first).map(move |second| (first, second))) {
+        let (expected, found) = (f64::from(first == second), cross[(first, second)]);
+        // NaN comes from shapes so large that their products overflow.
+        if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
+            let what = "generalized mass of test modes";
+            return Err(Error::NotOrthonormal { what, first, second, expected, found });
         }
     }
     Ok(())

@@ -1,14 +1,12 @@
-//! Appendix B in use: the box's test modes with errors of measurement, correlated as they are and after Appendix B.
-//!
-//! The test modes are the exact ones with reproducible noise. They are correlated raw, then balanced where that applies
-//! and orthogonalized, then with those modes alone that pass the limits. What is wrong with the gages each time says what
-//! the steps of Appendix B are worth.
+//! Appendix B in use: the box's test modes with reproducible errors of measurement, correlated as they are and after Appendix B.
+//! What is wrong with the gages each time says what its steps are worth.
 
 use crate::cases::Case;
 use crate::cases::error::CaseError;
+use crate::cases::fit::rms;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use crate::method::appendix_b::{
-    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, rigid_body_vectors,
+    Examination, MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, rigid_body_vectors,
 };
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
@@ -103,8 +101,8 @@ pub struct NoisyModes {
 /// seed and once without noise.
 ///
 /// Whether the modes are to be balanced is asked of [`balance`], with the first model: a structure that it refuses as
-/// supported is held. Settings are the case's own, the step by the
-/// library's own rule, which finds the gages where the reading of the case leaves some behind.
+/// supported is held. Settings are the case's own, the step by the library's own rule, which finds the gages where the
+/// reading of the case leaves some behind.
 ///
 /// # Errors
 /// Those of the model, of Appendix B and of the loops.
@@ -120,16 +118,12 @@ pub fn noisy_modes(case: &Case, noise: Noise, seeds: RangeInclusive<u64>) -> Res
         Err(Error::Supported { ratio, .. }) => (Supports::Held, Some(ratio)),
         Err(error) => return Err(error.into()),
     };
+    let found = |test: &ModeSet| correlated(case, &model, &exact, test);
     let run = |(seed, noise): (Option<u64>, Noise)| {
         let raw = with_noise(&exact, noise, seed.unwrap_or_default())?;
-        let screened = examine(&raw, &first.mass, supports, &MovementLimits::default())?;
-        Ok(NoisyRun {
-            seed,
-            raw: correlated(case, &model, &exact, &raw)?,
-            orthogonal: correlated(case, &model, &exact, &examine(&raw, &first.mass, supports, &NO_LIMITS)?.modes)?,
-            screened: correlated(case, &model, &exact, &screened.modes)?,
-            kept: screened.kept,
-        })
+        let orthogonal = examine(&raw, &first.mass, supports, &NO_LIMITS)?.modes;
+        let Examination { modes, kept, .. } = examine(&raw, &first.mass, supports, &MovementLimits::default())?;
+        Ok(NoisyRun { seed, kept, raw: found(&raw)?, orthogonal: found(&orthogonal)?, screened: found(&modes)? })
     };
     let all = std::iter::once((None, Noise::NONE)).chain(seeds.map(|seed| (Some(seed), noise)));
     Ok(NoisyModes { case: case.number, noise, support_ratio, runs: all.map(run).collect::<Result<_, CaseError>>()? })
@@ -142,13 +136,13 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
     let factors = correlation.best_factors();
     let gages = model.sizes(&factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(&factors, exact, None)?.exact.errors;
-    let squares: f64 = gages.iter().map(|gage| (gage / TEST_GAGE - 1.0).powi(2)).sum();
+    let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {
         converged: correlation.converged,
         iterations: correlation.passes.iter().map(|pass| pass.inner.iterations.len()).sum(),
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
-        gage_rms: (squares / PANEL_COUNT as f64).sqrt(),
+        gage_rms: rms(&errors),
         error_sum: model.analyze(&factors, test, None)?.exact.errors.sum(),
         true_frequency_rms: truth.frequency_rms(),
         true_shape_rms: truth.shape_rms(),

@@ -1,11 +1,10 @@
 //! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
 
-use crate::method::assembly::{ElementMatrix, lumped_mass};
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
-use crate::method::structure::{StructuralDof, Structure};
+use crate::method::structure::StructuralDof;
 use crate::studies::free_modes::{CountedModes, counted_modes};
 use nalgebra::{DMatrix, DVector};
 
@@ -22,24 +21,6 @@ pub struct MassDof {
     pub load_distribution: DMatrix<f64>,
     /// The mass on each, lbf·s²/in.
     pub mass: DVector<f64>,
-}
-
-impl MassDof {
-    /// The free DOF where elements of the given sizes have lumped mass; $T$ selects them.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] when no element has a density.
-    pub fn of_elements(structure: &Structure, elements: &[ElementMatrix], sizes: &[f64]) -> Result<Self, Error> {
-        let free = structure.free_dof();
-        let lumped = lumped_mass(elements, sizes, free.len())?;
-        let rows: Vec<usize> = (0..free.len()).filter(|&row| lumped[row] > 0.0).collect();
-        at_least_one("degrees of freedom with mass", rows.len())?;
-        Ok(Self {
-            dof: rows.iter().map(|&row| free[row]).collect(),
-            load_distribution: DMatrix::identity(free.len(), free.len()).select_columns(&rows),
-            mass: lumped.select_rows(&rows),
-        })
-    }
 }
 
 /// Modes at the DOF that have mass.
@@ -71,7 +52,7 @@ pub fn free_whole_modes(stiffness: &DMatrix<f64>, at: MassDof) -> Result<WholeMo
 ///
 /// With $F = T M^{1/2}$ the roots $\lambda = 1/\omega^2$ are the eigenvalues of
 ///
-/// $$ F^t K_S^{-1} F y = \lambda y, \qquad v = M^{-1/2} y, $$
+/// $$ F^t K_S^{-1} F y = \lambda y, \qquad v = M^{-1/2} y . $$
 ///
 /// They are the modes of $(K_D, M)$, but need no inverse of the dynamic flexibility $T^t K_S^{-1} T$, which is singular
 /// where the structure moves several masses as one.

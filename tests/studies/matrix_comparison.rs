@@ -3,11 +3,12 @@
 use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE};
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
+use corfem::cases::torque_box::COVERS;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::studies::matrix_comparison::{
-    COVER_DOUBLER, COVERS, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
+    COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
 };
 use corfem::studies::matrix_correction::baruch_stiffness;
 

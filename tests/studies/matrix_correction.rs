@@ -4,7 +4,7 @@ use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use corfem::method::error::Error;
 use corfem::method::modes::{ModeSet, Modes, solve};
-use corfem::studies::matrix_correction::{baruch_stiffness, berman_nagy_mass, berman_nagy_stiffness, weighted_norm};
+use corfem::studies::matrix_correction::{baruch_stiffness, berman_nagy_mass, weighted_norm};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -72,17 +72,13 @@ proptest! {
     #[test]
     fn corrected_stiffness_has_the_test_modes_exactly(problem in problem()) {
         let Problem { stiffness, mass, test, .. } = &problem;
-        for corrected in [
-            baruch_stiffness(stiffness, mass, test).unwrap(),
-            berman_nagy_stiffness(stiffness, mass, test).unwrap(),
-        ] {
-            prop_assert_eq!(corrected.shape(), (SIZE, SIZE));
-            prop_assert_eq!(&corrected, &corrected.transpose());
-            let inertia = mass * &test.shapes * DMatrix::from_diagonal(&test.omega_squared);
-            let left = &corrected * &test.shapes;
-            let scale = stiffness.amax().max(problem.true_stiffness.amax()) * test.shapes.amax();
-            prop_assert!((left - inertia).amax() <= CORRECTION_ROUND_OFF * scale);
-        }
+        let corrected = baruch_stiffness(stiffness, mass, test).unwrap();
+        prop_assert_eq!(corrected.shape(), (SIZE, SIZE));
+        prop_assert_eq!(&corrected, &corrected.transpose());
+        let inertia = mass * &test.shapes * DMatrix::from_diagonal(&test.omega_squared);
+        let left = &corrected * &test.shapes;
+        let scale = stiffness.amax().max(problem.true_stiffness.amax()) * test.shapes.amax();
+        prop_assert!((left - inertia).amax() <= CORRECTION_ROUND_OFF * scale);
     }
 
     #[test]
@@ -100,12 +96,18 @@ proptest! {
         prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
     }
 
+    /// Baruch's own five terms, which Berman and Nagy write another way.
     #[test]
-    fn both_stiffness_corrections_are_one(problem in problem()) {
+    fn both_forms_of_the_stiffness_correction_are_one(problem in problem()) {
         let Problem { stiffness, mass, test, .. } = &problem;
-        let baruch = baruch_stiffness(stiffness, mass, test).unwrap();
-        let berman_nagy = berman_nagy_stiffness(stiffness, mass, test).unwrap();
-        prop_assert!(difference(&berman_nagy, &baruch) <= CORRECTION_ROUND_OFF);
+        let inertia = mass * &test.shapes;
+        let projection = &inertia * test.shapes.transpose();
+        let cross = &projection * stiffness;
+        let five_terms = stiffness - cross.transpose() - &cross
+            + &cross * projection.transpose()
+            + &inertia * DMatrix::from_diagonal(&test.omega_squared) * inertia.transpose();
+        let corrected = baruch_stiffness(stiffness, mass, test).unwrap();
+        prop_assert!(difference(&corrected, &five_terms) <= CORRECTION_ROUND_OFF);
     }
 
     #[test]
@@ -143,7 +145,7 @@ proptest! {
         ];
         prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
         let measured = ModeSet { shapes, ..problem.test.clone().into() };
-        let stiffness = berman_nagy_stiffness(&problem.stiffness, &mass, &measured).unwrap();
+        let stiffness = baruch_stiffness(&problem.stiffness, &mass, &measured).unwrap();
         let inertia = &mass * &measured.shapes * DMatrix::from_diagonal(&measured.omega_squared);
         let scale = problem.stiffness.amax().max(problem.true_stiffness.amax()) * measured.shapes.amax();
         prop_assert!((stiffness * &measured.shapes - inertia).amax() <= CORRECTION_ROUND_OFF * scale);
@@ -162,7 +164,6 @@ fn two_degrees_of_freedom_by_hand() {
     let test = one_mode(dvector![1.0, 0.0], 3.0);
     let expected = dmatrix![3.0, 0.0; 0.0, 2.0];
     assert_eq!(baruch_stiffness(&stiffness, &identity, &test).unwrap(), expected);
-    assert_eq!(berman_nagy_stiffness(&stiffness, &identity, &test).unwrap(), expected);
     // Of generalized mass 4 there; one quarter of the mass makes it 1.
     let mass = berman_nagy_mass(&identity, &(2.0 * &test.shapes)).unwrap();
     assert_eq!(mass, dmatrix![0.25, 0.0; 0.0, 1.0]);
@@ -182,28 +183,23 @@ fn shapes_that_are_not_orthonormal_are_named() {
     let stiffness = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
     let mut shapes = DMatrix::identity(3, 2);
     let modes = |shapes: DMatrix<f64>| ModeSet { omega_squared: dvector![1.0, 2.0], shapes };
-    type Correction = fn(&DMatrix<f64>, &DMatrix<f64>, &ModeSet) -> Result<DMatrix<f64>, Error>;
-    let corrections: [Correction; 2] = [baruch_stiffness, berman_nagy_stiffness];
-    for correct in corrections {
-        // Within round-off of a test's processing is orthonormal enough.
-        shapes[(1, 1)] = 1.0 + 1e-9;
-        assert!(correct(&stiffness, &mass, &modes(shapes.clone())).is_ok());
-        shapes[(1, 1)] = 1.1;
-        match correct(&stiffness, &mass, &modes(shapes.clone())) {
-            Err(Error::NotOrthonormal { what, first: 1, second: 1, expected: 1.0, found }) => {
-                assert_eq!((what, found), ("generalized mass of test modes", 1.1 * 1.1));
-            }
-            other => panic!("{other:?}"),
+    // Within round-off of a test's processing is orthonormal enough.
+    shapes[(1, 1)] = 1.0 + 1e-9;
+    assert!(baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())).is_ok());
+    shapes[(1, 1)] = 1.1;
+    match baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())) {
+        Err(Error::NotOrthonormal { what, first: 1, second: 1, expected: 1.0, found }) => {
+            assert_eq!((what, found), ("generalized mass of test modes", 1.1 * 1.1));
         }
-        shapes[(1, 1)] = 1.0;
-        shapes[(0, 1)] = 0.5e-3;
-        match correct(&stiffness, &mass, &modes(shapes.clone())) {
-            Err(Error::NotOrthonormal { what, first: 1, second: 0, expected: 0.0, found }) => {
-                assert_eq!((what, found), ("generalized mass of test modes", 0.5e-3));
-            }
-            other => panic!("{other:?}"),
+        other => panic!("{other:?}"),
+    }
+    shapes[(1, 1)] = 1.0;
+    shapes[(0, 1)] = 0.5e-3;
+    match baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())) {
+        Err(Error::NotOrthonormal { what, first: 1, second: 0, expected: 0.0, found }) => {
+            assert_eq!((what, found), ("generalized mass of test modes", 0.5e-3));
         }
-        shapes[(0, 1)] = 0.0;
+        other => panic!("{other:?}"),
     }
 }
 

@@ -17,6 +17,7 @@ pub mod unlimited;
 pub mod weighted;
 
 use super::table::Digits;
+use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
 use crate::studies::noisy_modes::Noise;
@@ -77,11 +78,6 @@ fn noise_words(noise: Noise) -> String {
         100.0 * noise.shape,
         100.0 * noise.frequency
     )
-}
-
-/// Root mean square.
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// The letter that stands for a kind of element.

@@ -3,7 +3,7 @@
 use super::stages::stage_title;
 use super::{in_words, remarks};
 use crate::cases::published::PublishedTable;
-use crate::cases::table_1::{Formula, TwoMasses, problems, table_1};
+use crate::cases::table_1::{Formula, TwoMasses, formulae, problems};
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 
@@ -36,21 +36,21 @@ const ORDERS: usize = 6;
 /// The paper's own numbers, and its problems, are lost in the scan: nothing stands beside these.
 ///
 /// # Errors
-/// Those of [`table_1`].
+/// Those of [`TwoMasses::root_errors`].
 pub fn root_error_table() -> Result<Table, PresentError> {
-    let found = table_1(&problems(), ORDERS)?;
+    let problems = problems();
     let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";
     let note = "Two unit masses on unit springs to the ground, joined by the coupling spring; the first ground spring is changed. \
         Exact roots in closed form. The paper's own numbers are lost in the scan.";
-    let problems =
-        |of: fn(&TwoMasses) -> f64| numbers(found.rows.iter().map(move |row| of(&row.problem)), Digits::Fixed(2));
+    let springs = |of: fn(&TwoMasses) -> f64| numbers(problems.iter().map(of), Digits::Fixed(2));
     let mut table = Table::new("table_1", title, "Problem")
-        .labels(1..=found.rows.len())
-        .column("Coupling", "", problems(|problem| problem.coupling))
-        .column("Change", "", problems(|problem| problem.change))
+        .labels(1..=problems.len())
+        .column("Coupling", "", springs(|problem| problem.coupling))
+        .column("Change", "", springs(|problem| problem.change))
         .notes([note]);
-    for (at, &rule) in found.formulae.iter().enumerate() {
-        let errors = found.rows.iter().map(|row| row.root_errors[at].map(f64::abs).into_iter().fold(0.0, f64::max));
+    for rule in formulae(ORDERS) {
+        let largest = |problem: &TwoMasses| Ok(problem.root_errors(rule)?.map(f64::abs).into_iter().fold(0.0, f64::max));
+        let errors: Vec<f64> = problems.iter().map(largest).collect::<Result<_, PresentError>>()?;
         table = table.column(rule_name(rule), "%", percents(errors, Digits::Scientific(1)));
     }
     Ok(table)

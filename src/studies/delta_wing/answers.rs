@@ -1,10 +1,9 @@
 //! What the wing does under load and in vibration, and what others found.
 
-use super::DeltaWing;
-use super::planform::{STATIONS, upper_grid};
+use super::{DeltaWing, STATIONS, upper_grid};
 use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
-use crate::method::assembly::{ElementMatrix, element_matrices};
+use crate::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::structure::Structure;
@@ -13,8 +12,6 @@ use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.
 const Z: usize = 2;
-/// The tables here have names instead of numbers.
-const UNNUMBERED: usize = 0;
 
 /// Upper grids whose deflections were measured and printed.
 pub const MEASURED_GRIDS: [usize; 9] = [14, 15, 16, 34, 35, 36, 54, 55, 74];
@@ -36,23 +33,24 @@ impl TipLoad {
 }
 
 impl DeltaWing {
-    /// All modes of finite frequency, at every DOF with mass: nothing is condensed.
+    /// All modes at every free DOF, each of which has mass of covers and webs: nothing is condensed.
     ///
     /// # Errors
     /// Those of [`Self::structure`], of the factorization and of [`whole_modes`].
     pub fn modes(&self) -> Result<WholeModes, Error> {
-        let (structure, elements, sizes) = self.parts()?;
-        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
-        let at = MassDof::of_elements(&structure, &elements, &sizes)?;
-        whole_modes(&stiffness, at)
+        let (structure, elements, sizes, stiffness) = self.parts()?;
+        let dof = structure.free_dof().to_vec();
+        let mass = lumped_mass(&elements, &sizes, dof.len())?;
+        whole_modes(&stiffness, MassDof { load_distribution: DMatrix::identity(dof.len(), dof.len()), dof, mass })
     }
 
-    /// The structure, its unit element matrices and sizes.
-    fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>), Error> {
+    /// The structure, its unit element matrices, sizes and stiffness.
+    fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, FactorizedStiffness), Error> {
         let structure = self.structure()?;
         let elements = element_matrices(&structure)?;
-        let sizes = structure.elements().iter().map(|e| e.size).collect();
-        Ok((structure, elements, sizes))
+        let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
+        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
+        Ok((structure, elements, sizes, stiffness))
     }
 
     /// Deflections along $z$ at [`MEASURED_GRIDS`] under the tip load, in; downward is negative.
@@ -60,8 +58,7 @@ impl DeltaWing {
     /// # Errors
     /// Those of [`Self::structure`] and of the factorization.
     pub fn deflections(&self, load: TipLoad) -> Result<Vec<f64>, Error> {
-        let (structure, elements, sizes) = self.parts()?;
-        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
+        let (structure, .., stiffness) = self.parts()?;
         // The z of every grid named here is free, whatever the depths and sizes of the wing are.
         let row = |grid: usize| structure.free_dof_index(grid, Z);
         let loaded = row(load.grid());
@@ -77,7 +74,7 @@ impl DeltaWing {
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_deflections() -> Result<PublishedTable, CaseError> {
     let text = include_str!("../../../paper/tables/delta_wing_deflections.csv");
-    PublishedTable::parse(UNNUMBERED, "paper/tables/delta_wing_deflections.csv", text)
+    PublishedTable::parse(0, "paper/tables/delta_wing_deflections.csv", text)
 }
 
 /// The same for the lowest three modes.
@@ -86,5 +83,5 @@ pub fn known_deflections() -> Result<PublishedTable, CaseError> {
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_frequencies() -> Result<PublishedTable, CaseError> {
     let text = include_str!("../../../paper/tables/delta_wing_frequencies.csv");
-    PublishedTable::parse(UNNUMBERED, "paper/tables/delta_wing_frequencies.csv", text)
+    PublishedTable::parse(0, "paper/tables/delta_wing_frequencies.csv", text)
 }

@@ -17,7 +17,6 @@
 
 mod answers;
 pub mod correlation;
-mod planform;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
@@ -26,17 +25,20 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::Vector3;
-use planform::{
-    LINES, STATIONS, SUPPORTED_STATION, SURFACE_STEP, along_lines, along_stations, leading_edge, lines_at, mid_grid,
-    stations_on, upper_grid,
-};
 use serde::Deserialize;
 
-/// First numbers of the elements of one sort, in the order they are made; the gaps are those of NASA's deck.
-const FIRST_COVER: usize = 1;
-const FIRST_WEB: usize = 18;
-const FIRST_POST: usize = 60;
-const FIRST_CAP: usize = 100;
+/// Stations outboard of the root's center, in.
+const STATIONS: [f64; 6] = [0.0, 10.0, 30.0, 50.0, 70.0, 90.0];
+/// Lines forward of the trailing edge, in.
+const LINES: [f64; 5] = [0.0, 20.0, 40.0, 60.0, 80.0];
+/// Where the leading edge is: the sum of both coordinates, in.
+const LEADING_EDGE: f64 = 110.0;
+/// The station at the side of the body, where the wing is supported.
+const SUPPORTED_STATION: usize = 2;
+/// Grid numbers from one line to the next.
+const LINE_STEP: usize = 20;
+/// Grid numbers from the mid-plane to the upper surface.
+const SURFACE_STEP: usize = 10;
 
 /// Kind, grids and size of an element.
 type Member = (ElementKind, Vec<usize>, f64);
@@ -109,14 +111,13 @@ impl DeltaWing {
         let rods = Material::isotropic(self.youngs_modulus, self.poissons_ratio)?;
         let sheet = rods.with_density(self.sheet_density)?;
         let mut elements = Vec::new();
-        let mut put = |first: usize, members: Vec<Member>, material| {
-            let members = (first..).zip(members);
-            elements.extend(members.map(|(label, (kind, grids, size))| Element { label, kind, grids, size, material }));
-        };
-        put(FIRST_COVER, self.covers(), sheet);
-        put(FIRST_WEB, self.webs(), sheet);
-        put(FIRST_POST, self.posts(), rods);
-        put(FIRST_CAP, self.caps(), rods);
+        // From the first numbers of each sort in NASA's deck.
+        for (first, members, material) in
+            [(1, self.covers(), sheet), (18, self.webs(), sheet), (60, self.posts(), rods), (100, self.caps(), rods)]
+        {
+            let element = |(label, (kind, grids, size))| Element { label, kind, grids, size, material };
+            elements.extend((first..).zip(members).map(element));
+        }
         Structure::new(self.grids(), elements)
     }
 
@@ -164,12 +165,11 @@ impl DeltaWing {
     }
 
     fn posts(&self) -> Vec<Member> {
-        let mut posts = Vec::new();
-        for (line, areas) in self.post_areas.iter().enumerate() {
-            let ends = |station| vec![mid_grid(line, station), upper_grid(line, station)];
-            posts.extend((0..).zip(areas).map(|(station, &area)| (ElementKind::Rod, ends(station), area)));
-        }
-        posts
+        let post = |line, station| vec![mid_grid(line, station), upper_grid(line, station)];
+        let of_line = |(line, areas): (usize, &Vec<f64>)| {
+            (0..).zip(areas.clone()).map(move |(station, area)| (ElementKind::Rod, post(line, station), area))
+        };
+        self.post_areas.iter().enumerate().flat_map(of_line).collect()
     }
 
     /// Over the webs, those of the leading edge from the root out.
@@ -182,4 +182,41 @@ impl DeltaWing {
         let cap = |ends: [usize; 2]| ends.map(|grid| grid + SURFACE_STEP).to_vec();
         sides.into_iter().zip(areas).map(|(ends, &area)| (ElementKind::Rod, cap(ends), area)).collect()
     }
+}
+
+/// How many stations a line has behind the leading edge.
+fn stations_on(line: usize) -> usize {
+    STATIONS.iter().filter(|x| **x + LINES[line] <= LEADING_EDGE).count()
+}
+
+/// How many lines a station has behind the leading edge.
+fn lines_at(station: usize) -> usize {
+    LINES.iter().filter(|y| STATIONS[station] + **y <= LEADING_EDGE).count()
+}
+
+/// Number of the grid in the mid-plane.
+fn mid_grid(line: usize, station: usize) -> usize {
+    LINE_STEP * line + station + 1
+}
+
+/// Number of the grid on the upper surface.
+fn upper_grid(line: usize, station: usize) -> usize {
+    mid_grid(line, station) + SURFACE_STEP
+}
+
+/// Mid-plane grids at the ends of every member along a line, line by line from the root out.
+fn along_lines() -> Vec<[usize; 2]> {
+    let side = |line, station| [mid_grid(line, station - 1), mid_grid(line, station)];
+    (0..LINES.len()).flat_map(|line| (1..stations_on(line)).map(move |station| side(line, station))).collect()
+}
+
+/// The same along every station but the first: nothing shears the plane of symmetry.
+fn along_stations() -> Vec<[usize; 2]> {
+    let side = |line, station| [mid_grid(line - 1, station), mid_grid(line, station)];
+    (1..STATIONS.len()).flat_map(|station| (1..lines_at(station)).map(move |line| side(line, station))).collect()
+}
+
+/// Mid-plane grids on the leading edge, from the tip in.
+fn leading_edge() -> Vec<usize> {
+    (1..LINES.len()).map(|line| mid_grid(line, stations_on(line) - 1)).collect()
 }

@@ -114,7 +114,7 @@ pub fn preflight(
         modes.shapes = beside_the_model(model, &modes, &places, &mut findings)?;
     }
     findings.extend(told_apart(&modes.scaled_with(&model.mass)?, &model.mass)?);
-    of_settings(settings, ranges, &mut findings);
+    findings.extend(of_settings(settings, ranges));
     Ok(findings)
 }
 
@@ -124,14 +124,12 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     let frequencies = test.frequencies_hz();
     let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
     for b in 0..test.len() {
-        match apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) {
-            None => apart.push(b),
-            Some(&a) => findings.push(Finding::NearlySame {
-                modes: [a, b],
-                assurance: assurance[(a, b)],
-                frequency_ratio: frequencies[b] / frequencies[a],
-            }),
-        }
+        let Some(&a) = apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) else {
+            apart.push(b);
+            continue;
+        };
+        let (assurance, frequency_ratio) = (assurance[(a, b)], frequencies[b] / frequencies[a]);
+        findings.push(Finding::NearlySame { modes: [a, b], assurance, frequency_ratio });
     }
     Ok((apart, findings))
 }
@@ -145,13 +143,11 @@ fn beside_the_model(
     findings: &mut Vec<Finding>,
 ) -> Result<DMatrix<f64>, Error> {
     let mut look = Look::new(&model.stiffness, &model.mass)?;
-    let mut shapes = test.shapes.clone();
     let mended = mend(model, &look, test)?;
-    if let Some(mended) = &mended {
-        shapes = changed(&shapes, &mended.change);
-        if let Change::Columns(order) = &mended.change {
-            look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
-        }
+    let change = mended.as_ref().map(|mended| &mended.change);
+    let shapes = change.map_or_else(|| test.shapes.clone(), |change| changed(&test.shapes, change));
+    if let Some(Change::Columns(order)) = change {
+        look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
     }
     let Some(cross) = look.cross(&shapes) else { return Ok(shapes) };
     let pairing = pair_modes(&cross)?;
@@ -166,10 +162,9 @@ fn beside_the_model(
     }
     findings.extend(frequencies::common_factor(&frequencies, &analysis).map(Finding::CommonFactor));
     findings.extend(mended.map(Finding::Mended));
-    for (mode, cross) in paired_values(&cross, &pairing).into_iter().enumerate().filter(|(_, value)| *value < LOW_PAIR)
-    {
-        findings.push(Finding::LowPair { test: places[mode], analysis: pairing.analysis_mode[mode], cross });
-    }
+    let low = paired_values(&cross, &pairing).into_iter().enumerate().filter(|(_, value)| *value < LOW_PAIR);
+    let analysis = |mode: usize| pairing.analysis_mode[mode];
+    findings.extend(low.map(|(mode, cross)| Finding::LowPair { test: places[mode], analysis: analysis(mode), cross }));
     Ok(shapes)
 }
 
@@ -183,7 +178,7 @@ fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Er
     Ok((distinct < modes).then_some(Finding::TooManyModes { modes, points, distinct, smallest }))
 }
 
-fn of_settings(settings: &Settings, ranges: &[Option<Range>], findings: &mut Vec<Finding>) {
+fn of_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),
@@ -192,12 +187,12 @@ fn of_settings(settings: &Settings, ranges: &[Option<Range>], findings: &mut Vec
         ("shape_tolerance", settings.shape_tolerance),
     ];
     let large = tolerances.into_iter().filter(|(_, value)| *value > LARGEST_TOLERANCE);
-    findings.extend(large.map(|(setting, value)| Finding::Percent { setting, value }));
-    let bounded = ranges.iter().enumerate().filter_map(|(parameter, range)| Some((parameter, (*range)?)));
-    let excluding = bounded.filter(|(_, range)| !range.contains(1.0));
-    findings.extend(excluding.map(|(parameter, range)| Finding::ExcludesStart { parameter, range }));
+    let percent = large.map(|(setting, value)| Finding::Percent { setting, value });
+    let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
+        let range = range.filter(|range| !range.contains(1.0))?;
+        Some(Finding::ExcludesStart { parameter, range })
+    });
     let unbounded: Vec<usize> = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none()).collect();
-    if !unbounded.is_empty() {
-        findings.push(Finding::Unbounded(unbounded));
-    }
+    let unbounded = (!unbounded.is_empty()).then_some(Finding::Unbounded(unbounded));
+    percent.chain(excluding).chain(unbounded).collect()
 }

@@ -44,8 +44,7 @@ pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
     let count = test.len();
     let mut by_frequency: Vec<usize> = (0..count).collect();
     by_frequency.sort_by(|&a, &b| test.omega_squared[a].total_cmp(&test.omega_squared[b]));
-    let lowest: Vec<usize> = (0..count).collect();
-    let analysis = unit(look.analysis.shapes.select_columns(&lowest)).abs();
+    let analysis = unit(look.analysis.shapes.columns(0, count).into_owned()).abs();
     let shapes = unit(test.shapes.clone());
     let Some(mut order) = matched(&analysis, &shapes.select_columns(&by_frequency).abs()) else {
         return ((0..test.shapes.nrows()).collect(), 0.0);
@@ -94,10 +93,9 @@ pub(super) fn flexibility_order(model: &DynamicModel, test: &ModeSet) -> Result<
     let given = exchange((0..count).collect(), agreement)?;
     let look = Look::new(&model.stiffness, &model.mass)?;
     let ranks = |modes: &ModeSet| {
-        let flexibility = |point: usize| -> f64 {
-            let terms = modes.shapes.row(point).into_owned();
-            terms.iter().zip(&modes.omega_squared).map(|(shape, omega_squared)| shape * shape / omega_squared).sum()
-        };
+        let term = |(shape, omega_squared): (&f64, &f64)| shape * shape / omega_squared;
+        let flexibility =
+            |point: usize| -> f64 { modes.shapes.row(point).iter().zip(&modes.omega_squared).map(term).sum() };
         let mut points: Vec<usize> = (0..count).collect();
         points.sort_by(|&a, &b| flexibility(a).total_cmp(&flexibility(b)));
         points

@@ -120,18 +120,16 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
         Mistake::TwoColumns | Mistake::Columns => {
             let two = draw.two(points);
             let mut order: Vec<usize> = (0..points).collect();
-            order.swap(two[0], two[1]);
-            if mistake == Mistake::Columns {
-                order = draw.order(points);
+            match mistake {
+                Mistake::Columns => order = draw.order(points),
+                _ => order.swap(two[0], two[1]),
             }
             specimen.model.stiffness = reordered(&specimen.model.stiffness, &order);
-            if right.mass_follows {
+            if !right.mass_follows {
+                names(Change::Columns(inverse(&order)))
+            } else {
                 specimen.model.mass = reordered(&specimen.model.mass, &order);
-            }
-            match (right.mass_follows, mistake) {
-                (true, Mistake::TwoColumns) => names(Change::Exchanged(two)),
-                (true, _) => names(Change::Reordered(order)),
-                (false, _) => names(Change::Columns(inverse(&order))),
+                names(if mistake == Mistake::Columns { Change::Reordered(order) } else { Change::Exchanged(two) })
             }
         }
         Mistake::Transposed if points == modes => {

@@ -1,4 +1,4 @@
-//! How often the pre-flight names a mistake: each is made on purpose, with noise of a hundred seeds.
+//! How often the pre-flight names mistakes made on purpose, with noise of a hundred seeds.
 
 use super::Finding;
 use super::plant::{MISTAKES, Mistake, Naming, plant};
@@ -57,19 +57,13 @@ pub fn rates(specimen: &Specimen, seeds: RangeInclusive<u64>) -> Result<Rates, E
         }
         other => !clean.contains(other),
     };
-    let mut rates = Rates {
-        name: specimen.name.clone(),
-        seeds: 0,
-        clean: clean.clone(),
-        false_alarms: 0,
-        low_pairs: 0,
-        rates: Vec::new(),
-    };
+    let name = specimen.name.clone();
+    let mut found = Rates { name, seeds: 0, clean: clean.clone(), false_alarms: 0, low_pairs: 0, rates: Vec::new() };
     for seed in seeds.clone() {
         let findings = specimen.findings(&with_noise(&specimen.test, Noise::USUAL, seed)?)?;
-        rates.seeds += 1;
-        rates.false_alarms += usize::from(findings.iter().filter(is_new).any(|finding| !is_low(finding)));
-        rates.low_pairs += usize::from(findings.iter().filter(is_new).any(is_low));
+        found.seeds += 1;
+        found.false_alarms += usize::from(findings.iter().filter(is_new).any(|finding| !is_low(finding)));
+        found.low_pairs += usize::from(findings.iter().filter(is_new).any(is_low));
     }
     for mistake in MISTAKES {
         let mut rate = Rate { mistake, named: 0, told: 0, said: 0 };
@@ -81,11 +75,9 @@ pub fn rates(specimen: &Specimen, seeds: RangeInclusive<u64>) -> Result<Rates, E
             rate.told += usize::from(naming >= Naming::Next);
             rate.said += usize::from(findings.iter().any(|finding| is_new(&finding)));
         }
-        if rate.said > 0 {
-            rates.rates.push(rate);
-        }
+        found.rates.extend((rate.said > 0).then_some(rate));
     }
-    Ok(rates)
+    Ok(found)
 }
 
 /// Rates on the paper's Cases 2 and 3, the delta wing and the spring chain.
@@ -93,11 +85,7 @@ pub fn rates(specimen: &Specimen, seeds: RangeInclusive<u64>) -> Result<Rates, E
 /// # Errors
 /// Those of the structures and of [`rates`].
 pub fn all_rates(seeds: RangeInclusive<u64>) -> Result<Vec<Rates>, CaseError> {
-    let specimens = [
-        Specimen::of_case(&Case::new(2)?)?,
-        Specimen::of_case(&Case::new(3)?)?,
-        Specimen::delta_wing()?,
-        Specimen::spring_chain()?,
-    ];
+    let [case_2, case_3] = [2, 3].map(|case| Specimen::of_case(&Case::new(case)?));
+    let specimens = [case_2?, case_3?, Specimen::delta_wing()?, Specimen::spring_chain()?];
     specimens.iter().map(|specimen| Ok(rates(specimen, seeds.clone())?)).collect()
 }

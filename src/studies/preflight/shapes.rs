@@ -88,7 +88,8 @@ impl<'a> Look<'a> {
         if bound <= least {
             return None;
         }
-        let agreement = mean_paired(&cross, &pair_modes(&cross).ok()?);
+        let values = paired_values(&cross, &pair_modes(&cross).ok()?);
+        let agreement = values.iter().sum::<f64>() / values.len() as f64;
         (agreement > least).then_some(agreement)
     }
 }
@@ -98,11 +99,7 @@ pub(super) fn paired_values(cross: &DMatrix<f64>, pairing: &Pairing) -> Vec<f64>
     pairing.analysis_mode.iter().enumerate().map(|(test, &mode)| cross[(mode, test)].abs()).collect()
 }
 
-fn mean_paired(cross: &DMatrix<f64>, pairing: &Pairing) -> f64 {
-    paired_values(cross, pairing).iter().sum::<f64>() / cross.ncols() as f64
-}
-
-/// The test shapes, or the stiffness, after a change.
+/// The test shapes after a change.
 pub(super) fn changed(shapes: &DMatrix<f64>, change: &Change) -> DMatrix<f64> {
     let mut changed = shapes.clone();
     match change {
@@ -120,28 +117,6 @@ pub(super) fn reordered(matrix: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> 
     matrix.select_rows(order).select_columns(order)
 }
 
-/// The two best of changes tried one after the other.
-#[derive(Default)]
-struct Best {
-    first: Option<(Change, f64)>,
-    second: Option<(Change, f64)>,
-}
-
-impl Best {
-    /// What a change has to exceed to be told of.
-    fn least(&self) -> f64 {
-        self.second.as_ref().map_or(0.0, |second| second.1)
-    }
-
-    fn add(&mut self, change: Change, agreement: f64) {
-        if self.first.as_ref().is_none_or(|first| agreement > first.1) {
-            self.second = self.first.replace((change, agreement));
-        } else if agreement > self.least() {
-            self.second = Some((change, agreement));
-        }
-    }
-}
-
 /// Whether a change from one agreement to another is enough to be named.
 fn is_enough(before: f64, after: f64) -> bool {
     after - before >= LEAST_GAIN && after - before >= LEAST_SHARE * (1.0 - before)
@@ -157,44 +132,50 @@ pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<
     let shapes = &test.shapes;
     let (points, modes) = shapes.shape();
     let Some(before) = look.agreement_above(shapes, 0.0) else { return Ok(None) };
-    let mut best = Best::default();
+    let mut best: Vec<(Change, f64)> = Vec::new();
     let reversals = (0..points).map(Change::Reversed);
     let exchanges = (0..points).flat_map(|b| (0..b).map(move |a| Change::Exchanged([a, b])));
     let transposition = (points == modes).then_some(Change::Transposed);
     for change in reversals.chain(exchanges).chain(transposition) {
-        if let Some(agreement) = look.agreement_above(&changed(shapes, &change), best.least()) {
-            best.add(change, agreement);
+        let least = best.get(1).map_or(0.0, |second| second.1);
+        if let Some(agreement) = look.agreement_above(&changed(shapes, &change), least) {
+            add(&mut best, change, agreement);
         }
     }
-    let mut chosen = (None, before);
-    if let Some((change, after)) = best.first.clone().filter(|single| is_enough(before, single.1)) {
-        chosen = (Some(change), after);
-    }
-    if is_low(look, shapes, chosen.0.as_ref()) {
-        let (order, after) = best_order(look, test);
-        if is_enough(chosen.1, after) {
-            best.add(Change::Reordered(order.clone()), after);
-            chosen = (Some(Change::Reordered(order)), after);
+    let enough = best.first().filter(|single| is_enough(before, single.1)).cloned();
+    let (mut chosen, mut after) = enough.map_or((None, before), |(change, after)| (Some(change), after));
+    if is_low(look, shapes, chosen.as_ref()) {
+        let (order, agreement) = best_order(look, test);
+        if is_enough(after, agreement) {
+            add(&mut best, Change::Reordered(order.clone()), agreement);
+            (chosen, after) = (Some(Change::Reordered(order)), agreement);
         }
     }
-    let as_columns = if is_low(look, shapes, chosen.0.as_ref()) {
+    let as_columns = if is_low(look, shapes, chosen.as_ref()) {
         Some(flexibility_order(model, test)?)
-    } else if let Some(order) = chosen.0.as_ref().and_then(|change| order_of(change, points)) {
-        let after = Look::new(&reordered(&model.stiffness, &order), &model.mass)?.agreement_above(shapes, 0.0);
-        after.map(|after| (order, after))
+    } else if let Some(order) = chosen.as_ref().and_then(|change| order_of(change, points)) {
+        let look = Look::new(&reordered(&model.stiffness, &order), &model.mass)?;
+        look.agreement_above(shapes, 0.0).map(|agreement| (order, agreement))
     } else {
         None
     };
-    if let Some((order, after)) = as_columns.filter(|found| is_enough(before, found.1)) {
+    if let Some((order, agreement)) = as_columns.filter(|found| is_enough(before, found.1)) {
         let change = Change::Columns(order);
-        best.second = best.first.replace((change.clone(), after));
-        if after - chosen.1 >= LEAST_DIFFERENCE {
-            chosen = (Some(change), after);
+        best.insert(0, (change.clone(), agreement));
+        if agreement - after >= LEAST_DIFFERENCE {
+            (chosen, after) = (Some(change), agreement);
         }
     }
-    let (Some(change), after) = chosen else { return Ok(None) };
-    let next = [best.first, best.second].into_iter().flatten().find(|(other, _)| *other != change);
+    let Some(change) = chosen else { return Ok(None) };
+    let next = best.into_iter().find(|(other, _)| *other != change);
     Ok(Some(Mended { change, before, after, next }))
+}
+
+/// Adds a change and its agreement to the two best so far, of which the better stands first.
+fn add(best: &mut Vec<(Change, f64)>, change: Change, agreement: f64) {
+    best.push((change, agreement));
+    best.sort_by(|a, b| b.1.total_cmp(&a.1));
+    best.truncate(2);
 }
 
 /// Whether a pair is below [`LOW_PAIR`] after a change of the shapes.

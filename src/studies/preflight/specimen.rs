@@ -5,10 +5,11 @@ use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::closed_forms::spring_chain::spring_stiffness;
 use crate::method::error::Error;
-use crate::method::model::{DynamicModel, Range};
+use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::{ModeSet, solve};
 use crate::method::outer_loop::Settings;
-use crate::studies::delta_wing::{DeltaWing, correlation};
+use crate::studies::delta_wing::correlation;
+use crate::studies::weighted::comparison::Known;
 use crate::studies::whole_model::WholeModel;
 use nalgebra::{DMatrix, DVector};
 
@@ -35,22 +36,13 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    /// A case of the paper.
+    /// A case of the paper, whose condensation is exact: all its mass is at the dynamic points.
     ///
     /// # Errors
     /// Those of its model.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
-        let model = case.model()?;
-        Ok(Self {
-            name: format!("Case {}", case.number),
-            model: model.matrices(&vec![1.0; model.parameters().len()])?,
-            test: case.test_modes()?.into(),
-            ranges: model.factor_ranges()?,
-            settings: case.settings.clone(),
-            // All mass is at the dynamic points, so that condensation is exact.
-            condensation: Vec::new(),
-            mass_follows: false,
-        })
+        let (model, test) = (case.model()?, case.test_modes()?.into());
+        Self::of(&format!("Case {}", case.number), &model, test, case.settings.clone())
     }
 
     /// The delta wing with its wrong gages, and ten modes at 19 points.
@@ -58,23 +50,21 @@ impl Specimen {
     /// # Errors
     /// Those of the wing and of its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let wing = DeltaWing::embedded()?;
-        let model = correlation::first_model(&wing)?;
+        let Known { name, model, test, truth } = Known::delta_wing()?;
         let (whole, sensors) = WholeModel::of(&model)?;
         let highest = correlation::TEST_MODES.into_iter().max().unwrap_or(1);
-        Ok(Self {
-            condensation: coarse_condensation(&whole, &vec![1.0; model.parameters().len()], &sensors, highest)?,
-            name: "Delta wing".to_owned(),
-            model: model.matrices(&vec![1.0; model.parameters().len()])?,
-            test: correlation::test_modes(&wing)?,
-            settings: correlation::settings(),
-            ranges: model.factor_ranges()?,
-            mass_follows: true,
-        })
+        let condensation = coarse_condensation(&whole, &vec![1.0; truth.len()], &sensors, highest)?;
+        let specimen = Self::of(&name, &model, test, correlation::settings())?;
+        Ok(Self { condensation, mass_follows: true, ..specimen })
     }
 
-    /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 %
-    /// wrong.
+    fn of(name: &str, model: &FiniteElementModel, test: ModeSet, settings: Settings) -> Result<Self, CaseError> {
+        let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
+        let model = model.matrices(&vec![1.0; ranges.len()])?;
+        Ok(Self { name, model, test, settings, ranges, condensation: Vec::new(), mass_follows: false })
+    }
+
+    /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 % wrong.
     ///
     /// # Errors
     /// Those of [`solve`].
@@ -100,8 +90,7 @@ impl Specimen {
     /// # Errors
     /// Those of [`preflight`].
     pub fn findings(&self, test: &ModeSet) -> Result<Vec<Finding>, Error> {
-        let mut findings = self.condensation.clone();
-        findings.extend(preflight(&self.model, test, &self.settings, &self.ranges)?);
-        Ok(findings)
+        let found = preflight(&self.model, test, &self.settings, &self.ranges)?;
+        Ok([self.condensation.clone(), found].concat())
     }
 }

@@ -1,16 +1,15 @@
 //! A finding as a sentence; places count from one.
 
-use super::frequencies::{CommonFactor, FrequenciesExchanged};
+use super::frequencies::{CommonFactor, FrequenciesExchanged, NamedFactor};
 use super::shapes::{Change, Mended};
 use super::{Finding, SAME_FREQUENCY};
+use crate::method::model::Range;
 use std::fmt::{Display, Formatter, Result};
 
 /// Places from one: the first and the last of them when none is missing between.
 fn list(places: &[usize]) -> String {
     match places {
-        [first, .., last] if places.windows(2).all(|two| two[1] == two[0] + 1) => {
-            format!("{} to {}", first + 1, last + 1)
-        }
+        [first, .., last] if places.is_sorted_by(|a, b| a + 1 == *b) => format!("{} to {}", first + 1, last + 1),
         _ => places.iter().map(|place| (place + 1).to_string()).collect::<Vec<_>>().join(", "),
     }
 }
@@ -29,69 +28,58 @@ impl Display for Change {
 
 impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> Result {
-        match self {
-            Self::CoarseCondensation { mode, error } => write!(
-                f,
-                "Condensation to the measured points raises mode {} by {:.1} %, from {:.4} Hz: measure more points, or \
-                leave the mode out.",
-                mode + 1,
-                100.0 * error.frequency,
-                error.whole_hz
-            ),
-            Self::CommonFactor(CommonFactor { median, named: Some(known), .. }) => {
-                let said = known.mistake;
-                write!(f, "Test frequencies are {median:.4} times the model's, near {}: {said}?", known.name)
+        let words = match self {
+            Self::CoarseCondensation { mode, error } => {
+                let (mode, percent, hertz) = (mode + 1, 100.0 * error.frequency, error.whole_hz);
+                format!(
+                    "Condensation to the measured points raises mode {mode} by {percent:.1} %, from {hertz:.4} Hz: measure \
+                    more points, or leave the mode out."
+                )
             }
-            Self::CommonFactor(CommonFactor { median, .. }) => {
-                write!(f, "Test frequencies are {median:.4} times the model's, by no mistake known here.")
+            Self::CommonFactor(CommonFactor { median, named, .. }) => {
+                let said = |known: NamedFactor| format!("near {}: {}?", known.name, known.mistake);
+                let said = named.map_or_else(|| "by no mistake known here.".to_owned(), said);
+                format!("Test frequencies are {median:.4} times the model's, {said}")
             }
             Self::Mended(Mended { change, before, after, next }) => {
                 let words = change.to_string();
                 let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
-                write!(f, "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}")?;
-                match next {
-                    Some((next, agreement)) => write!(f, "; the next best, {next}, to {agreement:.3}."),
-                    None => write!(f, "."),
-                }
-            }
-            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], before, after }) => write!(
-                f,
-                "Frequencies of test modes {} and {} exchanged? It would lower the mean deviation of the ratios \
-                from {:.1} to {:.1} %.",
-                a + 1,
-                b + 1,
-                100.0 * before,
-                100.0 * after
-            ),
-            Self::NearlySame { modes: [a, b], assurance, frequency_ratio } => {
-                let twice = (frequency_ratio - 1.0).abs() < SAME_FREQUENCY;
-                let twice = if twice { "; measured twice?" } else { "." };
-                let (a, b) = (a + 1, b + 1);
-                write!(f, "Test modes {a} and {b} are nearly the same shape, modal assurance {assurance:.3}{twice}")
-            }
-            Self::LowPair { test, analysis, cross } => {
-                let (test, analysis) = (test + 1, analysis + 1);
-                write!(
-                    f,
-                    "Test mode {test} and analysis mode {analysis} have a cross-orthogonality of {cross:.3} only."
+                let next = next.iter().map(|(next, agreement)| format!("; the next best, {next}, to {agreement:.3}"));
+                let next: String = next.collect();
+                format!(
+                    "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
                 )
             }
-            Self::TooManyModes { modes, points, distinct, smallest } => write!(
-                f,
+            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], before, after }) => {
+                let (a, b, before, after) = (a + 1, b + 1, 100.0 * before, 100.0 * after);
+                format!(
+                    "Frequencies of test modes {a} and {b} exchanged? It would lower the mean deviation of the ratios from \
+                    {before:.1} to {after:.1} %."
+                )
+            }
+            Self::NearlySame { modes: [a, b], assurance, frequency_ratio } => {
+                let is_same = (frequency_ratio - 1.0).abs() < SAME_FREQUENCY;
+                let (a, b, end) = (a + 1, b + 1, if is_same { "; measured twice?" } else { "." });
+                format!("Test modes {a} and {b} are nearly the same shape, modal assurance {assurance:.3}{end}")
+            }
+            Self::LowPair { test, analysis, cross } => {
+                let (a, b) = (test + 1, analysis + 1);
+                format!("Test mode {a} and analysis mode {b} have a cross-orthogonality of {cross:.3} only.")
+            }
+            Self::TooManyModes { modes, points, distinct, smallest } => format!(
                 "{modes} test modes at {points} points: only {distinct} are told apart, the smallest singular value is \
                 {smallest:.3}."
             ),
             Self::Percent { setting, value } => {
-                write!(f, "{setting} is {value}, that is {} %: a percentage where a fraction is meant?", 100.0 * value)
+                let percent = 100.0 * value;
+                format!("{setting} is {value}, that is {percent} %: a percentage where a fraction is meant?")
             }
-            Self::ExcludesStart { parameter, range } => write!(
-                f,
-                "Bounds on the factor of parameter {}, {} to {}, exclude its first value.",
-                parameter + 1,
-                range.lower,
-                range.upper
-            ),
-            Self::Unbounded(parameters) => write!(f, "Parameters without bounds: {}.", list(parameters)),
-        }
+            Self::ExcludesStart { parameter, range: Range { lower, upper } } => {
+                let parameter = parameter + 1;
+                format!("Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value.")
+            }
+            Self::Unbounded(parameters) => format!("Parameters without bounds: {}.", list(parameters)),
+        };
+        f.write_str(&words)
     }
 }

@@ -3,6 +3,7 @@
 use super::gauss_newton::{WeightedSettings, gauss_newton};
 use super::residuals::{DEVIATIONS, Weights};
 use crate::cases::error::CaseError;
+use crate::cases::fit::rms;
 use crate::cases::torque_box::TEST_GAGE;
 use crate::cases::{Case, run_case};
 use crate::method::model::{FiniteElementModel, Parameter};
@@ -68,10 +69,8 @@ impl Known {
 
     fn compared(&self, rule: &'static str, [steps, analyses]: [usize; 2], factors: &[f64]) -> Compared {
         let errors: Vec<f64> = factors.iter().zip(&self.truth).map(|(found, right)| found / right - 1.0).collect();
-        let squares: f64 = errors.iter().map(|error| error * error).sum();
-        let factor_rms = (squares / errors.len() as f64).sqrt();
         let largest = errors.iter().fold(0.0, |largest, error| error.abs().max(largest));
-        Compared { name: self.name.clone(), rule, steps, analyses, factor_rms, largest }
+        Compared { name: self.name.clone(), rule, steps, analyses, factor_rms: rms(&errors), largest }
     }
 }
 

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Objectives this near count as the same: a chi-squared of two thousandths, which no test can tell.
-pub const SAME_OBJECTIVE: f64 = 1e-3;
+const SAME_OBJECTIVE: f64 = 1e-3;
 
 /// Damping of the first step, relative to the curvature of each parameter.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -59,21 +59,6 @@ pub struct WeightedIteration {
     pub check: Check,
     /// The objective there.
     pub objective: f64,
-    /// Damping of the step.
-    pub damping: f64,
-}
-
-/// A test mode that another analysis mode answers after a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Swap {
-    /// The iteration, from one.
-    pub iteration: usize,
-    /// The test mode, from zero.
-    pub test_mode: usize,
-    /// Its analysis mode before, by its place in ascending order from zero.
-    pub from: usize,
-    /// After.
-    pub to: usize,
 }
 
 /// The history of a weighted correlation.
@@ -91,8 +76,6 @@ pub struct WeightedCorrelation {
     pub analyses: usize,
     /// Why it stopped.
     pub stop: WeightedStop,
-    /// Test modes whose analysis mode changed.
-    pub swaps: Vec<Swap>,
     /// What the test modes see of the parameters there.
     pub identifiability: Identifiability,
 }
@@ -152,8 +135,7 @@ pub fn gauss_newton<E: From<Error>>(
     };
     let mut place = place_at(first.to_vec())?;
     let initial = place.exact.clone();
-    let (mut iterations, mut swaps): (Vec<WeightedIteration>, Vec<Swap>) = (Vec::new(), Vec::new());
-    let (mut damping, mut growth, mut trials) = (FIRST_DAMPING, 2.0, 0);
+    let (mut iterations, mut damping, mut growth, mut trials) = (Vec::new(), FIRST_DAMPING, 2.0, 0);
     let stop = loop {
         let Place { factors, gradient, curvature, .. } = &place;
         let room = |(range, factor): (&Option<Range>, &f64)| {
@@ -182,19 +164,15 @@ pub fn gauss_newton<E: From<Error>>(
             (damping, growth) = (damping * growth, 2.0 * growth);
             continue;
         }
-        let pairs = place.exact.pairing.analysis_mode.iter().zip(&next.exact.pairing.analysis_mode);
-        let swapped = pairs.enumerate().filter(|(_, (from, to))| from != to);
-        let iteration = iterations.len() + 1;
-        swaps.extend(swapped.map(|(test_mode, (&from, &to))| Swap { iteration, test_mode, from, to }));
         place = next;
         let (factors, check, objective) = (place.factors.clone(), place.exact.clone(), place.objective);
-        iterations.push(WeightedIteration { factors, check, objective, damping });
+        iterations.push(WeightedIteration { factors, check, objective });
         damping *= (1.0 - (2.0 * fall / promised - 1.0).powi(3)).max(1.0 / 3.0);
         growth = 2.0;
     };
     let identifiability = identifiability(&place.jacobian, settings.prior_deviation)?;
     let (Place { factors, objective, .. }, analyses) = (place, trials + 1);
-    Ok(WeightedCorrelation { initial, iterations, factors, objective, analyses, stop, swaps, identifiability })
+    Ok(WeightedCorrelation { initial, iterations, factors, objective, analyses, stop, identifiability })
 }
 
 /// The damped step of the `free` parameters within their `room` below and above: one that would leave it stops at its bound.
@@ -228,7 +206,7 @@ fn bounded_step(
 }
 
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach it to [`SAME_OBJECTIVE`].
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach its objective to a thousandth.
 ///
 /// # Errors
 /// Those of [`gauss_newton`]; [`Error::Empty`] without starts.

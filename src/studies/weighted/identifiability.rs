@@ -1,7 +1,7 @@
 //! What the test modes can see of the parameters, and how sure the factors are.
 
 use crate::method::error::{Error, at_least_one, positive_setting};
-use crate::method::linear_algebra::{check_finite, check_length};
+use crate::method::linear_algebra::{check_finite, check_length, to_faer};
 use crate::method::model::Range;
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     singular_values.resize(count, 0.0);
     let smallest = singular_values[count - 1];
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
-    let longest = lengths.iter().fold(0.0_f64, |a, &b| a.max(b));
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
     let blind: Vec<usize> = (0..count).filter(|&e| lengths[e] <= BLIND_FRACTION * longest).collect();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
     let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
@@ -65,7 +65,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     Ok(Identifiability {
         condition: if smallest > 0.0 { singular_values[0] / smallest } else { f64::INFINITY },
         parallel: parallel.filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE).collect(),
-        subset: subset(jacobian.clone(), 1.0 / prior_deviation),
+        subset: subset(jacobian, 1.0 / prior_deviation),
         learned: deviations.iter().map(|deviation| 1.0 - (deviation / prior_deviation).powi(2)).collect(),
         singular_values,
         blind,
@@ -74,18 +74,12 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
     })
 }
 
-/// Columns in the order in which each is the longest after the ones before are projected out, while longer than `least`.
-fn subset(mut left: DMatrix<f64>, least: f64) -> Vec<usize> {
-    let mut chosen = Vec::new();
-    loop {
-        let lengths = left.column_iter().map(|column| column.norm()).enumerate();
-        let longest = lengths.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, length)| *length > least);
-        let Some((e, length)) = longest else { return chosen };
-        let unit = left.column(e) / length;
-        left -= &unit * unit.tr_mul(&left);
-        left.column_mut(e).fill(0.0);
-        chosen.push(e);
-    }
+/// Columns in the order of QR with column pivoting, while what those before cannot imitate is longer than `least`.
+fn subset(jacobian: &DMatrix<f64>, least: f64) -> Vec<usize> {
+    let factors = to_faer(jacobian).col_piv_qr();
+    let (order, r) = (factors.P().arrays().0, factors.R());
+    let count = r.nrows().min(r.ncols());
+    (0..count).take_while(|&e| r[(e, e)].abs() > least).map(|e| order[e]).collect()
 }
 
 impl Identifiability {

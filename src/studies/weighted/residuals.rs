@@ -1,8 +1,8 @@
 //! Residuals between analysis and test, each over its standard deviation, and their Jacobian.
 
 use crate::method::appendix_c::SMALLEST_SEPARATION;
-use crate::method::error::{Error, positive_setting};
-use crate::method::linear_algebra::{check_finite, check_length};
+use crate::method::error::{Error, positive_setting, setting};
+use crate::method::linear_algebra::{check_length, finite, finite_list};
 use crate::method::model::{ModalModel, ONE_WEIGHT, Share};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
@@ -35,13 +35,12 @@ impl Weights {
     }
 
     fn check(&self, modes: usize) -> Result<(), Error> {
-        [&self.frequency, &self.shape]
-            .into_iter()
-            .try_for_each(|weights| check_length("weights", weights.len(), modes))?;
-        let (expected, all) = (ONE_WEIGHT, self.frequency.iter().chain(&self.shape));
-        let wrong = all.clone().find(|weight| !(0.0..f64::INFINITY).contains(*weight)).copied();
-        let wrong = wrong.or_else(|| all.clone().all(|weight| *weight == 0.0).then_some(0.0));
-        wrong.map_or(Ok(()), |found| Err(Error::Setting { name: "weight", expected, found }))
+        check_length("weights", self.frequency.len(), modes)?;
+        check_length("weights", self.shape.len(), modes)?;
+        let all = || self.frequency.iter().chain(&self.shape).copied();
+        let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
+        let wrong = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0));
+        setting("weight", ONE_WEIGHT, wrong.unwrap_or(1.0), wrong.is_none())
     }
 }
 
@@ -62,8 +61,7 @@ impl Weights {
 pub fn residuals(model: &ModalModel, weights: &Weights) -> Result<DVector<f64>, Error> {
     weights.check(model.test.len())?;
     let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, &model.test, weights);
-    check_finite("residuals", &DMatrix::from_column_slice(residuals.len(), 1, residuals.as_slice()))?;
-    Ok(residuals)
+    finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
 }
 
 /// The residuals of any modes, of weights that fit.
@@ -125,5 +123,5 @@ pub fn jacobian(model: &ModalModel, weights: &Weights) -> Result<DMatrix<f64>, E
             jacobian[(rows * j, e)] = weights.frequency[j] * ratio * change(i, share) / (2.0 * k[i]);
         }
     }
-    check_finite("Jacobian", &jacobian).map(|()| jacobian)
+    finite("Jacobian", jacobian)
 }

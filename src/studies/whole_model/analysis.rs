@@ -5,7 +5,7 @@ use crate::method::appendix_a::{Condensed, condense_deflections};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Pair, Range, Share};
-use crate::method::modes::{ModeSet, Modes, apply_sign_rule};
+use crate::method::modes::{ModeSet, Modes};
 use crate::method::structure::positive;
 use crate::studies::free_modes::CountedModes;
 use nalgebra::DMatrix;
@@ -131,14 +131,12 @@ impl WholeModel {
     ) -> Result<ModalModel, Error> {
         let ModeSet { omega_squared, mut shapes } = self.modes(factors, count)?.vibrations;
         let seen = sensors.times(&shapes)?;
-        let mut signed = seen.clone();
-        apply_sign_rule(&mut signed);
-        for ((mut shape, seen), signed) in shapes.column_iter_mut().zip(seen.column_iter()).zip(signed.column_iter()) {
-            if seen != signed {
-                shape.neg_mut();
-            }
+        let modes = Modes::ascending(omega_squared, seen.clone());
+        for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
+            // Turned with what the sensors see of it.
+            shape *= if modes.shapes.column(mode) == seen.column(mode) { 1.0 } else { -1.0 };
         }
-        ModalModel::at_sensors(Modes::ascending(omega_squared, signed), test, pair, self.shares(factors, &shapes)?)
+        ModalModel::at_sensors(modes, test, pair, self.shares(factors, &shapes)?)
     }
 
     /// Stiffness and mass condensed to the sensors with one $B^t$ (Appendix A): $K_D$ (lbf/in), $M_D = B M B^t$ (lbf·s²/in), and

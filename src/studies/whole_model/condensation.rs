@@ -7,8 +7,8 @@ use crate::method::modes::{ModeSet, check_count, solve};
 use crate::method::pairing::{modal_assurance, pair_modes};
 use serde::Serialize;
 
-/// Largest part by which condensation may raise a frequency that is compared: twice the loop's own tolerance on frequencies.
-/// Beyond it the correlation would correct elements for what the choice of measuring points did.
+/// Largest part by which condensation may raise a frequency that is compared, twice the loop's own tolerance on frequencies: beyond it
+/// the correlation would correct elements for what the choice of measuring points did.
 pub const LARGEST_CONDENSATION_ERROR: f64 = 0.01;
 /// Motion at the sensors relative to that of the mode that moves them most below which a mode is not seen.
 const UNSEEN: f64 = 1e-9;

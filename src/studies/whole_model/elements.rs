@@ -37,37 +37,29 @@ impl WholeModel {
     /// # Errors
     /// Those of [`FiniteElementModel::factor_ranges`] and [`WholeModel::new`].
     pub fn of(model: &FiniteElementModel) -> Result<(Self, SparseMatrix), Error> {
-        let (elements, structure) = (model.element_matrices(), model.structure());
-        let count = structure.free_dof().len();
-        let sizes: Vec<f64> = structure.elements().iter().map(|element| element.size).collect();
-        let (t, points) =
-            (model.load_distribution().columns(), model.point_masses(&vec![1.0; model.parameters().len()])?);
+        let (elements, structure, t) =
+            (model.element_matrices(), model.structure(), model.load_distribution().columns());
+        let (count, points) = (structure.free_dof().len(), model.point_masses(&vec![1.0; model.parameters().len()])?);
+        let size = |row: usize| structure.elements()[row].size;
+        let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
+        let lumped = |row: usize| mass_entries(&elements[row], size(row));
+        let moving = |(i, j): (usize, usize)| moving_mass_entries(&t[i], &t[j], points[(i, j)]);
         let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
-        let couplings = (0..t.len()).flat_map(|i| (0..t.len()).map(move |j| (i, j))).filter(|&at| points[at] != 0.0);
-        let moving = couplings.flat_map(|at| moving_mass_entries(&t[at.0], &t[at.1], points[at]));
-        let all = || elements.iter().zip(&sizes);
-        let stiffness = all().flat_map(|(element, &size)| stiffness_entries(element, size)).collect();
-        let lumped = all().flat_map(|(element, &size)| mass_entries(element, size));
-        let mass = lumped.chain(moving).collect();
         let parameters = model.parameters().iter().zip(model.rows()).zip(model.factor_ranges()?);
         let parameters = parameters.map(|((parameter, rows), range)| {
-            let of = |entries_of: &dyn Fn(usize) -> Vec<(usize, usize, f64)>| {
-                sparse("matrix of a parameter", rows.iter().flat_map(|&row| entries_of(row)).collect())
-            };
+            let (rows, part) = (rows.iter().copied(), |entries| sparse("matrix of a parameter", entries));
             let share = match parameter.scaled {
-                Scaled::Stiffness => WholeShare::Stiffness(of(&|row| stiffness_entries(&elements[row], sizes[row]))?),
-                Scaled::ElementMass => WholeShare::Mass(of(&|row| mass_entries(&elements[row], sizes[row]))?),
-                Scaled::PointMass => {
-                    WholeShare::Mass(of(&|dof| moving_mass_entries(&t[dof], &t[dof], points[(dof, dof)]))?)
-                }
+                Scaled::Stiffness => WholeShare::Stiffness(part(rows.flat_map(stiffness).collect())?),
+                Scaled::ElementMass => WholeShare::Mass(part(rows.flat_map(lumped).collect())?),
+                Scaled::PointMass => WholeShare::Mass(part(rows.flat_map(|dof| moving((dof, dof))).collect())?),
             };
             Ok(WholeParameter { name: parameter.name.clone(), share, range })
         });
-        let whole = Self::new(
-            sparse("stiffness", stiffness)?,
-            sparse("mass", mass)?,
-            parameters.collect::<Result<_, Error>>()?,
-        )?;
+        let couplings = (0..t.len()).flat_map(|i| (0..t.len()).map(move |j| (i, j))).filter(|&at| points[at] != 0.0);
+        let mass = (0..elements.len()).flat_map(lumped).chain(couplings.flat_map(moving)).collect();
+        let stiffness = (0..elements.len()).flat_map(stiffness).collect();
+        let (stiffness, mass) = (sparse("stiffness", stiffness)?, sparse("mass", mass)?);
+        let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?;
         let sensors = t.iter().enumerate().flat_map(|(i, terms)| terms.iter().map(move |&(dof, term)| (i, dof, term)));
         Ok((whole, SparseMatrix::new("sensors", t.len(), count, sensors.collect())?))
     }

@@ -49,25 +49,21 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
     if stiffness.rows() <= MOST_DENSE_ROWS {
         let all = counted_modes(&stiffness.dense(), &mass.dense())?;
         check_count(FINITE, count, all.vibrations.len())?;
-        let lowest: Vec<usize> = (0..count).collect();
-        return Ok(CountedModes { vibrations: all.vibrations.select(&lowest), ..all });
+        return Ok(CountedModes { vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations, ..all });
     }
     let (factor, shift) = shifted(stiffness, mass)?;
     let mut wanted = count + BEYOND;
     loop {
-        let found = subspace(&factor, mass, wanted, FOUND)?;
-        let omega_squared = squared_frequencies(stiffness, mass, &found.shapes)?;
+        let (_, shapes, is_all) = subspace(&factor, mass, wanted, FOUND)?;
+        let omega_squared = squared_frequencies(stiffness, mass, &shapes)?;
         let rigid = omega_squared.iter().take_while(|value| **value < RIGID * shift).count();
-        if found.shapes.ncols() == wanted && wanted < count + rigid + BEYOND {
+        if shapes.ncols() == wanted && wanted < count + rigid + BEYOND {
             wanted = count + rigid + BEYOND;
             continue;
         }
         check_count(FINITE, count, omega_squared.len() - rigid)?;
-        check_number(stiffness, mass, &omega_squared, rigid + count, found.is_all)?;
-        let of = |places: Vec<usize>| (omega_squared.select_rows(&places), found.shapes.select_columns(&places));
-        let ((_, rigid_body), (omega_squared, shapes)) =
-            (of((0..rigid).collect()), of((rigid..rigid + count).collect()));
-        return Ok(CountedModes { rigid_body, vibrations: ModeSet { omega_squared, shapes } });
+        check_number(stiffness, mass, &omega_squared, rigid + count, is_all)?;
+        return Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, count));
     }
 }
 
@@ -84,20 +80,17 @@ fn shifted(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64
         Factor::new(what, &shifted)?.check_positive(what)
     };
     let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
-    let roots = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?.roots;
+    let (roots, ..) = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?;
     let highest = roots.iter().map(|root| 1.0 / root - first).fold(1e-4 * first, f64::max);
     Ok((factor_at(highest)?, highest))
 }
 
-/// The largest roots of $A$, descending, their shapes (rows × m) of unit generalized mass, and whether there are no others.
-struct Subspace {
-    roots: Vec<f64>,
-    shapes: DMatrix<f64>,
-    is_all: bool,
-}
+/// Roots, shapes, and whether there are no others.
+type Found = (Vec<f64>, DMatrix<f64>, bool);
 
-/// The `wanted` largest roots of $A = (K + \sigma M)^{-1} M$, or all if there are fewer.
-fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64) -> Result<Subspace, Error> {
+/// The `wanted` largest roots of $A = (K + \sigma M)^{-1} M$, or all if there are fewer, descending, with their shapes (rows × m) of
+/// unit generalized mass.
+fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64) -> Result<Found, Error> {
     let times = |block: &DMatrix<f64>| factor.solve(&mass.times(block)?);
     let keep = wanted + BLOCK;
     let most = keep + keep.max(4 * BLOCK);
@@ -129,7 +122,7 @@ fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64)
             // The image has the massless motions right too.
             let mut shapes = images.columns(0, count).into_owned();
             shapes.column_iter_mut().zip(&roots).for_each(|(mut shape, root)| shape /= *root);
-            return Ok(Subspace { roots: roots.iter().take(count).copied().collect(), shapes, is_all });
+            return Ok((roots.iter().take(count).copied().collect(), shapes, is_all));
         }
         let open: Vec<usize> = (0..roots.len()).filter(|&mode| !is_found(mode)).take(BLOCK).collect();
         next = orthonormal(mass, &basis, residuals.select_columns(&open))?;
@@ -174,11 +167,8 @@ fn squared_frequencies(
     shapes: &DMatrix<f64>,
 ) -> Result<DVector<f64>, Error> {
     let (forces, momenta) = (stiffness.times(shapes)?, mass.times(shapes)?);
-    let quotient = |mode: usize| {
-        let shape = shapes.column(mode);
-        (shape.dot(&forces.column(mode)) / shape.dot(&momenta.column(mode))).max(0.0)
-    };
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| quotient(mode)))
+    let square = |mode: usize, of: &DMatrix<f64>| shapes.column(mode).dot(&of.column(mode));
+    Ok(DVector::from_fn(shapes.ncols(), |mode, _| (square(mode, &forces) / square(mode, &momenta)).max(0.0)))
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
