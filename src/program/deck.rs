@@ -76,8 +76,7 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     arguments.output.check()?;
     let name = arguments.deck.display().to_string();
     let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
-    let ignored: Vec<String> = arguments.ignore.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
-    let deck = deck::read_without(&name, &bytes, &ignored)?;
+    let deck = deck::read_without(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
         say(format_args!("corfem: {name}: {}", not_read(card)));
     }

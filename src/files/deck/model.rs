@@ -40,6 +40,14 @@ pub struct PointMass {
     pub mass: f64,
 }
 
+impl PointMass {
+    /// The DOF it moves with.
+    pub(crate) fn dof(&self) -> impl Iterator<Item = StructuralDof> + '_ {
+        let directions = (0..3).filter(|direction| self.direction.is_none_or(|own| own == *direction));
+        directions.map(|direction| StructuralDof { grid: self.grid, direction })
+    }
+}
+
 /// A mass and the free DOF that it moves with.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MovingMass {
@@ -183,9 +191,7 @@ impl BulkData {
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
         let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {
-            for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
-                *mass.entry((point.grid, direction)).or_default() += point.mass;
-            }
+            point.dof().for_each(|dof| *mass.entry(at(&dof)).or_default() += point.mass);
         }
         mass.retain(|_, mass| *mass > 0.0);
         let motion_of = self.motions(structure);

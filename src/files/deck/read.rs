@@ -39,12 +39,13 @@ pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
     read_without(file, text.as_bytes(), &[])
 }
 
-/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored`, in capitals, that are
-/// not understood; [`Deck::unread`] lists them.
+/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored` that are not understood;
+/// [`Deck::unread`] lists them.
 ///
 /// # Errors
 /// Those of [`read`]; [`FileError::IgnoredCard`] for the name of a card that is read.
 pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
+    let ignored: Vec<String> = ignored.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
         return Err(FileError::IgnoredCard { card: card.clone() });
     }
@@ -53,7 +54,7 @@ pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck,
         join(&file.into(), lines)?.into_iter().partition(|card| is_read(&name(card)));
     let others = others.iter().map(|card| {
         let name = name(card);
-        let reason = reason(&name, ignored);
+        let reason = reason(&name, &ignored);
         (name, card.line, reason)
     });
     let mut unread: Vec<_> = others.collect();
