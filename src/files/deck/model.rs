@@ -82,15 +82,12 @@ impl BulkData {
         Self { grids, elements, ties: Vec::new(), masses: Vec::new() }
     }
 
-    /// A finite element model as a deck can express it, its parameters scaled by `factors`.
-    ///
-    /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
+    /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
     /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
     /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
     /// unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
-    ///
     ///
     /// # Errors
     /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
@@ -178,9 +175,6 @@ impl BulkData {
     }
 
     /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] when no mass can move.
     pub(crate) fn moving_masses(
         &self,
         structure: &Structure,

@@ -50,8 +50,8 @@ pub struct Prepared {
     pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and by what and with what it was compared.
-    first: Option<(Compare, usize, ModeSet, ModalModel)>,
+    /// The first model, and how it was compared.
+    first: Option<(Compare, ModalModel)>,
 }
 
 impl Prepared {
@@ -151,8 +151,7 @@ impl Prepared {
         let expected = "a mode of the model with a modal assurance of";
         self.job.refuse(best, format!("{expected} {floor} or more for one test mode at least"))?;
         if self.unpaired.is_empty() {
-            let compare = self.job.compare.clone();
-            self.first = first.ok().map(|first| (compare, self.analysis_modes, self.test.clone(), first));
+            self.first = first.ok().map(|first| (self.job.compare.clone(), first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -182,10 +181,8 @@ impl Prepared {
     /// # Errors
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
-        if let Some((compare, count, test, first)) = &self.first
-            && factors.iter().all(|&factor| factor == 1.0)
-            && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
-        {
+        let first = self.first.as_ref().filter(|(compare, _)| *compare == self.job.compare);
+        if let Some((_, first)) = first.filter(|_| factors.iter().all(|&factor| factor == 1.0)) {
             return Ok(first.clone());
         }
         let (whole, sensors, test, count) = (&self.source.whole, &self.sensors, &self.test, self.analysis_modes);

@@ -1,12 +1,7 @@
 //! A test as a table that a spreadsheet writes. Rows and columns are found by their names:
 //!
 //! ```text
-//! # Wing test of 3 May, soft suspension
-//! frequency_hz,,,,,,,12.1,17.9
-//! frequency_deviation,,,,,,,0.003,0.005
-//! name,grid,direction,sign,x,y,z,mode 1,mode 2
-//! tip,12,z,-,0.,52.5,3.1,-1.0,0.31
-//! "aileron, outer",14,z,+,8.,48.,3.1,0.87,-0.55
+#![doc = include_str!("../job/template.csv")]
 //! ```
 //!
 //! - Commas, semicolons or tabs separate cells, as in the first row that is no comment; with the latter two a decimal comma is
@@ -88,8 +83,9 @@ impl Row<'_> {
         let number = |text: &str| text.parse().or_else(|_| self.wrong("a grid number", text));
         let grid = if grid.is_empty() { None } else { Some(number(grid)?) };
         let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
-        let coordinates = if [x, y, z] == [""; 3] { None } else { Some(self.numbers(&axes)?) };
-        let place = coordinates.map(|coordinates| Vector3::from_column_slice(&coordinates));
+        let is_placed = [x, y, z] != [""; 3];
+        let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
+        let place = place.map(|numbers| Vector3::from_column_slice(&numbers));
         let name = match grid {
             None if name.is_empty() => return self.wrong("a name or a grid number", ""),
             Some(grid) if name.is_empty() => default_name(grid, direction),
@@ -102,8 +98,7 @@ impl Row<'_> {
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
     let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    let first = lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line);
-    let separator = separator(first);
+    let separator = separator(lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line));
     let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) = Default::default();
     for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
         let row = Row { file, number, cells: cells(line, separator), separator };
@@ -123,8 +118,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             rows.push(row);
         }
     }
-    let missing =
-        || FileError::line(file, text.lines().count(), "a header and a row frequency_hz", "the end of the file");
+    let (end, expected) = (text.lines().count(), "a header and a row frequency_hz");
+    let missing = || FileError::line(file, end, expected, "the end of the file");
     let (titles, modes) = header.ok_or_else(missing)?;
     let list = |place: usize| by_mode[place].as_ref().map(|row: &Row| row.numbers(&modes)).transpose();
     let mut data = TestData { frequencies_hz: list(0)?.ok_or_else(missing)?, ..TestData::default() };
