@@ -27,8 +27,8 @@ struct Changes<'a> {
     next_material: usize,
 }
 
-/// The deck `bytes`, `file` in messages, with the sizes and densities of these elements, found by their numbers; nothing else
-/// of them counts. What [`BulkData::of`](super::BulkData::of) says of a model's elements gives the deck the model's modes.
+/// The deck `bytes`, `file` in messages, with the sizes and densities of these elements, found by their numbers; those of
+/// [`BulkData::of`](super::BulkData::of) give the deck a model's modes.
 ///
 /// Where elements of one property need different sizes, those without a change keep it, or else the most; the others refer
 /// to new cards behind it, and a new density to a new MAT1 card. A number that does not fit in its field turns its line into

@@ -50,8 +50,8 @@ pub struct Prepared {
     pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and how it was compared.
-    first: Option<(Compare, ModalModel)>,
+    /// The first model, and how and with how many modes it was compared.
+    first: Option<(Compare, usize, ModalModel)>,
 }
 
 impl Prepared {
@@ -151,7 +151,7 @@ impl Prepared {
         let expected = "a mode of the model with a modal assurance of";
         self.job.refuse(best, format!("{expected} {floor} or more for one test mode at least"))?;
         if self.unpaired.is_empty() {
-            self.first = first.ok().map(|first| (self.job.compare.clone(), first));
+            self.first = first.ok().map(|first| (self.job.compare.clone(), self.analysis_modes, first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -181,8 +181,10 @@ impl Prepared {
     /// # Errors
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
-        let first = self.first.as_ref().filter(|(compare, _)| *compare == self.job.compare);
-        if let Some((_, first)) = first.filter(|_| factors.iter().all(|&factor| factor == 1.0)) {
+        if let Some((compare, count, first)) = &self.first
+            && (compare, *count) == (&self.job.compare, self.analysis_modes)
+            && factors.iter().all(|&factor| factor == 1.0)
+        {
             return Ok(first.clone());
         }
         let (whole, sensors, test, count) = (&self.source.whole, &self.sensors, &self.test, self.analysis_modes);

@@ -123,9 +123,8 @@ impl Study {
         }
     }
 
-    /// Runs a sample as [`super::run`] runs a job: its line with number, outcome, whether within tolerance, error sum, exact analyses,
-    /// factors and [`Self::identity`], and why it failed if it did, with nothing between outcome and identity. `go_on` is asked on
-    /// the way whether to.
+    /// Runs a sample as [`super::run`] runs a job: its line as [`Self::header`] says, with [`Self::identity`] as its study, and why it
+    /// failed if it did, with nothing between outcome and study. `go_on` is asked on the way whether to.
     ///
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.

@@ -4,14 +4,11 @@
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
 //! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
 //! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
-//! the mass nothing is taken over, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it,
-//! with the lumped mass of elements that have a density.
+//! the mass nothing is taken over, but MAA must be $T M T^t$ with the lumped mass of elements that have a density.
 //!
-//! Appendix A, the eigensolution and everything else is computed here from these matrices: $M_S$ is singular, and
-//! NASTRAN's own eigenvalues are good to five or six digits only.
-//!
-//! NASTRAN-95 keeps coordinates, gages and material in single precision: its matrices differ from the crate's by up to
-//! 1.5e-7 of the largest entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
+//! All else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
+//! coordinates, gages and material in single precision: its matrices differ from the crate's by up to 1.5e-7 of the largest
+//! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
 mod output5;
 mod process;
@@ -21,7 +18,7 @@ use crate::files::error::FileError;
 use crate::method::assembly::{dense_stiffness, lumped_mass};
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
-use crate::method::structure::{Element, Grid, Structure};
+use crate::method::structure::{Element, Grid};
 use nalgebra::{DMatrix, Vector3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -90,15 +87,12 @@ impl Nastran95 {
     /// Runs a deck in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
-    /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`],
-    /// [`FileError::SolverFatal`] with NASTRAN's own message; [`FileError::SolverAnswer`] when it writes too much or
-    /// something else than files; [`FileError::File`].
+    /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         process::run(self, deck)
     }
 
-    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, with no more than `numbers`
-    /// entries in all.
+    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
     ///
     /// # Errors
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
@@ -120,7 +114,9 @@ impl Nastran95 {
         let bulk = BulkData::of(model, factors, &points)?;
         let all = with_single_elements(&bulk);
         let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
-        let answer = self.matrices(&deck, numbers_in_answer(&all))?;
+        // KGG, KAA and MAA have no more than so many rows.
+        let rows = GRID_DOF.saturating_mul(all.grids.len());
+        let answer = self.matrices(&deck, rows.saturating_mul(rows).saturating_mul(3))?;
         let units = unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;
         check_assembled(&model, factors, &answer)?;
@@ -144,12 +140,6 @@ fn with_single_elements(bulk: &BulkData) -> BulkData {
     all
 }
 
-/// Entries that KGG, KAA and MAA have at most.
-fn numbers_in_answer(bulk: &BulkData) -> usize {
-    let size = GRID_DOF.saturating_mul(bulk.grids.len());
-    size.saturating_mul(size).saturating_mul(3)
-}
-
 /// Unit stiffness of every element at its free DOF, in the order of the model's structure, from the blocks of KGG.
 fn unit_stiffness(
     model: &FiniteElementModel,
@@ -167,18 +157,13 @@ fn unit_stiffness(
     let unit = |element: &Element| {
         let unknown = || Error::Unknown { owner: "the deck".into(), what: "element", label: element.label };
         let &(start, size) = block_of.get(&element.label).ok_or_else(unknown)?;
-        let rows = free_rows(structure, element, start);
+        let dof = (0..3 * element.grids.len()).map(|dof| (dof / 3, dof % 3));
+        let is_free = |corner: usize, direction| structure.free_dof_index(element.grids[corner], direction).is_some();
+        let free = dof.filter(|&(corner, direction)| is_free(corner, direction));
+        let rows: Vec<usize> = free.map(|(corner, direction)| start + GRID_DOF * corner + direction).collect();
         Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
     };
     structure.elements().iter().map(unit).collect()
-}
-
-/// Rows of KGG of an element's free DOF, its own grids beginning at `start`.
-fn free_rows(structure: &Structure, element: &Element, start: usize) -> Vec<usize> {
-    let all = (0..3 * element.grids.len()).map(|dof| (dof / 3, dof % 3));
-    let is_free = |corner: usize, direction| structure.free_dof_index(element.grids[corner], direction).is_some();
-    let free = all.filter(|&(corner, direction)| is_free(corner, direction));
-    free.map(|(corner, direction)| start + GRID_DOF * corner + direction).collect()
 }
 
 /// Refuses an answer whose assembled matrices are not those of the model it was asked about: elements are told apart by
