@@ -1,7 +1,12 @@
 //! A test as a table that a spreadsheet writes. Rows and columns are found by their names:
 //!
 //! ```text
-#![doc = include_str!("../job/template.csv")]
+//! # Wing test of 3 May, soft suspension
+//! frequency_hz,,,,,,,12.1,17.9
+//! frequency_deviation,,,,,,,0.003,0.005
+//! name,grid,direction,sign,x,y,z,mode 1,mode 2
+//! tip,12,z,-,0.,52.5,3.1,-1.0,0.31
+//! "aileron, outer",14,z,+,8.,48.,3.1,0.87,-0.55
 //! ```
 //!
 //! - Commas, semicolons or tabs separate cells, as in the first row that is no comment; with the latter two a decimal comma is
@@ -159,26 +164,4 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
 /// A name as one cell on one line: line ends become blanks.
 pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""))
-}
-
-/// Writes a test in the layout that [`read`](super::read) takes, with commas; every number reads back as it is.
-///
-/// Wire frame, units and skipped datasets have no place in it. Line ends in a name become blanks.
-pub fn write_csv(data: &TestData) -> String {
-    let joined = |values: &mut dyn Iterator<Item = &f64>| values.map(|value| format!(",{value:?}")).collect::<String>();
-    let phase = Some(&data.phase_collinearity).filter(|list| !list.is_empty());
-    let lists = [Some(&data.frequencies_hz), data.frequency_deviation.as_ref(), data.shape_deviation.as_ref(), phase];
-    let mut text = String::new();
-    for (name, values) in ROWS.iter().zip(lists).filter_map(|(name, values)| Some((name, values?))) {
-        text += &format!("{name},,,,,,{}\n", joined(&mut values.iter()));
-    }
-    let modes: String = (1..=data.frequencies_hz.len()).map(|mode| format!(",mode {mode}")).collect();
-    text += &format!("grid,name,direction,sign,x,y,z{modes}\n");
-    for (sensor, row) in data.sensors.iter().zip(data.shapes.row_iter()) {
-        let grid = sensor.grid.map(|grid| grid.to_string()).unwrap_or_default();
-        let place = sensor.place.map_or(",,,".to_owned(), |place| joined(&mut place.iter()));
-        let direction = DIRECTIONS.get(sensor.direction).unwrap_or(&"?");
-        text += &format!("{grid},{},{direction},+{place}{}\n", quoted(&sensor.name), joined(&mut row.iter()));
-    }
-    text
 }
