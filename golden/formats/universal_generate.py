@@ -5,7 +5,7 @@
     python3 golden/formats/universal_generate.py
 
 Writes universal_*.unv with pyuff, reads them again with pyuff and stores what it finds in universal_expected.toml, with
-universal_written.unv, which the crate wrote, among them.
+universal_written.unv, which the tests of the crate wrote, among them.
 """
 
 import pathlib

@@ -62,7 +62,6 @@ fn chosen(arguments: &CasesArguments, reconstruction: &Reconstruction) -> Result
 
 /// Runs the cases asked for and writes the report; whether all of them succeeded.
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
-    arguments.output.check()?;
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::of(&arguments.solver)?;
     let mut results = Vec::new();

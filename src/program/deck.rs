@@ -1,7 +1,7 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
 use super::output::{OutputArguments, reconstruction, say};
-use super::place::{check, put};
+use super::place::put;
 use clap::Args;
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
@@ -49,7 +49,6 @@ pub struct ModesArguments {
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
-    check(arguments.output.as_deref())?;
     let case = Case::on(arguments.case, reconstruction(arguments.box_file.as_deref())?)?;
     let model = case.model()?;
     let mut factors = vec![1.0; model.parameters().len()];
@@ -73,11 +72,9 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 
 /// Prints the modes of a deck.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
-    arguments.output.check()?;
     let name = arguments.deck.display().to_string();
     let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
-    let ignored: Vec<String> = arguments.ignore.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
-    let deck = deck::read_without(&name, &bytes, &ignored)?;
+    let deck = deck::read_without(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
         say(format_args!("corfem: {name}: {}", not_read(card)));
     }

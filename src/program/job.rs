@@ -1,8 +1,8 @@
 //! `corfem correlate`, `corfem check JOB` and `corfem init`: the user's own structure.
 
-use super::folder::{check_folder, put_all};
+use super::folder::put_all;
 use super::output::{OutputArguments, say};
-use super::place::{check, put};
+use super::place::put;
 use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
@@ -61,14 +61,12 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
         let found = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
         return Err(FileError::of_file(path, "write")(found).into());
     }
-    check(arguments.output.as_deref())?;
     put(arguments.output.as_deref(), if arguments.test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
 /// Says everything doubtful of a job and ranks its parameters, without a step.
 pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -> Result<(), PresentError> {
     let Some(path) = job else { return super::studies::check(output, quiet) };
-    output.check()?;
     let tables = progress::during(quiet, "looking at the job", || {
         let prepared = Prepared::new(path)?;
         let subject = Subject::of_job(&prepared, None)?;
@@ -80,8 +78,6 @@ pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -
 
 /// Corrects the model of a job and writes the report; whether it is within tolerance.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
-    arguments.output.check()?;
-    arguments.folder.as_deref().map_or(Ok(()), check_folder)?;
     let mut prepared = Prepared::new(&arguments.job)?;
     if let Some(starts) = arguments.starts {
         let compare = &mut prepared.job.compare;
@@ -106,16 +102,15 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let [paired, factors, history] = [paired_table(&subject)?, factor_table(&subject), history_table(&subject)];
     let tables = [paired, factors, seen_table(&prepared, &finished)?, history];
     let document = || json::document(json::subject(&subject)?);
-    let stored = arguments.folder.as_ref().map(|_| document()).transpose()?;
-    arguments.output.write(&tables, || stored.clone().map_or_else(document, Ok))?;
+    arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
-        let extra =
-            [seen_table(&prepared, &finished)?, places_table(&prepared, Some(&finished))?, doubts_table(&prepared)?];
+        let [.., seen, _] = &tables;
+        let extra = [seen.clone(), places_table(&prepared, Some(&finished))?, doubts_table(&prepared)?];
         let command = format!("corfem correlate {}", arguments.job.display());
         let mut files = vec![
             ("report.html".to_owned(), subject_page(&subject, &extra, &command)?.into_bytes()),
             ("factors.csv".to_owned(), render::csv(&[factor_table(&subject)]).into_bytes()),
-            ("correlation.json".to_owned(), stored.unwrap_or_default().into_bytes()),
+            ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
         // The report of a long correlation is not lost with a deck that cannot be written.
         let deck = prepared.corrected_deck(&finished.factors);

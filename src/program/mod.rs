@@ -2,7 +2,6 @@
 
 mod cases;
 mod deck;
-mod dump;
 mod folder;
 mod job;
 mod output;
@@ -17,14 +16,15 @@ mod study;
 
 use cases::CasesArguments;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
-use dump::DumpArguments;
+use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::{OutputArguments, say};
-use pictures::FolderArguments;
-use place::put;
+use pictures::{DumpArguments, FolderArguments};
+use place::{check, put};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use studies::{
     CostArguments, DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments,
@@ -106,8 +106,10 @@ enum Command {
 
 /// Runs the program.
 pub fn run() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let matches = Arguments::command().try_get_matches();
+    let parsed = matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
+    let (Arguments { command, cases, quiet }, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) if error.use_stderr() => {
             let _ = error.print();
             return ExitCode::from(BAD_INPUT);
@@ -119,9 +121,8 @@ pub fn run() -> ExitCode {
             return status(put(None, &text).map(|()| true));
         }
     };
-    let quiet = arguments.quiet;
-    status(match arguments.command {
-        None => cases::cases(&arguments.cases, quiet),
+    status(check_places(&matches).and_then(|()| match command {
+        None => cases::cases(&cases, quiet),
         Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet).map(|()| true),
@@ -139,9 +140,17 @@ pub fn run() -> ExitCode {
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
-        Some(Command::Dump(arguments)) => dump::dump(&arguments, quiet).map(|()| true),
+        Some(Command::Dump(arguments)) => pictures::dump(&arguments, quiet).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
-    })
+    }))
+}
+
+/// Refuses a file or folder that could not be written, before the work is done.
+fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
+    let own = matches.subcommand().map_or(matches, |(_, own)| own);
+    let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
+    path("output").map_or(Ok(()), |file| check(file))?;
+    path("folder").map_or(Ok(()), |folder| check_folder(folder))
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {

@@ -1,6 +1,6 @@
 //! What commands read and write: the box, reports with the same options for every command, and words for the user.
 
-use super::place::{check, put};
+use super::place::put;
 use clap::{Args, ValueEnum};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::files::error::FileError;
@@ -33,11 +33,6 @@ enum FormatArgument {
 }
 
 impl OutputArguments {
-    /// Refuses a file that could not be written, before the work is done.
-    pub fn check(&self) -> Result<(), PresentError> {
-        check(self.output.as_deref())
-    }
-
     /// Writes tables as they are asked for; `json` makes the whole of what they show.
     pub fn write(
         &self,

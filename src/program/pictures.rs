@@ -1,13 +1,15 @@
-//! `corfem figures` and `corfem report`: files in a folder, all of them or none.
+//! `corfem figures`, `corfem report` and `corfem dump`: files in a folder, all of them or none.
 
-use super::folder::{check_folder, put_all};
+use super::folder::put_all;
 use super::output::say as tell;
+use super::place::put;
 use clap::Args;
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs};
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, run_case};
 use corfem::present::PresentError;
+use corfem::present::dump::dump as open;
 use corfem::present::figures::{case_figures, comparison_figures};
 use corfem::present::page::{Contents, page};
 use corfem::present::table::counted;
@@ -17,18 +19,13 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub struct FolderArguments {
     /// Write into this folder, made if it is new (also as --out)
-    #[arg(short, long, alias = "out", value_name = "DIR")]
-    output: PathBuf,
+    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
+    folder: PathBuf,
 }
 
 /// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
 /// tables.
-pub fn pictures(
-    FolderArguments { output: out }: &FolderArguments,
-    as_page: bool,
-    quiet: bool,
-) -> Result<(), PresentError> {
-    check_folder(out)?;
+pub fn pictures(FolderArguments { folder }: &FolderArguments, as_page: bool, quiet: bool) -> Result<(), PresentError> {
     let say = |words: String| (!quiet).then(|| tell(words));
     let mut results = Vec::new();
     for number in CASES {
@@ -47,14 +44,38 @@ pub fn pictures(
             fewer_modes: &fewer_modes,
             matrices: &matrices,
             figures: &figures,
-            command: &format!("corfem report --output {}", out.display()),
+            command: &format!("corfem report --output {}", folder.display()),
         })?;
-        put_all(out, &[("report.html".to_owned(), html.into_bytes())])?;
-        say(out.join("report.html").display().to_string());
+        put_all(folder, &[("report.html".to_owned(), html.into_bytes())])?;
+        say(folder.join("report.html").display().to_string());
     } else {
         let files: Vec<_> = figures.into_iter().map(|figure| (figure.name + ".svg", figure.svg.into_bytes())).collect();
-        put_all(out, &files)?;
-        say(format!("{} files in {}", files.len(), out.display()));
+        put_all(folder, &files)?;
+        say(format!("{} files in {}", files.len(), folder.display()));
+    }
+    Ok(())
+}
+
+#[derive(Debug, Args)]
+pub struct DumpArguments {
+    /// Which case
+    #[arg(value_name = "CASE")]
+    case: usize,
+    /// Write dump.json and every matrix in the format of the Matrix Market into this folder, made if it is new, instead of the
+    /// JSON document alone to standard output
+    #[arg(long, value_name = "DIR")]
+    folder: Option<PathBuf>,
+}
+
+/// Runs a case and writes its matrices and every iteration.
+pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> {
+    let dump = open(&Case::new(arguments.case)?)?;
+    let Some(folder) = &arguments.folder else { return put(None, &dump.json) };
+    let mut files = vec![("dump.json".to_owned(), dump.json.into_bytes())];
+    files.extend(dump.matrices.into_iter().map(|(name, text)| (name, text.into_bytes())));
+    put_all(folder, &files)?;
+    if !quiet {
+        tell(format_args!("{} files in {}", files.len(), folder.display()));
     }
     Ok(())
 }

@@ -17,13 +17,13 @@ enum Place {
 }
 
 /// Refuses a path that could not be written, before there is anything to write. Nothing is changed by it.
-pub fn check(path: Option<&Path>) -> Result<(), PresentError> {
-    let check = || match place(path)? {
+pub fn check(path: &Path) -> Result<(), PresentError> {
+    let check = || match place(Some(path))? {
         Place::File(path, None) => probe(path.parent().unwrap_or(&path)),
         // A pipe is not opened yet: that is to wait for its reader.
         Place::StandardOutput | Place::Through(_) | Place::File(_, Some(_)) => Ok(()),
     };
-    Ok(check().map_err(FileError::of_file(named(path), "write"))?)
+    Ok(check().map_err(FileError::of_file(named(Some(path)), "write"))?)
 }
 
 /// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.

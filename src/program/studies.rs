@@ -92,7 +92,6 @@ pub struct FewerModesArguments {
 
 /// Runs every reading of the step against the printed gages.
 pub fn readings(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
-    output.check()?;
     let reconstruction = Reconstruction::embedded()?;
     let columns = during(quiet, "readings of the step", || all_columns(&reconstruction))?;
     let detection = |reading| detection(&reconstruction, reading);
@@ -103,7 +102,6 @@ pub fn readings(output: &OutputArguments, quiet: bool) -> Result<(), PresentErro
 
 /// Writes Table 1, computed anew, and the paper's other tables as printed.
 pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
-    arguments.output.check()?;
     let all: Vec<u8> = (1..=13).collect();
     let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
     let table = |&number: &u8| match number {
@@ -119,7 +117,6 @@ pub fn fewer_modes(
     FewerModesArguments { settings, output }: &FewerModesArguments,
     quiet: bool,
 ) -> Result<(), PresentError> {
-    output.check()?;
     let mut case = Case::new(PUBLISHED_CASE)?;
     settings.apply(&mut case.settings)?;
     let (published, all) = during(quiet, "runs with fewer modes", || (published_runs(&case), all_runs(&case)));
@@ -131,7 +128,6 @@ pub fn fewer_modes(
 
 /// Corrects a case by elements and by matrices and writes what either knows afterwards.
 pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
-    arguments.output.check()?;
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
@@ -140,7 +136,6 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 
 /// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
 pub fn noise(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
-    output.check()?;
     let case = Case::new(NOISY_CASE)?;
     let study = during(quiet, "noisy tests", || noisy_modes(&case, Noise::USUAL, SEEDS))?;
     output.write(&tables::noisy_modes::noisy_tables(&study), || json::document(json!({ "study": study })))
@@ -164,14 +159,12 @@ pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> 
 
 /// Makes each panel of the box too thin in turn, and writes how often it is found.
 pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments, quiet: bool) -> Result<(), PresentError> {
-    output.check()?;
     let located = during(quiet, "panels too thin in turn", || localization::localization(1..=*tests))?;
     output.write(&tables::weighted::localization_tables(&located), || json::document(json!({ "located": located })))
 }
 
 /// Writes the paper's rule and the weighted one side by side, and how often the weighted one's intervals hold the truth.
 pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments, quiet: bool) -> Result<(), PresentError> {
-    output.check()?;
     let settings = WeightedSettings::default();
     let compared = during(quiet, "both rules side by side", || compare_all(&settings))?;
     let coverages = during(quiet, "intervals of noisy tests", || coverage::all_coverages(1..=*tests))?;
@@ -182,7 +175,6 @@ pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments, quiet: 
 
 /// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.
 pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), PresentError> {
-    output.check()?;
     let errors: Vec<f64> = error.iter().map(|percent| percent / 100.0).collect();
     let mut tables = vec![tables::cost::eigensolution_table(&eigensolutions::count_all(&errors)?)];
     for exact in [Exact::SameCondensation, Exact::NewCondensation] {
@@ -193,7 +185,6 @@ pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), Prese
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
 pub fn delta_wing(arguments: &DeltaWingArguments, quiet: bool) -> Result<bool, PresentError> {
-    arguments.output.check()?;
     let wing = DeltaWing::embedded()?;
     let solver = Solver::of(&arguments.solver)?;
     let mut settings = settings();

@@ -1,6 +1,6 @@
 //! `corfem study`: a job many times, its test varied by what it may be wrong by.
 
-use super::folder::{check_folder, put_all};
+use super::folder::put_all;
 use super::output::{OutputArguments, say};
 use super::settings::named;
 use super::{progress, signals};
@@ -47,8 +47,6 @@ pub struct StudyArguments {
 
 /// Runs the samples that a folder does not have yet, and says what all come to; or one sample alone.
 pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError> {
-    arguments.output.check()?;
-    arguments.folder.as_deref().map_or(Ok(()), check_folder)?;
     let study = Study::new(&arguments.job, arguments.seed, &arguments.vary)?;
     let stop = Arc::new(AtomicBool::new(false));
     signals::tell(&stop);

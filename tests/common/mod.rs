@@ -31,6 +31,7 @@ pub mod signals;
 pub mod strategies;
 pub mod sketch;
 pub mod structures;
+pub mod test_files;
 pub mod tolerances;
 pub mod torque_boxes;
 pub mod vibrations;

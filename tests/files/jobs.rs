@@ -2,11 +2,11 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth};
+use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
 };
 use corfem::files::job::{ComparedModes, Finished, History, Prepared, run};
-use corfem::files::test_data::write_universal;
 use corfem::method::pairing::paired;
 use corfem::present::render;
 use corfem::present::subject::Subject;

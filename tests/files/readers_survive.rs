@@ -5,13 +5,14 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
+use crate::common::test_files::{write_csv, write_universal};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::files::deck::{modes, read_without, rewrite};
 use corfem::files::job::{Job, Prepared};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
-use corfem::files::test_data::{read as read_test, write_csv, write_universal};
+use corfem::files::test_data::read as read_test;
 use corfem::studies::delta_wing::DeltaWing;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

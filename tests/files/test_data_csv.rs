@@ -1,8 +1,9 @@
 //! The table of a test: the layout that its documentation states, as spreadsheets vary it, and its faults.
 
 use crate::common::ground_tests::{ground_test, wing_test};
+use crate::common::test_files::write_csv;
 use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read, write_csv};
+use corfem::files::test_data::{TestData, read};
 use nalgebra::{Vector3, dmatrix};
 use proptest::prelude::*;
 

@@ -1,8 +1,9 @@
 //! Universal Files that pyuff wrote, with what pyuff reads in them, and one of the crate's that pyuff has read.
 
 use crate::common::ground_tests::wing_test;
+use crate::common::test_files::write_universal;
 use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::test_data::{TestData, read, write_universal};
+use corfem::files::test_data::{TestData, read};
 use nalgebra::{Complex, DVector, Vector3};
 use serde::Deserialize;
 use std::collections::BTreeMap;

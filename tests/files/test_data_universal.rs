@@ -1,9 +1,10 @@
 //! The Universal File: fixed columns, marks and what looks like them, and files that are not what they should be.
 
 use crate::common::ground_tests::{ground_test, wing_test};
+use crate::common::test_files::write_universal;
 use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
 use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read, write_universal};
+use corfem::files::test_data::{TestData, read};
 use nalgebra::{DMatrix, Vector3, dmatrix};
 use proptest::prelude::*;
 use std::collections::BTreeMap;

@@ -88,7 +88,9 @@ impl Constraints {
                 let first = card.label(field)?;
                 let mut last = first;
                 if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
-                    let end = fields.next().ok_or_else(|| card.error(after(word), "a grid after THRU"))?;
+                    // Fields 10 and 11 are no data.
+                    let after = if word % 10 == 9 { word + 3 } else { word + 1 };
+                    let end = fields.next().ok_or_else(|| card.error(after, "a grid after THRU"))?;
                     last = card.label(end)?;
                     card.require(last >= first, end, &format!("a grid after {first}"))?;
                 }
@@ -106,7 +108,13 @@ impl Constraints {
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
         for (_, card) in &self.equations.cards {
-            let mut terms = terms(card, grids)?.into_iter();
+            let last = card.filled().pop().unwrap_or(0);
+            let term = |field| {
+                let grid = card.referred(field, grids, "GRID")?.label;
+                Ok((StructuralDof { grid, direction: card.direction(field + 1)? }, card.real(field + 2)?))
+            };
+            let terms = (0..).map(term_field).take_while(|&field| field <= last).map(term);
+            let mut terms = terms.collect::<Result<Vec<_>, FileError>>()?.into_iter();
             let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
             let key = (dependent.grid, dependent.direction);
             card.require(coefficient != 0.0, 5, "a coefficient that is not zero")?;
@@ -126,22 +134,6 @@ impl Constraints {
         }
         Ok(ties.into_values().map(|(tie, _)| tie).collect())
     }
-}
-
-/// The terms of an equation, the dependent DOF first.
-fn terms(card: &Card, grids: &BTreeMap<usize, Grid>) -> Result<Vec<(StructuralDof, f64)>, FileError> {
-    let last = card.filled().pop().unwrap_or(0);
-    let fields = (0..).map(term_field).take_while(|&field| field <= last);
-    let term = |field| {
-        let grid = card.referred(field, grids, "GRID")?.label;
-        Ok((StructuralDof { grid, direction: card.direction(field + 1)? }, card.real(field + 2)?))
-    };
-    fields.map(term).collect()
-}
-
-/// The field after another: fields 10 and 11 are no data.
-fn after(field: usize) -> usize {
-    if field % 10 == 9 { field + 3 } else { field + 1 }
 }
 
 /// Field of the grid of a term, counted from zero: two terms to a line, in fields 3 and 6.

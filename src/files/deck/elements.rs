@@ -18,30 +18,31 @@ pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
 /// Cards that may hold two entries, the second from field 6 on.
 const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 
+/// What elements refer to, by their numbers.
+pub(super) type Members = BTreeMap<usize, Membership>;
+
 /// What the cards say of elements before they are put together.
 #[derive(Debug, Default)]
 pub(super) struct ElementCards {
-    pub connections: Numbered<(ElementKind, Size)>,
+    /// The place of every element's kind in [`ELEMENT_CARDS`]; none for a CONROD.
+    pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<f64>; 4],
     pub materials: Numbered<Material>,
 }
 
-/// The cards that an element refers to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Membership {
-    /// Its property's number; none for a CONROD.
-    pub property: Option<usize>,
-    /// Its material's number.
-    pub material: usize,
+/// The card that has the size and the material of an element, and the fields where it has them.
+pub(super) struct Holder<'a> {
+    pub card: &'a Card,
+    pub size: f64,
+    pub size_field: usize,
+    pub material_field: usize,
 }
 
-/// Where an element's size and material are found.
-#[derive(Debug)]
-pub(super) enum Size {
-    /// On a property card of the kind with this place in [`ELEMENT_CARDS`].
-    Property(usize),
-    /// On the element's own card (CONROD).
-    Own(f64),
+/// The cards that an element refers to: its property's number, none for a CONROD, and its material's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::files) struct Membership {
+    pub property: Option<usize>,
+    pub material: usize,
 }
 
 impl ElementCards {
@@ -53,7 +54,7 @@ impl ElementCards {
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             for &start in starts {
                 if name == connection {
-                    card.keep(start, (kind, Size::Property(row)), &mut self.connections)?;
+                    card.keep(start, Some(row), &mut self.connections)?;
                 } else if name == property {
                     let size = card.positive(start + 2)?;
                     let is_rod = kind == ElementKind::Rod;
@@ -67,10 +68,10 @@ impl ElementCards {
         }
         match name {
             "CONROD" => {
-                let rod = (ElementKind::Rod, Size::Own(card.positive(6)?));
+                card.positive(6)?;
                 card.absent(7, "torsion of rods")?;
                 card.absent(9, "nonstructural mass")?;
-                card.keep(2, rod, &mut self.connections)?;
+                card.keep(2, None, &mut self.connections)?;
             }
             "MAT1" => card.keep(2, material(card)?, &mut self.materials)?,
             _ => {}
@@ -78,44 +79,33 @@ impl ElementCards {
         Ok(())
     }
 
-    /// The property, if it has one, and the material of every element, by their numbers.
-    ///
-    /// # Errors
-    /// Those of a number that is none.
-    pub fn members(&self) -> Result<BTreeMap<usize, Membership>, FileError> {
-        let of = |(&label, kept): (&usize, &Kept<(ElementKind, Size)>)| {
-            let Kept { card, start, value: (_, size) } = kept;
-            let membership = match size {
-                Size::Own(_) => Membership { property: None, material: card.label(5)? },
-                Size::Property(row) => {
-                    let property = card.referred(start + 1, &self.properties[*row], ELEMENT_CARDS[*row].1)?;
-                    let number = if card.text(start + 1).is_empty() { label } else { card.label(start + 1)? };
-                    Membership { property: Some(number), material: property.card.label(property.start + 1)? }
-                }
-            };
-            Ok((label, membership))
+    /// What has the size and the material of an element: its property's card, which must exist, or its own.
+    pub fn holder<'a>(&'a self, connection: &'a Kept<Option<usize>>) -> Result<Holder<'a>, FileError> {
+        let Kept { value, card, start } = connection;
+        let Some(row) = *value else {
+            return Ok(Holder { card, size: card.positive(6)?, size_field: 6, material_field: 5 });
         };
-        self.connections.iter().map(of).collect()
+        let Kept { value, card, start } = card.referred(start + 1, &self.properties[row], ELEMENT_CARDS[row].1)?;
+        Ok(Holder { card, size: *value, size_field: start + 2, material_field: start + 1 })
     }
 
-    /// The elements by number; property, material and grids must exist.
-    pub fn elements(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Element>, FileError> {
-        let put_together = |(&label, kept): (&usize, &Kept<(ElementKind, Size)>)| {
-            let Kept { card, start, value: (kind, size) } = kept;
-            let (size, material, first_grid) = match size {
-                Size::Own(size) => (*size, card.referred(5, &self.materials, "MAT1")?, 3),
-                Size::Property(row) => {
-                    let property = card.referred(start + 1, &self.properties[*row], ELEMENT_CARDS[*row].1)?;
-                    let material = property.card.referred(property.start + 1, &self.materials, "MAT1")?;
-                    (property.value, material, start + 2)
-                }
-            };
+    /// The elements by number, and what they refer to; property, material and grids must exist.
+    pub fn elements(&self, grids: &BTreeMap<usize, Grid>) -> Result<(Vec<Element>, Members), FileError> {
+        let (mut elements, mut members) = (Vec::new(), Members::new());
+        for (&label, connection) in &self.connections {
+            let holder = self.holder(connection)?;
+            let Kept { value, card, start } = connection;
+            let kind = value.map_or(ElementKind::Rod, |row| ELEMENT_CARDS[row].2);
+            let first_grid = if value.is_some() { start + 2 } else { 3 };
             let corners = (first_grid..).take(kind.corner_count());
-            let grids = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
-            let grids = grids.collect::<Result<_, FileError>>()?;
-            Ok(Element { label, kind: *kind, grids, size, material: material.value })
-        };
-        self.connections.iter().map(put_together).collect()
+            let corners = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
+            let material = holder.card.referred(holder.material_field, &self.materials, "MAT1")?.value;
+            let grids = corners.collect::<Result<_, FileError>>()?;
+            elements.push(Element { label, kind, grids, size: holder.size, material });
+            let property = value.map(|_| card.label(start + 1)).transpose()?;
+            members.insert(label, Membership { property, material: holder.card.label(holder.material_field)? });
+        }
+        Ok((elements, members))
     }
 }
 

@@ -1,15 +1,14 @@
-//! From a file to its lines: sections, comments, and the free, small and large formats.
+//! From a file to its cards: sections, comments, the free, small and large formats, and continuations.
 
-use super::card::{FIELDS_PER_LINE, Field};
+use super::card::{Card, FIELDS_PER_LINE, Field};
 use super::number::{LARGE_FIELD, SMALL_FIELD};
 use crate::files::error::FileError;
 use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Data fields of a line in the large format.
 pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
-/// Columns of a line that count.
-const LINE_WIDTH: usize = 80;
-
 /// Statements that read another file, in any section.
 const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// What stands behind the first word of such a statement, or of a parameter.
@@ -58,9 +57,6 @@ pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
 /// What stands in front of the bulk data and yet is part of the model, parameters and other files, is among its lines.
-///
-/// # Errors
-/// [`FileError::DeckLine`] for a line that is neither card nor continuation and for a selection that is not one set.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| line.split('$').next().unwrap_or_default().to_ascii_uppercase();
     let lines = (1..).zip(text.lines().map(code)).filter(|(_, line)| !line.trim().is_empty());
@@ -99,28 +95,46 @@ fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Resul
     Ok(())
 }
 
-/// Cuts a line into its fields. With a comma it is in free format; otherwise an asterisk behind the name or in front of
-/// a continuation means fields of 16 characters, its absence fields of 8.
+/// A line cut into parts.
+pub(super) struct Cut {
+    pub name: String,
+    /// The fields behind the name; in free format as many as there are, else all that a line has and what follows them.
+    pub parts: Vec<String>,
+    pub is_free: bool,
+    /// Fields of a line, and their width.
+    pub count: usize,
+    pub width: usize,
+}
+
+/// Cuts a line. With a comma it is in free format; otherwise an asterisk behind the name or in front of a continuation
+/// means fields of 16 characters, its absence fields of 8.
+pub(super) fn cut(text: &str) -> Cut {
+    let is_free = text.contains(',');
+    let columns = expand_tabs(text);
+    let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
+    let mut parts = text.split(',').map(str::to_owned);
+    let name = if is_free { parts.next().unwrap_or_default() } else { slice(0, SMALL_FIELD) };
+    let (width, count) = match is_large(name.trim()) {
+        true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE),
+        false => (SMALL_FIELD, FIELDS_PER_LINE),
+    };
+    let start = |place: usize| SMALL_FIELD + width * place;
+    let fixed = (0..count).map(|place| slice(start(place), start(place + 1))).chain([slice(start(count), usize::MAX)]);
+    let parts = if is_free { parts.collect() } else { fixed.collect() };
+    Cut { name, parts, is_free, count, width }
+}
+
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     if let Some(name) = statement(text, &INCLUDES) {
         return Ok(Line { number, first: name.to_owned(), data: Vec::new(), large: false, tag: String::new() });
     }
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
-    let mut parts: Vec<String> = if text.contains(',') {
-        text.split(',').map(|part| part.trim().to_owned()).collect()
-    } else {
-        let mut columns = expand_tabs(text);
-        columns.truncate(LINE_WIDTH);
-        let (name, data) = columns.split_at(SMALL_FIELD.min(columns.len()));
-        let field = |columns: &[char]| columns.iter().collect::<String>().trim().to_owned();
-        let large = is_large(name.iter().collect::<String>().trim_end());
-        let width = if large { LARGE_FIELD } else { SMALL_FIELD };
-        // The last columns, which a large field would overrun, are the tag of a continuation: a chunk of their own.
-        std::iter::once(name).chain(data.chunks(width)).map(field).collect()
-    };
-    let first = parts.remove(0);
-    let large = is_large(&first);
-    let (width, count) = if large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE) } else { (SMALL_FIELD, FIELDS_PER_LINE) };
+    let Cut { name, mut parts, is_free, count, width } = cut(text);
+    if let (false, Some(tag)) = (is_free, parts.last_mut()) {
+        // What follows column 80 does not count.
+        *tag = tag.chars().take(SMALL_FIELD).collect();
+    }
+    let first = name.trim().to_owned();
     let is_named = first.starts_with(|c: char| c.is_ascii_alphabetic());
     if !is_named && !first.is_empty() && !first.starts_with(['+', '*']) {
         return Err(wrong("a card's name or a continuation", &first));
@@ -128,22 +142,24 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     if parts.len() > count + 1 {
         return Err(wrong("no more fields than a line has", text));
     }
-    parts.resize(count + 1, String::new());
-    let tag = parts.pop().unwrap_or_default();
-    if let Some(long) = parts.iter().find(|part| part.chars().count() > width) {
-        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", long));
+    let field = |part: &String| Field { text: part.trim().to_owned(), line: number };
+    let mut data: Vec<Field> = parts.iter().map(field).collect();
+    data.resize(count + 1, Field { text: String::new(), line: number });
+    let tag = data.pop().map(|last| last.text).unwrap_or_default();
+    if let Some(long) = data.iter().find(|field| field.text.chars().count() > width) {
+        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", &long.text));
     }
-    let data = parts.into_iter().map(|text| Field { text, line: number });
-    Ok(Line { number, first, data: data.collect(), large, tag: tag.trim_start_matches(['+', '*']).to_owned() })
+    let tag = tag.trim_start_matches(['+', '*']).to_owned();
+    Ok(Line { number, large: is_large(&first), first, data, tag })
 }
 
 /// Whether field 1 says that a line is in the large format.
-pub(super) fn is_large(name: &str) -> bool {
+fn is_large(name: &str) -> bool {
     name.ends_with('*') || name.starts_with('*')
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.
-pub(super) fn expand_tabs(text: &str) -> Vec<char> {
+fn expand_tabs(text: &str) -> Vec<char> {
     let mut columns: Vec<char> = Vec::new();
     for c in text.chars() {
         columns.push(if c == '\t' { ' ' } else { c });
@@ -152,4 +168,78 @@ pub(super) fn expand_tabs(text: &str) -> Vec<char> {
         }
     }
     columns
+}
+
+/// The bulk data cards of a text whatever they are, in the order of the file.
+pub(in crate::files) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
+    join(&file.into(), sections(file, text)?.1)
+}
+
+/// Joins lines to cards, in the order of the file. A continuation belongs to the card that ends with its tag, wherever it
+/// stands; without a tag, to the line before it.
+pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileError> {
+    let mut cards: Vec<Card> = Vec::new();
+    // Continuations may stand before their card: they wait by tag until all lines are known.
+    let mut waiting: HashMap<String, Line> = HashMap::new();
+    let mut ends = Vec::new();
+    let mut open: Option<usize> = None;
+    for line in lines {
+        if !line.continues() {
+            ends.push(line.tag.clone());
+            open = line.tag.is_empty().then_some(cards.len());
+            cards.push(Card {
+                file: file.clone(),
+                line: line.number,
+                name: line.first.trim_end_matches('*').to_owned(),
+                fields: line.data,
+            });
+        } else if line.own_tag().is_empty() {
+            let card = open.ok_or_else(|| no_parent(file, &line))?;
+            append(&mut cards[card], &line);
+            open = line.tag.is_empty().then_some(card);
+            ends[card] = line.tag;
+        } else {
+            open = None;
+            let (tag, number) = (line.own_tag().to_owned(), line.number);
+            if let Some(first) = waiting.insert(tag.clone(), line) {
+                let found = format!("{tag}, which the one in line {} has", first.number);
+                return Err(FileError::line(file, number, "a continuation with a tag of its own", found));
+            }
+        }
+    }
+    let mut taken: HashMap<String, usize> = HashMap::new();
+    for (card, mut tag) in cards.iter_mut().zip(ends) {
+        // Field 10 without a continuation is a remark, and the card ends here.
+        while let Some(line) = waiting.remove(&tag) {
+            append(card, &line);
+            taken.insert(tag, card.line);
+            tag = line.tag;
+        }
+        if let Some(first) = taken.get(&tag) {
+            let found = format!("tag {tag}, which continues the card of line {first}");
+            return Err(FileError::line(file, card.line, "a card with continuations of its own", found));
+        }
+    }
+    match waiting.values().min_by_key(|line| line.number) {
+        Some(orphan) => Err(no_parent(file, orphan)),
+        None => Ok(cards),
+    }
+}
+
+fn no_parent(file: &str, line: &Line) -> FileError {
+    let found = match line.own_tag() {
+        "" => "none before it".to_owned(),
+        tag => format!("none that ends with tag {tag}"),
+    };
+    FileError::line(file, line.number, "a card that this line continues", found)
+}
+
+fn append(card: &mut Card, line: &Line) {
+    // The second half of a card of the large format may be missing.
+    if !line.large {
+        let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
+        let blank = Field { text: String::new(), line: line.number };
+        card.fields.resize(whole, blank);
+    }
+    card.fields.extend(line.data.iter().cloned());
 }

@@ -14,14 +14,12 @@
 //!
 //! which is similar to $K_D^{-1} M$. So NASTRAN's own solution of the deck must be the modes of Appendix A, and is.
 //!
-//! Reading: `lines` cuts a file into fields, `continuation` joins lines to cards, `known` says which may be left out,
-//! and [`read()`] makes a model of the others; [`modes()`] finds its modes.
+//! Reading: `lines` cuts a file into fields and joins lines to cards, [`read()`] makes a model of those it knows, and
+//! [`modes()`] finds its modes.
 
 mod card;
 mod constraints;
-mod continuation;
 mod elements;
-mod known;
 mod lines;
 mod model;
 mod modes;
@@ -31,13 +29,11 @@ mod rewrite;
 mod write;
 
 pub(super) use card::Card;
-pub(super) use continuation::cards;
-pub use elements::Membership;
-pub(in crate::files) use lines::decoded;
+pub(in crate::files) use elements::Membership;
+pub(super) use lines::{cards, decoded};
 
-pub use known::{Reason, Unread};
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;
-pub use read::{Deck, read, read_without};
+pub use read::{Deck, Reason, Unread, read, read_without};
 pub use rewrite::rewrite;
 pub use write::{Task, bulk_data, write};

@@ -40,6 +40,14 @@ pub struct PointMass {
     pub mass: f64,
 }
 
+impl PointMass {
+    /// The DOF it moves with.
+    pub(crate) fn dof(&self) -> impl Iterator<Item = StructuralDof> + '_ {
+        let directions = (0..3).filter(|direction| self.direction.is_none_or(|own| own == *direction));
+        directions.map(|direction| StructuralDof { grid: self.grid, direction })
+    }
+}
+
 /// A mass and the free DOF that it moves with.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MovingMass {
@@ -74,15 +82,12 @@ impl BulkData {
         Self { grids, elements, ties: Vec::new(), masses: Vec::new() }
     }
 
-    /// A finite element model as a deck can express it, its parameters scaled by `factors`.
-    ///
-    /// Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
+    /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
     /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
     /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
     /// unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
-    ///
     ///
     /// # Errors
     /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
@@ -170,9 +175,6 @@ impl BulkData {
     }
 
     /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] when no mass can move.
     pub(crate) fn moving_masses(
         &self,
         structure: &Structure,
@@ -183,9 +185,7 @@ impl BulkData {
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
         let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {
-            for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
-                *mass.entry((point.grid, direction)).or_default() += point.mass;
-            }
+            point.dof().for_each(|dof| *mass.entry(at(&dof)).or_default() += point.mass);
         }
         mass.retain(|_, mass| *mass > 0.0);
         let motion_of = self.motions(structure);

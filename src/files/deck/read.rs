@@ -1,11 +1,9 @@
-//! From cards to the model they describe.
+//! From cards to the model they describe: which are read, which say nothing of it, and which may but are not understood.
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
-use super::continuation::join;
-use super::elements::{ElementCards, Membership, point_mass};
-use super::known::{Reason, Unread, counted, is_read, name, reason};
-use super::lines::{decoded, sections};
+use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass};
+use super::lines::{decoded, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -18,8 +16,7 @@ use std::collections::BTreeMap;
 pub struct Deck {
     /// The model.
     pub model: BulkData,
-    /// The property and the material of every element, by its number.
-    pub members: BTreeMap<usize, Membership>,
+    pub(in crate::files) members: Members,
     /// Cards that are not part of it, by name in the order of the file.
     pub unread: Vec<Unread>,
 }
@@ -39,27 +36,23 @@ pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
     read_without(file, text.as_bytes(), &[])
 }
 
-/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored`, in capitals, that are
-/// not understood; [`Deck::unread`] lists them.
+/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored` that are not understood;
+/// [`Deck::unread`] lists them.
 ///
 /// # Errors
 /// Those of [`read`]; [`FileError::IgnoredCard`] for the name of a card that is read.
 pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
+    let ignored: Vec<String> = ignored.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
         return Err(FileError::IgnoredCard { card: card.clone() });
     }
     let (selected, lines) = sections(file, &decoded(text))?;
     let (cards, others): (Vec<Card>, Vec<Card>) =
         join(&file.into(), lines)?.into_iter().partition(|card| is_read(&name(card)));
-    let others = others.iter().map(|card| {
-        let name = name(card);
-        let reason = reason(&name, ignored);
-        (name, card.line, reason)
-    });
-    let mut unread: Vec<_> = others.collect();
-    let unknown = unread.iter().filter(|card| card.2 == Reason::Unknown).cloned().collect::<Vec<_>>();
+    let mut unread: Vec<_> = others.iter().map(|card| unread(card, &ignored)).collect();
+    let unknown = counted(unread.iter().filter(|card| card.reason == Reason::Unknown));
     if !unknown.is_empty() {
-        return Err(FileError::DeckCards { file: file.to_owned(), cards: counted(unknown) });
+        return Err(FileError::DeckCards { file: file.to_owned(), cards: unknown });
     }
     let mut default: Option<Card> = None;
     let mut weight: Option<Card> = None;
@@ -79,9 +72,14 @@ pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck,
             _ => elements.take(&card)?,
         }
     }
-    let may_lack = unread.iter().any(|card| card.2 == Reason::Ignored);
-    let left_out = constraints.select(file, selected, may_lack)?;
-    unread.extend(left_out.into_iter().map(|card| (card.name, card.line, Reason::NotSelected)));
+    let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
+    let left_out = constraints.select(file, selected, may_lack)?.into_iter();
+    unread.extend(left_out.map(|Card { name, line, .. }| Unread {
+        card: name,
+        line,
+        count: 1,
+        reason: Reason::NotSelected,
+    }));
     let grids = grids.iter().map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
     let mut grids = grids.collect::<Result<BTreeMap<usize, Grid>, FileError>>()?;
     constraints.constrain(&mut grids)?;
@@ -90,14 +88,14 @@ pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck,
         Ok(kept.value)
     });
     let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
-    let members = elements.members()?;
-    let (mut elements, ties) = (elements.elements(&grids)?, constraints.ties(&grids)?);
+    let (mut elements, members) = elements.elements(&grids)?;
+    let ties = constraints.ties(&grids)?;
     if let Some(card) = weight {
         let densities = elements.iter_mut().map(|element| &mut element.material.density);
         scale(&card, densities.chain(masses.iter_mut().map(|point| &mut point.mass)))?;
     }
     let model = BulkData { grids: grids.into_values().collect(), elements, ties, masses };
-    Ok(Deck { model, members, unread: counted(unread) })
+    Ok(Deck { model, members, unread: counted(&unread) })
 }
 
 /// Multiplies masses by `PARAM,WTMASS`, and rounds them to what a deck can hold, so that writing them loses nothing.
@@ -118,4 +116,95 @@ fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileE
     }
     let position = Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?);
     Ok(Grid { label, position, constrained: chosen(8).directions(8)? })
+}
+
+/// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
+/// eigenvalues, which is no part of the model and needs no note.
+#[rustfmt::skip]
+const READ: [&str; 13] = [
+    "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
+];
+/// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
+/// damping, output, the order of equations and other solutions' methods.
+#[rustfmt::skip]
+const WITHOUT_PART: &[&str] = &[
+    "PARAM", "PLOTEL", "SEQGP",
+    "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD3", "PLOAD4",
+    "LOAD", "GRAV", "RFORCE", "SLOAD", "SPCD", "DEFORM", "TEMP", "TEMPD", "TEMPP1", "TEMPP2", "TEMPP3", "TEMPRB",
+    "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "RANDPS", "RANDT1", "TIC",
+    "FREQ", "FREQ1", "FREQ2", "TSTEP", "TABDMP1", "TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABRND1",
+    "CVISC", "PVISC", "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "PDAMP", "EIGB", "EIGC", "EIGP",
+];
+/// Parameters that change stiffness or mass; the last only with a positive value.
+const OF_THE_MODEL: [&str; 6] = ["WTMASS", "CK1", "CK2", "CM1", "CM2", "COUPMASS"];
+
+/// Cards of one name that were not read, for one reason.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// Their name; `PARAM COUPMASS` and its like for a parameter that changes stiffness or mass.
+    pub card: String,
+    /// The line of the first, from one.
+    pub line: usize,
+    /// How many there are.
+    pub count: usize,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why a card was not read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// The crate does not know it: it may be part of the model, and the deck is refused.
+    Unknown,
+    /// The same, but whoever asked for the deck takes responsibility for leaving it out.
+    Ignored,
+    /// It says nothing of stiffness, mass, supports or coordinates.
+    WithoutPart,
+    /// It belongs to a set of constraints that case control does not select.
+    NotSelected,
+}
+
+impl Unread {
+    /// The name with first line and count: `CBAR (line 7, 2 cards)`.
+    pub fn place(&self) -> String {
+        let cards = if self.count == 1 { "card" } else { "cards" };
+        format!("{} (line {}, {} {cards})", self.card, self.line, self.count)
+    }
+}
+
+/// The name that decides about a card: its own, with the parameter behind it for a PARAM that changes the model.
+pub(super) fn name(card: &Card) -> String {
+    let (parameter, value) = (card.text(2), card.text(3));
+    let is_off = parameter == "COUPMASS" && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
+    let changes = card.name == "PARAM" && OF_THE_MODEL.contains(&parameter) && !is_off;
+    if changes { format!("PARAM {parameter}") } else { card.name.clone() }
+}
+
+/// Whether cards of this [`name`] are read.
+fn is_read(name: &str) -> bool {
+    READ.contains(&name) || ELEMENT_CARDS.iter().any(|known| name == known.0 || name == known.1)
+}
+
+/// A card that is not read, where those of the names `ignored` are left out by request.
+fn unread(card: &Card, ignored: &[String]) -> Unread {
+    let name = name(card);
+    let reason = match &name {
+        _ if WITHOUT_PART.contains(&name.as_str()) => Reason::WithoutPart,
+        _ if ignored.contains(&name) => Reason::Ignored,
+        _ => Reason::Unknown,
+    };
+    Unread { card: name, line: card.line, count: 1, reason }
+}
+
+/// Cards put together by name and reason, in the order of the file.
+fn counted<'a>(cards: impl IntoIterator<Item = &'a Unread>) -> Vec<Unread> {
+    let mut groups: BTreeMap<(&str, Reason), Unread> = BTreeMap::new();
+    for card in cards {
+        let group = groups.entry((&card.card, card.reason)).or_insert(Unread { count: 0, ..card.clone() });
+        group.count += 1;
+        group.line = group.line.min(card.line);
+    }
+    let mut groups: Vec<Unread> = groups.into_values().collect();
+    groups.sort_by_key(|group| group.line);
+    groups
 }

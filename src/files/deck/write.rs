@@ -3,12 +3,11 @@
 use super::card::{FIELDS_PER_LINE, LARGEST_LABEL};
 use super::elements::ELEMENT_CARDS;
 use super::lines::LARGE_FIELDS_PER_LINE;
-use super::model::BulkData;
+use super::model::{BulkData, PointMass, Tie};
 use super::number::{LARGE_FIELD, SMALL_FIELD, exact_real, large_real};
 use crate::files::error::FileError;
 use crate::method::error::Error;
-use crate::method::structure::{Grid, Material};
-use std::fmt::Write;
+use crate::method::structure::{Element, Grid, Material};
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
@@ -52,8 +51,7 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
     );
     let mut cards = Cards { text, ..Cards::default() };
     cards.model(model)?;
-    let method = [SET.into(), "INV".into(), lower.into(), upper.into(), count.into(), count.into()];
-    cards.put("EIGR", method.into_iter().chain([Entry::Blank, Entry::Blank, "MASS".into()]).collect())?;
+    cards.put("EIGR", &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"))?;
     cards.text.push_str("ENDDATA\n");
     Ok(cards.text)
 }
@@ -72,33 +70,6 @@ pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
     Ok(cards.text)
 }
 
-/// A field to be written: a label is the number of a grid, an element and so on, a word may be a list of components.
-#[derive(Clone)]
-pub(super) enum Entry {
-    Blank,
-    Label(usize),
-    Word(String),
-    Real(f64),
-}
-
-impl From<usize> for Entry {
-    fn from(label: usize) -> Self {
-        Self::Label(label)
-    }
-}
-
-impl From<&str> for Entry {
-    fn from(word: &str) -> Self {
-        Self::Word(word.to_owned())
-    }
-}
-
-impl From<f64> for Entry {
-    fn from(value: f64) -> Self {
-        Self::Real(value)
-    }
-}
-
 /// Cards as text.
 #[derive(Default)]
 pub(super) struct Cards {
@@ -111,104 +82,90 @@ pub(super) struct Cards {
 
 impl Cards {
     fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
-        for grid in &model.grids {
-            let mut entries = vec![grid.label.into(), Entry::Blank];
-            entries.extend(grid.position.iter().map(|&x| Entry::Real(x)));
-            self.put_sized("GRID", entries, true)?;
+        for Grid { label, position: at, .. } in &model.grids {
+            self.put("GRID", &format!("{label},,{:?},{:?},{:?}", at.x, at.y, at.z))?;
         }
         let mut materials: Vec<Material> = Vec::new();
-        for element in &model.elements {
-            let known = materials.iter().position(|m| *m == element.material);
+        for Element { label, kind, grids, size, material } in &model.elements {
+            let known = materials.iter().position(|other| other == material);
             let row = known.unwrap_or_else(|| {
-                materials.push(element.material);
+                materials.push(*material);
                 materials.len() - 1
             });
-            for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == element.kind) {
-                let labels = [element.label; 2].into_iter().chain(element.grids.iter().copied());
-                self.put(connection, labels.map(Entry::Label).collect())?;
-                self.put(property, vec![element.label.into(), (row + 1).into(), element.size.into()])?;
+            for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == *kind) {
+                let corners: String = grids.iter().map(|grid| format!(",{grid}")).collect();
+                self.put(connection, &format!("{label},{label}{corners}"))?;
+                self.put(property, &format!("{label},{},{size:?}", row + 1))?;
             }
         }
-        for (row, material) in materials.into_iter().enumerate() {
+        for (row, material) in (1..).zip(materials) {
             let Material { youngs_modulus: e, poissons_ratio: nu, shear_modulus: g, density } = material;
             let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-            let shear = if is_derived { Entry::Blank } else { g.into() };
-            let mut entries = vec![(row + 1).into(), e.into(), shear, nu.into()];
-            entries.extend((density != 0.0).then_some(Entry::Real(density)));
-            self.put("MAT1", entries)?;
+            let shear = if is_derived { String::new() } else { format!("{g:?}") };
+            let density = if density == 0.0 { String::new() } else { format!(",{density:?}") };
+            self.put("MAT1", &format!("{row},{e:?},{shear},{nu:?}{density}"))?;
         }
-        for point in &model.masses {
-            let (label, grid, mass) = (point.label.into(), point.grid.into(), point.mass.into());
-            match point.direction {
-                Some(direction) => self.put("CMASS2", vec![label, mass, grid, (direction + 1).into()]),
-                None => self.put("CONM2", vec![label, grid, Entry::Blank, mass]),
+        for PointMass { label, grid, direction, mass } in &model.masses {
+            match direction {
+                Some(direction) => self.put("CMASS2", &format!("{label},{mass:?},{grid},{}", direction + 1)),
+                None => self.put("CONM2", &format!("{label},{grid},,{mass:?}")),
             }?;
         }
-        for tie in &model.ties {
-            let own = std::iter::once((tie.dependent, tie.coefficient));
-            let mut entries = vec![SET.into()];
-            for (row, (dof, coefficient)) in own.chain(tie.terms.iter().copied()).enumerate() {
+        for Tie { dependent, coefficient, terms } in &model.ties {
+            let mut entries = SET.to_string();
+            let own = std::iter::once((*dependent, *coefficient));
+            for (row, (dof, coefficient)) in own.chain(terms.iter().copied()).enumerate() {
                 // Two terms to a line; the last field of one and the first of the next stay blank.
-                if row > 0 && row % 2 == 0 {
-                    entries.extend([Entry::Blank, Entry::Blank]);
-                }
-                entries.extend([dof.grid.into(), (dof.direction + 1).into(), coefficient.into()]);
+                entries += if row > 0 && row % 2 == 0 { ",,," } else { "," };
+                entries += &format!("{},{},{coefficient:?}", dof.grid, dof.direction + 1);
             }
-            self.put("MPC", entries)?;
+            self.put("MPC", &entries)?;
         }
         let alike = |a: &Grid, b: &Grid| a.constrained == b.constrained && a.label + 1 == b.label;
         for run in model.grids.chunk_by(alike) {
-            let (first, last) = (&run[0], &run[run.len() - 1]); // A run has at least one.
+            let (first, last) = (&run[0], run[run.len() - 1].label); // A run has at least one.
             // The rotations of every grid are constrained, for nothing here resists them.
             let named = ["1", "2", "3", "456"].into_iter().zip(first.constrained.into_iter().chain([true]));
-            let components = named.filter_map(|(component, is_constrained)| is_constrained.then_some(component));
-            let components = components.collect();
-            let mut entries = vec![SET.into(), Entry::Word(components), first.label.into()];
-            if run.len() > 1 {
-                entries.extend(["THRU".into(), last.label.into()]);
-            }
-            self.put("SPC1", entries)?;
+            let components: String = named.filter(|(_, is_constrained)| *is_constrained).map(|named| named.0).collect();
+            let through = if run.len() > 1 { format!(",THRU,{last}") } else { String::new() };
+            self.put("SPC1", &format!("{SET},{components},{}{through}", first.label))?;
         }
         Ok(())
     }
 
-    /// A card with fields of 8 characters if they hold every number exactly, of 16 otherwise.
-    pub fn put(&mut self, name: &str, entries: Vec<Entry>) -> Result<(), FileError> {
-        let is_long_word = |entry: &Entry| matches!(entry, Entry::Word(word) if word.len() > SMALL_FIELD);
-        let is_long = |entry: &Entry| matches!(entry, Entry::Real(x) if exact_real(*x, SMALL_FIELD).is_none());
-        let large = entries.iter().any(|entry| is_long(entry) || is_long_word(entry));
-        self.put_sized(name, entries, large)
-    }
-
-    fn put_sized(&mut self, name: &str, entries: Vec<Entry>, large: bool) -> Result<(), FileError> {
-        let (width, per_line, mark, plus) = match large {
+    /// A card with these fields, as in free format but with numbers as Rust writes them; a number with a decimal point or an
+    /// exponent is a real one. Fields of 8 characters are taken if they hold all exactly and it is no GRID, else of 16.
+    pub fn put(&mut self, name: &str, entries: &str) -> Result<(), FileError> {
+        let mut is_large = name == "GRID";
+        let mut fields = Vec::new();
+        for (column, entry) in entries.split(',').enumerate() {
+            let (label, real) = (entry.parse::<usize>(), entry.parse::<f64>());
+            is_large |= entry.len() > SMALL_FIELD && real.is_err();
+            fields.push(match (label, real) {
+                (Ok(label), _) if label > LARGEST_LABEL => {
+                    let what = "number of a grid or element in a deck";
+                    return Err(Error::TooMany { what, available: LARGEST_LABEL, requested: label }.into());
+                }
+                (Err(_), Ok(value)) => {
+                    is_large |= exact_real(value, SMALL_FIELD).is_none();
+                    let what = "number on a bulk data card";
+                    large_real(value).ok_or(Error::NotFinite { what, row: 0, column, value })?
+                }
+                _ => entry.to_owned(),
+            });
+        }
+        let (width, per_line, mark, plus) = match is_large {
             true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*'),
             false => (SMALL_FIELD, FIELDS_PER_LINE, "", '+'),
         };
-        let written = entries.into_iter().enumerate().map(|entry| match entry {
-            (_, Entry::Blank) => Ok(String::new()),
-            (_, Entry::Label(label)) if label > LARGEST_LABEL => Err(Error::TooMany {
-                what: "number of a grid or element in a deck",
-                available: LARGEST_LABEL,
-                requested: label,
-            }),
-            (_, Entry::Label(label)) => Ok(label.to_string()),
-            (_, Entry::Word(word)) => Ok(word),
-            (column, Entry::Real(value)) => {
-                large_real(value).ok_or(Error::NotFinite { what: "number on a bulk data card", row: 0, column, value })
-            }
-        });
-        let mut fields = written.collect::<Result<Vec<String>, _>>()?;
         // NASTRAN-95 takes a line of the large format for half a card and wants the other half too.
         let whole = fields.len().next_multiple_of(FIELDS_PER_LINE);
         fields.resize(whole, String::new());
         let mut first = format!("{name}{mark}");
-        for (row, line) in fields.chunks(per_line).enumerate() {
+        for (row, line) in (1..).zip(fields.chunks(per_line)) {
             let mut written = format!("{first:SMALL_FIELD$}");
-            for field in line {
-                let _ = write!(written, "{field:width$}");
-            }
-            if (row + 1) * per_line < whole {
+            written.extend(line.iter().map(|field| format!("{field:width$}")));
+            if row * per_line < whole {
                 self.tag += 1;
                 first = format!("{plus}{}{}", self.prefix, self.tag);
                 written.push_str(&first);

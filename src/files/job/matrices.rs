@@ -1,7 +1,7 @@
 //! A model given by matrices: its files, and which row is which degree of freedom.
 
-use super::model::{Geometry, ModelSource, beside, range};
-use super::{Job, Scales};
+use super::model::{Geometry, ModelSource, range};
+use super::{Job, ParameterRule, Scales};
 use crate::files::error::FileError;
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
@@ -11,47 +11,37 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The model of a job whose matrices these files hold.
-pub(super) fn from_matrices(path: &Path, job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
-    let stiffness = matrix(path, stiffness)?;
+pub(super) fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
+    let stiffness = matrix(job, stiffness)?;
     let count = stiffness.matrix.rows();
-    let component = |&(grid, component): &(usize, usize)| (grid, component.saturating_sub(1));
-    let own: Option<Vec<_>> = stiffness.rows.as_ref().map(|labels| labels.iter().map(component).collect());
+    let own: Option<Vec<_>> = stiffness.rows.as_ref().map(|labels| labels.iter().map(degree_of_freedom).collect());
     let (labels, places) = match (&job.model.rows, &own) {
-        (Some(file), _) => rows(&beside(path, file))?,
+        (Some(file), _) => rows(&job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
-        (None, None) => {
-            return Err(FileError::job(path, "model.rows for matrices that do not name their rows", "none"));
-        }
+        (None, None) => return Err(job.wrong("model.rows for matrices that do not name their rows", "none")),
     };
-    if labels.len() != count {
-        let expected = format!("{count} rows in model.rows, one a row of the stiffness");
-        return Err(FileError::job(path, expected, labels.len().to_string()));
-    }
-    if own.is_some_and(|own| own != labels) {
-        return Err(FileError::job(path, "model.rows in the order of the stiffness, which names its own", "another"));
-    }
+    let other = Some(labels.len()).filter(|rows| *rows != count);
+    job.refuse(other, format!("{count} rows in model.rows, one a row of the stiffness"))?;
+    let other = own.filter(|own| *own != labels).map(|_| "another");
+    job.refuse(other, "model.rows in the order of the stiffness, which names its own")?;
     let row_of: BTreeMap<_, usize> = labels.iter().enumerate().map(|(row, label)| (*label, row)).collect();
-    if row_of.len() != count {
-        return Err(FileError::job(path, "every grid and direction in one row of the matrices", "one in two"));
-    }
-    let on_rows = |file: &Path| on_rows(path, file, &row_of, matrix(path, file)?);
-    let mass = on_rows(mass)?;
+    let twice = (row_of.len() != count).then_some("one in two");
+    job.refuse(twice, "every grid and direction in one row of the matrices")?;
+    let mass = on_rows(job, mass, &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
-        let is_of_deck = !(rule.elements.is_empty()
-            && rule.properties.is_empty()
-            && rule.materials.is_empty()
-            && rule.masses.is_empty());
+        let ParameterRule { name, elements, properties, materials, masses, .. } = rule;
+        let is_of_deck = !(elements.is_empty() && properties.is_empty() && materials.is_empty() && masses.is_empty());
         let file = rule.matrix.as_ref().filter(|_| !is_of_deck && !rule.each).ok_or_else(|| {
             let found = if rule.matrix.is_none() { "no matrix" } else { "entries of a deck" };
-            FileError::job(path, format!("a matrix, and nothing of a deck, in parameter {}", rule.name), found)
+            job.wrong(format!("a matrix, and nothing of a deck, in parameter {name}"), found)
         })?;
-        let matrix = on_rows(file)?;
+        let matrix = on_rows(job, file, &row_of)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
         };
-        parameters.push(WholeParameter { name: rule.name.clone(), share, range: range(path, rule, &[])? });
+        parameters.push(WholeParameter { name: name.clone(), share, range: range(job, rule, &[])? });
     }
     let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
     let motions = labels.into_iter().enumerate().map(|(row, at)| (at, vec![(row, 1.0)])).collect();
@@ -60,37 +50,31 @@ pub(super) fn from_matrices(path: &Path, job: &Job, stiffness: &Path, mass: &Pat
     Ok(ModelSource { whole, geometry, motions, members, deck: None })
 }
 
+/// Grid and direction of a grid and component.
+fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
+    (grid, component.saturating_sub(1))
+}
+
 /// A matrix of a file; behind a `#` in its name stands which of several.
-fn matrix(path: &Path, file: &Path) -> Result<LabeledMatrix, FileError> {
+fn matrix(job: &Job, file: &Path) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let (file, wanted) = text.rsplit_once('#').map_or((&*text, None), |(file, name)| (file, Some(name)));
-    let file = beside(path, Path::new(file));
+    let file = job.beside(Path::new(file));
     let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
     matrices::read(&file.display().to_string(), &bytes, wanted)
 }
 
-/// A matrix with its rows and columns in the order of the stiffness, where it names its own.
-fn on_rows(
-    path: &Path,
-    file: &Path,
-    row_of: &BTreeMap<(usize, usize), usize>,
-    matrix: LabeledMatrix,
-) -> Result<SparseMatrix, FileError> {
-    let Some(found) = &matrix.rows else { return Ok(matrix.matrix) };
-    if matrix.columns != matrix.rows {
-        let expected = format!("rows and columns of the same names in {}", file.display());
-        return Err(FileError::job(path, expected, "others"));
-    }
-    let place = |&(grid, component): &(usize, usize)| {
-        let at = (grid, component.saturating_sub(1));
-        let unknown = || {
-            let expected = format!("rows of the stiffness in {}", file.display());
-            FileError::job(path, expected, format!("grid {grid} component {component}"))
-        };
-        row_of.get(&at).copied().ok_or_else(unknown)
-    };
-    let places = found.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
-    let entries = matrix.matrix.entries().iter().map(|&(row, column, value)| (places[row], places[column], value));
+/// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
+fn on_rows(job: &Job, file: &Path, row_of: &BTreeMap<(usize, usize), usize>) -> Result<SparseMatrix, FileError> {
+    let LabeledMatrix { rows, columns, matrix, .. } = matrix(job, file)?;
+    let Some(labels) = &rows else { return Ok(matrix) };
+    let others = (columns != rows).then_some("others");
+    job.refuse(others, format!("rows and columns of the same names in {}", file.display()))?;
+    let stranger = labels.iter().find(|label| !row_of.contains_key(&degree_of_freedom(label)));
+    let stranger = stranger.map(|(grid, component)| format!("grid {grid} component {component}"));
+    job.refuse(stranger, format!("rows of the stiffness in {}", file.display()))?;
+    let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
+    let entries = matrix.entries().iter().map(|&(row, column, value)| (place(row), place(column), value));
     Ok(SparseMatrix::new("matrix by labels", row_of.len(), row_of.len(), entries.collect())?)
 }
 
@@ -100,27 +84,32 @@ type Rows = (Vec<(usize, usize)>, BTreeMap<usize, Vector3<f64>>);
 /// Reads a table `grid,direction,x,y,z`.
 fn rows(file: &Path) -> Result<Rows, FileError> {
     let text = std::fs::read_to_string(file).map_err(FileError::of_file(file, "read"))?;
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
+    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {
         let cells = cells(line, separator(line));
         if labels.is_empty() && cells.first().is_some_and(|cell| cell.eq_ignore_ascii_case("grid")) {
             continue;
         }
-        let wrong = || {
-            FileError::job(file, "lines of grid, direction and perhaps x, y, z", format!("line {}: {line}", number + 1))
-        };
-        let grid: usize = cells.first().and_then(|cell| cell.parse().ok()).ok_or_else(wrong)?;
-        let letters = cells.get(1).map_or("", String::as_str);
-        let direction = DIRECTIONS.iter().position(|name| *name == letters).ok_or_else(wrong)?;
-        labels.push((grid, direction));
-        let place: Vec<Option<f64>> =
-            cells[2..].iter().map(|cell| cell.parse().ok().filter(|number: &f64| number.is_finite())).collect();
-        match place[..] {
-            [Some(x), Some(y), Some(z)] => drop(places.insert(grid, Vector3::new(x, y, z))),
-            _ if cells[2..].iter().all(|cell| cell.is_empty()) => {}
-            _ => return Err(wrong()),
-        }
+        let (label, place) = row(&cells).ok_or_else(|| {
+            FileError::job(file, "lines of grid, direction and perhaps x, y, z", format!("line {number}: {line}"))
+        })?;
+        labels.push(label);
+        places.extend(place.map(|place| (label.0, place)));
     }
     Ok((labels, places))
+}
+
+/// Grid and direction of a row, and its place if it has one.
+fn row(cells: &[String]) -> Option<((usize, usize), Option<Vector3<f64>>)> {
+    let [grid, direction, place @ ..] = cells else { return None };
+    let label = (grid.parse().ok()?, DIRECTIONS.iter().position(|name| name == direction)?);
+    if place.iter().all(String::is_empty) {
+        return Some((label, None));
+    }
+    let number = |cell: &String| cell.parse().ok().filter(|number: &f64| number.is_finite());
+    match place.iter().map(number).collect::<Option<Vec<_>>>()?[..] {
+        [x, y, z] => Some((label, Some(Vector3::new(x, y, z)))),
+        _ => None,
+    }
 }

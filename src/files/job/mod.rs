@@ -21,6 +21,7 @@ pub use study::{Study, Vary};
 use crate::files::error::FileError;
 use crate::method::outer_loop::Settings;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
@@ -29,22 +30,20 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// A test as a table that explains itself.
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
-/// What a job file says.
+/// What a job file says, of which [`TEMPLATE`] explains every entry.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
+    #[serde(skip)]
+    path: PathBuf,
     /// What reports call the structure; the file's name if not given.
     pub title: Option<String>,
-    /// The model's files.
-    pub model: ModelFiles,
-    /// The test's file, and what is taken of it.
-    pub test: TestFile,
-    /// Where the sensors are on the model.
+    model: ModelFiles,
+    test: TestFile,
     #[serde(default)]
-    pub sensors: SensorRules,
-    /// What may change.
+    sensors: SensorRules,
     #[serde(rename = "parameter", default)]
-    pub parameters: Vec<ParameterRule>,
+    parameters: Vec<ParameterRule>,
     /// What is compared.
     #[serde(default)]
     pub compare: Compare,
@@ -53,165 +52,108 @@ pub struct Job {
     pub correlation: Settings,
 }
 
-/// The model: a NASTRAN deck, or matrices.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ModelFiles {
-    /// The deck.
-    pub deck: Option<PathBuf>,
-    /// Cards of the deck that are left out although they are not understood.
-    #[serde(default)]
-    pub ignore: Vec<String>,
-    /// $K$ as Matrix Market, DMIG or OUTPUT4.
-    pub stiffness: Option<PathBuf>,
-    /// $M$ in the same way.
-    pub mass: Option<PathBuf>,
-    /// Which row of the matrices is which grid and direction, and where the grid is: a table `grid,direction,x,y,z`, of which the
-    /// coordinates may be missing. Matrices that name their rows need none.
-    pub rows: Option<PathBuf>,
+#[serde(default, deny_unknown_fields)]
+struct ModelFiles {
+    deck: Option<PathBuf>,
+    ignore: Vec<String>,
+    stiffness: Option<PathBuf>,
+    mass: Option<PathBuf>,
+    rows: Option<PathBuf>,
 }
 
-/// The test.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct TestFile {
-    /// A Universal File or a table.
-    pub file: PathBuf,
-    /// Which of its modes, counted from one; all if not given.
-    pub modes: Option<Vec<usize>>,
-    /// Whether Appendix B makes them fit: orthogonalized with the mass at the sensors, and those deleted that move too much.
+struct TestFile {
+    file: PathBuf,
+    modes: Option<Vec<usize>>,
     #[serde(default)]
-    pub orthogonalize: bool,
+    orthogonalize: bool,
 }
 
-/// How sensors are found on the model.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SensorRules {
-    /// By what they are matched.
-    #[serde(default)]
-    pub by: SensorRule,
-    /// Largest distance of a sensor from its grid, in units of length.
-    pub distance: Option<f64>,
-    /// Names of sensors that are not used.
-    #[serde(default)]
-    pub leave_out: Vec<String>,
-    /// Sensors whose place is given here, whatever the rule.
-    #[serde(default)]
-    pub place: Vec<SensorPlace>,
+#[serde(default, deny_unknown_fields)]
+struct SensorRules {
+    by: SensorRule,
+    distance: Option<f64>,
+    leave_out: Vec<String>,
+    place: Vec<SensorPlace>,
 }
 
-/// By what sensors are matched with the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum SensorRule {
-    /// The test's grid numbers are the model's.
+enum SensorRule {
     #[default]
     Grid,
-    /// The nearest grid of the model that moves in the sensor's direction.
     Nearest,
-    /// Only sensors with a place of their own in the job are used.
     Name,
 }
 
-/// The place of one sensor.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SensorPlace {
-    /// Its name in the test.
-    pub sensor: String,
-    /// The model's grid.
-    pub grid: usize,
-    /// `x`, `y` or `z`, with a minus sign in front where the sensor points the other way.
-    pub direction: String,
+struct SensorPlace {
+    sensor: String,
+    grid: usize,
+    direction: String,
 }
 
-/// What one parameter scales.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ParameterRule {
-    /// What it is called; with `each`, what stands in front of every element's number.
-    pub name: String,
-    /// Numbers of elements, or ranges of them such as `"10-19"`.
+struct ParameterRule {
+    name: String,
     #[serde(default)]
-    pub elements: Vec<Labels>,
-    /// Numbers of properties whose elements belong to it.
+    elements: Vec<Labels>,
     #[serde(default)]
-    pub properties: Vec<usize>,
-    /// Numbers of materials whose elements belong to it.
+    properties: Vec<usize>,
     #[serde(default)]
-    pub materials: Vec<usize>,
-    /// Numbers of point masses.
+    materials: Vec<usize>,
     #[serde(default)]
-    pub masses: Vec<Labels>,
-    /// A file with its part of the first stiffness or mass, where the model is given by matrices.
-    pub matrix: Option<PathBuf>,
-    /// Whether the stiffness or the mass of what is named is scaled.
+    masses: Vec<Labels>,
+    matrix: Option<PathBuf>,
     #[serde(default)]
-    pub scales: Scales,
-    /// Whether every element named is a parameter of its own.
+    scales: Scales,
     #[serde(default)]
-    pub each: bool,
-    /// Least factor.
-    pub lower: Option<f64>,
-    /// Largest factor.
-    pub upper: Option<f64>,
-    /// Least gage or area of each of its elements, of a deck.
-    pub lower_size: Option<f64>,
-    /// Largest.
-    pub upper_size: Option<f64>,
+    each: bool,
+    lower: Option<f64>,
+    upper: Option<f64>,
+    lower_size: Option<f64>,
+    upper_size: Option<f64>,
 }
 
-/// One number or a range of them.
+/// One number, or a range such as `10-19`.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(untagged)]
-pub enum Labels {
-    /// One.
+enum Labels {
     One(usize),
-    /// From the first to the last, such as `10-19`.
     Range(String),
 }
 
-/// What a parameter scales.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Scales {
-    /// The stiffness.
+enum Scales {
     #[default]
     Stiffness,
-    /// The mass.
     Mass,
 }
 
 /// What is compared, and how.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Compare {
     /// Which modes of the model.
-    #[serde(default)]
     pub modes: ComparedModes,
-    /// How many modes of the model; if not given, as many as the test has and half as many again, at least four more.
-    pub analysis_modes: Option<usize>,
-    /// How they are paired.
-    #[serde(default)]
-    pub pairing: PairingRule,
-    /// Modal assurance below which a test mode has no partner at the start and is left out; one half if not given.
-    pub floor: Option<f64>,
+    analysis_modes: Option<usize>,
+    pairing: PairingRule,
+    floor: Option<f64>,
     /// How the factors are found.
-    #[serde(default)]
     pub method: Method,
-    /// Standard deviation of every frequency, a fraction, where the test has none of its own.
-    pub frequency_deviation: Option<f64>,
-    /// Standard deviation of every shape, a fraction of its largest component, where the test has none of its own.
-    pub shape_deviation: Option<f64>,
-    /// Weights of the frequencies, one a test mode: on top of their deviations, or of the paper's frequency errors.
-    pub frequency_weights: Option<Vec<f64>>,
-    /// Weights of the shapes in the same way.
-    pub shape_weights: Option<Vec<f64>>,
-    /// How many first points are tried by Gauss–Newton steps.
+    frequency_deviation: Option<f64>,
+    shape_deviation: Option<f64>,
+    frequency_weights: Option<Vec<f64>>,
+    shape_weights: Option<Vec<f64>>,
+    /// How many first points are tried by Gauss–Newton steps; one if not given.
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
-    #[serde(default)]
     pub seed: u64,
 }
 
@@ -227,13 +169,10 @@ pub enum ComparedModes {
     Condensed,
 }
 
-/// How test modes are paired with the model's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum PairingRule {
-    /// The paper's: the closest pair first, then the closest of what is left.
+enum PairingRule {
     Closest,
-    /// The pairs with the largest sum of modal assurance.
     #[default]
     Optimal,
 }
@@ -249,42 +188,57 @@ pub enum Method {
     GaussNewton,
 }
 
+/// Most numbers in one list, against a slip of the finger that fills the memory.
+const MOST_LABELS: usize = 10_000_000;
+
 /// Reads a job file.
 ///
 /// # Errors
 /// [`FileError::File`] when it cannot be read; [`FileError::Job`] naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
-    let wrong = |error: toml::de::Error| FileError::job(path, "a job as corfem init explains it", error.to_string());
-    toml::from_str(&text).map_err(wrong)
+    let job = toml::from_str(&text).map(|job| Job { path: path.to_owned(), ..job });
+    job.map_err(|error| FileError::job(path, "a job as corfem init explains it", error.to_string()))
 }
 
-/// The numbers that a list names.
-///
-/// # Errors
-/// [`FileError::Job`] for a range that is none.
-pub(crate) fn labels(path: &Path, list: &[Labels]) -> Result<Vec<usize>, FileError> {
-    let mut all = Vec::new();
-    for labels in list {
-        match labels {
-            Labels::One(label) => all.push(*label),
-            Labels::Range(text) => {
-                let ends = text
-                    .split_once('-')
-                    .map(|(first, last)| (first.trim().parse::<usize>(), last.trim().parse::<usize>()));
-                match ends {
-                    Some((Ok(first), Ok(last)))
-                        if first <= last && last - first < MOST_LABELS.saturating_sub(all.len()) =>
-                    {
-                        all.extend(first..=last)
-                    }
-                    _ => return Err(FileError::job(path, "a range of numbers such as \"10-19\"", text.clone())),
-                }
-            }
-        }
+impl Job {
+    /// A path that the job names, from the job's own folder.
+    fn beside(&self, named: &Path) -> PathBuf {
+        self.path.parent().map_or_else(|| named.to_owned(), |folder| folder.join(named))
     }
-    Ok(all)
-}
 
-/// Most numbers in one list, against a slip of the finger that fills the memory.
-const MOST_LABELS: usize = 10_000_000;
+    /// Its file's name.
+    pub(crate) fn stem(&self) -> String {
+        self.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    }
+
+    fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {
+        FileError::job(&self.path, expected, found)
+    }
+
+    /// Refuses what is found instead of what is expected, if anything is.
+    fn refuse(&self, found: Option<impl ToString>, expected: impl Into<String>) -> Result<(), FileError> {
+        found.map_or(Ok(()), |found| Err(self.wrong(expected, found.to_string())))
+    }
+
+    /// The numbers that a list names.
+    fn labels(&self, list: &[Labels]) -> Result<BTreeSet<usize>, FileError> {
+        let mut all = Vec::new();
+        for labels in list {
+            let text = match labels {
+                Labels::One(label) => {
+                    all.push(*label);
+                    continue;
+                }
+                Labels::Range(text) => text,
+            };
+            let number = |text: &str| text.trim().parse::<usize>().ok();
+            let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
+            let room = MOST_LABELS.saturating_sub(all.len());
+            let ends = ends.filter(|(first, last)| first <= last && last - first < room);
+            let (first, last) = ends.ok_or_else(|| self.wrong("a range of numbers such as \"10-19\"", text))?;
+            all.extend(first..=last);
+        }
+        Ok(all.into_iter().collect())
+    }
+}

@@ -1,8 +1,8 @@
 //! The model that a job names, as matrices at all degrees of freedom, and where these are.
 
 use super::matrices::from_matrices;
-use super::{Job, ParameterRule, Scales, labels};
-use crate::files::deck::{self, Deck};
+use super::{Job, ParameterRule, Scales};
+use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
 use crate::method::assembly::element_matrices;
 use crate::method::error::Error;
@@ -11,8 +11,8 @@ use crate::method::structure::StructuralDof;
 use crate::studies::whole_model::elements::{mass_entries, moving_mass_entries, stiffness_entries};
 use crate::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::Vector3;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Where a model's grids are, and which of them elements join.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,35 +38,22 @@ pub struct ModelSource {
     pub members: Vec<Vec<usize>>,
 }
 
-/// Reads the model of a job; paths are relative to the job's own folder.
-///
-/// # Errors
-/// Those of the files read; [`FileError::Job`] for a job that names no model, two, or parameters that do not fit it;
-/// those of [`WholeModel::new`].
-pub fn load(path: &Path, job: &Job) -> Result<ModelSource, FileError> {
-    let files = &job.model;
-    if job.parameters.is_empty() {
-        return Err(FileError::job(path, "at least one [[parameter]]", "none"));
-    }
-    let what = "either model.deck, or model.stiffness and model.mass";
-    match (&files.deck, &files.stiffness, &files.mass) {
-        (Some(deck), None, None) => from_deck(path, job, &beside(path, deck)),
-        (None, Some(stiffness), Some(mass)) => from_matrices(path, job, stiffness, mass),
-        (None, None, None) => Err(FileError::job(path, what, "neither")),
-        (Some(_), ..) => Err(FileError::job(path, what, "a deck and matrices")),
-        _ => Err(FileError::job(path, what, "one matrix alone")),
-    }
+/// Reads the model of a job.
+pub(super) fn load(job: &Job) -> Result<ModelSource, FileError> {
+    job.refuse(job.parameters.is_empty().then_some("none"), "at least one [[parameter]]")?;
+    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
+        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
+        (None, None, None) => "neither",
+        (Some(_), ..) => "a deck and matrices",
+        _ => "one matrix alone",
+    };
+    Err(job.wrong("either model.deck, or model.stiffness and model.mass", found))
 }
 
-/// A path that a job names, from the job's own folder.
-pub fn beside(job: &Path, named: &Path) -> PathBuf {
-    job.parent().map_or_else(|| named.to_owned(), |folder| folder.join(named))
-}
-
-fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileError> {
+fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let bytes = std::fs::read(file).map_err(FileError::of_file(file, "read"))?;
-    let ignored: Vec<String> = job.model.ignore.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
-    let deck = deck::read_without(&file.display().to_string(), &bytes, &ignored)?;
+    let deck = deck::read_without(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
     let elements = element_matrices(&structure)?;
@@ -82,18 +69,10 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
     let motion_of = bulk.motions(&structure);
     let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
-        if rule.matrix.is_some() {
-            return Err(FileError::job(path, "parameters of a deck by elements or masses", "a matrix"));
-        }
-        for (name, labels, points) in groups(path, rule, &deck)? {
-            let unknown = |label: &&usize| !row_of.contains_key(*label);
-            if let Some(label) = labels.iter().find(unknown) {
-                return Err(FileError::job(
-                    path,
-                    format!("elements of the deck in parameter {name}"),
-                    label.to_string(),
-                ));
-            }
+        job.refuse(rule.matrix.as_ref().map(|_| "a matrix"), "parameters of a deck by elements or masses")?;
+        for Group { name, elements: labels, masses } in groups(job, rule, &deck)? {
+            let unknown = labels.iter().find(|label| !row_of.contains_key(label));
+            job.refuse(unknown, format!("elements of the deck in parameter {name}"))?;
             for &element in &labels {
                 if let Some(first) = owner.insert((rule.scales == Scales::Mass, element), name.clone()) {
                     return Err(Error::SharedElement { element, first, second: name }.into());
@@ -101,23 +80,20 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
             }
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
-                Scales::Stiffness if !points.is_empty() => {
-                    return Err(FileError::job(
-                        path,
-                        "scales = \"mass\" for point masses",
-                        format!("stiffness in parameter {name}"),
-                    ));
+                Scales::Stiffness => {
+                    let found = (!masses.is_empty()).then(|| format!("stiffness in parameter {name}"));
+                    job.refuse(found, "scales = \"mass\" for point masses")?;
+                    WholeShare::Stiffness(stiffness_of(&rows)?)
                 }
-                Scales::Stiffness => WholeShare::Stiffness(stiffness_of(&rows)?),
                 Scales::Mass => {
                     let lumped = rows.iter().flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
                     let mut entries: Vec<_> = lumped.collect();
-                    for point in &points {
-                        let expected = || format!("point masses of the deck in parameter {name}");
-                        let unknown = || FileError::job(path, expected(), point.to_string());
-                        let point = bulk.masses.iter().find(|mass| mass.label == *point).ok_or_else(unknown)?;
-                        for direction in (0..3).filter(|d| point.direction.is_none_or(|own| own == *d)) {
-                            let motion = motion_of(StructuralDof { grid: point.grid, direction });
+                    let is_known = |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
+                    let unknown = masses.iter().find(|label| !is_known(label));
+                    job.refuse(unknown, format!("point masses of the deck in parameter {name}"))?;
+                    for point in bulk.masses.iter().filter(|point| masses.contains(&point.label)) {
+                        for dof in point.dof() {
+                            let motion = motion_of(dof);
                             entries.extend(moving_mass_entries(&motion, &motion, point.mass));
                         }
                     }
@@ -125,7 +101,7 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
                 }
             };
             let sizes: Vec<f64> = rows.iter().map(|&row| bulk.elements[row].size).collect();
-            parameters.push(WholeParameter { name, share, range: range(path, rule, &sizes)? });
+            parameters.push(WholeParameter { name, share, range: range(job, rule, &sizes)? });
             members.push(labels);
         }
     }
@@ -142,52 +118,48 @@ fn from_deck(path: &Path, job: &Job, file: &Path) -> Result<ModelSource, FileErr
     Ok(ModelSource { whole, geometry, motions, members, deck: Some((bytes, deck)) })
 }
 
-/// A parameter of a deck: its name, elements and point masses.
-type Group = (String, Vec<usize>, Vec<usize>);
+/// One parameter of a deck, its elements and point masses ascending.
+struct Group {
+    name: String,
+    elements: Vec<usize>,
+    masses: Vec<usize>,
+}
 
 /// The parameters that a rule makes of a deck.
-fn groups(path: &Path, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, FileError> {
-    let mut elements: BTreeSet<usize> = labels(path, &rule.elements)?.into_iter().collect();
-    let is_of = |m: &deck::Membership| {
-        m.property.is_some_and(|p| rule.properties.contains(&p)) || rule.materials.contains(&m.material)
-    };
-    elements.extend(deck.members.iter().filter(|(_, membership)| is_of(membership)).map(|(label, _)| *label));
-    let (has, name) = (|is: &dyn Fn(&deck::Membership) -> bool| deck.members.iter().any(|(_, m)| is(m)), &rule.name);
-    let property = rule.properties.iter().find(|p| !has(&|m| m.property == Some(**p)));
-    let material = rule.materials.iter().find(|own| !has(&|m| m.material == **own));
-    if let Some(label) = property.or(material) {
-        let expected = format!("properties and materials of the deck's elements in parameter {name}");
-        return Err(FileError::job(path, expected, label.to_string()));
+fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, FileError> {
+    let ParameterRule { name, properties, materials, each, .. } = rule;
+    let (mut elements, masses) = (job.labels(&rule.elements)?, job.labels(&rule.masses)?);
+    let is_of =
+        |of: &Membership| of.property.is_some_and(|p| properties.contains(&p)) || materials.contains(&of.material);
+    elements.extend(deck.members.iter().filter(|(_, of)| is_of(of)).map(|(label, _)| *label));
+    let members = || deck.members.values();
+    let property = properties.iter().find(|label| members().all(|of| of.property != Some(**label)));
+    let material = materials.iter().find(|label| members().all(|of| of.material != **label));
+    job.refuse(property.or(material), format!("properties and materials of the deck's elements in parameter {name}"))?;
+    let none = (elements.is_empty() && masses.is_empty()).then_some("none that the deck has");
+    job.refuse(none, format!("elements or masses in parameter {name}"))?;
+    if !each {
+        let [elements, masses] = [elements, masses].map(|labels| labels.into_iter().collect());
+        return Ok(vec![Group { name: name.clone(), elements, masses }]);
     }
-    let masses: BTreeSet<usize> = labels(path, &rule.masses)?.into_iter().collect();
-    let elements: Vec<usize> = elements.into_iter().collect();
-    if elements.is_empty() && masses.is_empty() {
-        return Err(FileError::job(path, format!("elements or masses in parameter {name}"), "none that the deck has"));
-    }
-    if !rule.each {
-        return Ok(vec![(name.clone(), elements, masses.into_iter().collect())]);
-    }
-    let of_elements = elements.into_iter().map(|label| (format!("{name} {label}"), vec![label], Vec::new()));
-    let of_masses = masses.into_iter().map(|label| (format!("{name} mass {label}"), Vec::new(), vec![label]));
-    Ok(of_elements.chain(of_masses).collect())
+    let of_element = |label| Group { name: format!("{name} {label}"), elements: vec![label], masses: Vec::new() };
+    let of_mass = |label| Group { name: format!("{name} mass {label}"), elements: Vec::new(), masses: vec![label] };
+    Ok(elements.into_iter().map(of_element).chain(masses.into_iter().map(of_mass)).collect())
 }
 
 /// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within its bounds on these.
-pub(super) fn range(path: &Path, rule: &ParameterRule, sizes: &[f64]) -> Result<Option<Range>, FileError> {
+pub(super) fn range(job: &Job, rule: &ParameterRule, sizes: &[f64]) -> Result<Option<Range>, FileError> {
     let name = &rule.name;
-    let both = |names: [&str; 2], bounds: [Option<f64>; 2], what: &str| match bounds {
-        [None, None] => Ok(None),
-        [Some(lower), Some(upper)] => Ok(Some(Range::positive(&format!("{what} of parameter {name}"), lower, upper)?)),
-        _ => Err(FileError::job(path, format!("both {} in parameter {name}", names.join(" and ")), "one of them")),
+    let both = |[lower, upper]: [Option<f64>; 2], names: &str, what: &str| match (lower, upper) {
+        (None, None) => Ok(None),
+        (Some(lower), Some(upper)) => Ok(Some(Range::positive(&format!("{what} of parameter {name}"), lower, upper)?)),
+        _ => Err(job.wrong(format!("both {names} in parameter {name}"), "one of them")),
     };
-    let own = both(["lower", "upper"], [rule.lower, rule.upper], "factor")?;
-    let Some(of_sizes) = both(["lower_size", "upper_size"], [rule.lower_size, rule.upper_size], "sizes")? else {
-        return Ok(own);
-    };
-    if sizes.is_empty() || rule.scales == Scales::Mass {
-        let expected = format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes");
-        return Err(FileError::job(path, expected, "another"));
-    }
+    let own = both([rule.lower, rule.upper], "lower and upper", "factor")?;
+    let of_sizes = both([rule.lower_size, rule.upper_size], "lower_size and upper_size", "sizes")?;
+    let Some(of_sizes) = of_sizes else { return Ok(own) };
+    let another = (sizes.is_empty() || rule.scales == Scales::Mass).then_some("another");
+    job.refuse(another, format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes"))?;
     let (lower, upper) = own.map_or((0.0, f64::INFINITY), |own| (own.lower, own.upper));
     let lower = sizes.iter().fold(lower, |lower, size| lower.max(of_sizes.lower / size));
     let upper = sizes.iter().fold(upper, |upper, size| upper.min(of_sizes.upper / size));

@@ -1,6 +1,6 @@
 //! Model and test put together: what a correlation of a job starts from.
 
-use super::model::{beside, load};
+use super::model::load;
 use super::sensors::{PlacedSensor, place};
 use super::{Compare, ComparedModes, Job, Method, ModelSource, PairingRule, read};
 use crate::files::error::FileError;
@@ -14,11 +14,12 @@ use crate::studies::assignment::pair_optimally;
 use crate::studies::expansion::mass_by_modes;
 use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
-use std::path::{Path, PathBuf};
+use std::collections::HashSet;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
-pub const FLOOR: f64 = 0.5;
+const FLOOR: f64 = 0.5;
 
 /// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
 /// acceptable.
@@ -27,9 +28,7 @@ const LARGEST_OVERLAP: f64 = 0.05;
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
 pub struct Prepared {
-    /// The job's file.
-    pub path: PathBuf,
-    /// What it says.
+    /// What the job's file says.
     pub job: Job,
     /// What reports call the structure.
     pub title: String,
@@ -51,8 +50,8 @@ pub struct Prepared {
     pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and by what and with what it was compared.
-    first: Option<(Compare, usize, ModeSet, ModalModel)>,
+    /// The first model, and how and with how many modes it was compared.
+    first: Option<(Compare, usize, ModalModel)>,
 }
 
 impl Prepared {
@@ -63,29 +62,23 @@ impl Prepared {
     /// a partner; those of the first analysis and of [`Prepared::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
-        let file = beside(path, &job.test.file);
+        let file = job.beside(&job.test.file);
         let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
         let data = test_data::read(&file.display().to_string(), &bytes)?;
-        let source = Arc::new(load(path, &job)?);
-        Self::with(path, job, data, source)
+        let source = Arc::new(load(&job)?);
+        Self::with(job, data, source)
     }
 
     /// The same with all files read, for a test or a choice of it that no file holds.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`].
-    pub fn with(path: &Path, job: Job, data: TestData, source: Arc<ModelSource>) -> Result<Self, FileError> {
-        let (placed, sensors) = place(path, &job, &data, &source)?;
+    pub(super) fn with(job: Job, data: TestData, source: Arc<ModelSource>) -> Result<Self, FileError> {
+        let (placed, sensors) = place(&job, &data, &source)?;
         let available = data.frequencies_hz.len();
         let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
-        if let Some(&mode) = numbers.iter().find(|mode| !(1..=available).contains(*mode)) {
-            return Err(FileError::job(path, format!("test.modes from 1 to {available}"), mode.to_string()));
-        }
-        if let Some(mode) =
-            (1..numbers.len()).map(|at| numbers[at]).zip(1..).find(|(mode, at)| numbers[..*at].contains(mode))
-        {
-            return Err(FileError::job(path, "every mode of test.modes once", format!("{} again", mode.0)));
-        }
+        let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
+        job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
+        let mut seen = HashSet::new();
+        let again = numbers.iter().find(|mode| !seen.insert(**mode));
+        job.refuse(again.map(|mode| format!("{mode} again")), "every mode of test.modes once")?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
@@ -94,24 +87,19 @@ impl Prepared {
             ComparedModes::Condensed => placed.len(),
         };
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
-        let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let title = job.title.clone().unwrap_or(title);
-        let path = path.to_owned();
-        let (unpaired, deleted, first) = (Vec::new(), Vec::new(), None);
         let mut prepared = Self {
-            path,
+            title: job.title.clone().unwrap_or_else(|| job.stem()),
             job,
-            title,
             source,
             data,
             placed,
             sensors,
             test,
             modes,
-            unpaired,
-            deleted,
+            unpaired: Vec::new(),
+            deleted: Vec::new(),
             analysis_modes,
-            first,
+            first: None,
         };
         if prepared.job.test.orthogonalize {
             prepared.orthogonalize()?;
@@ -124,8 +112,7 @@ impl Prepared {
     /// Appendix B: the test modes orthogonalized with the mass at the sensors, without those that move too much by it. The structure
     /// counts as held, so that nothing is balanced.
     fn orthogonalize(&mut self) -> Result<(), FileError> {
-        let ones = vec![1.0; self.source.whole.parameters().len()];
-        let (_, mass) = self.source.whole.condensed(&ones, &self.sensors)?;
+        let (_, mass) = self.source.whole.condensed(&self.ones(), &self.sensors)?;
         let examined = examine(&self.test, &mass, Supports::Held, &MovementLimits::default())?;
         let reports = self.modes.iter().copied().zip(examined.reports);
         self.deleted = reports.filter(|(_, report)| report.verdict != ModeVerdict::Kept).collect();
@@ -136,21 +123,20 @@ impl Prepared {
 
     /// Leaves out the test modes that no mode of the first model is like.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
-        let ones = vec![1.0; self.source.whole.parameters().len()];
-        let mut first = self.analyze(&ones);
+        let mut first = self.analyze(&self.ones());
         // Half as many again as test modes may be more than the model has.
         if let Err(Error::TooMany { what: FINITE, available, .. }) = first
             && self.job.compare.analysis_modes.is_none()
             && available > 0
         {
             self.analysis_modes = available;
-            first = self.analyze(&ones);
+            first = self.analyze(&self.ones());
         }
         let shapes = match &first {
             Ok(first) => first.exact.modes.shapes.clone(),
             // More test modes than the model has are still to be looked at.
             Err(Error::TooMany { what: "test modes", .. }) => {
-                let modes = self.source.whole.modes(&ones, self.analysis_modes)?.vibrations;
+                let modes = self.source.whole.modes(&self.ones(), self.analysis_modes)?.vibrations;
                 self.sensors.times(&modes.shapes)?
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
@@ -161,15 +147,11 @@ impl Prepared {
         let kept: Vec<usize> = (0..partners.len()).filter(|&mode| partners[mode].is_some()).collect();
         let left = (0..partners.len()).filter(|&mode| partners[mode].is_none());
         self.unpaired = left.map(|mode| (self.modes[mode], assurance.column(mode).max())).collect();
-        if kept.is_empty() {
-            let best = assurance.max();
-            let expected =
-                format!("a mode of the model with a modal assurance of {floor} or more for one test mode at least");
-            return Err(FileError::job(&self.path, expected, format!("{best:.3} at most")));
-        }
+        let best = kept.is_empty().then(|| format!("{:.3} at most", assurance.max()));
+        let expected = "a mode of the model with a modal assurance of";
+        self.job.refuse(best, format!("{expected} {floor} or more for one test mode at least"))?;
         if self.unpaired.is_empty() {
-            let compare = self.job.compare.clone();
-            self.first = first.ok().map(|first| (compare, self.analysis_modes, self.test.clone(), first));
+            self.first = first.ok().map(|first| (self.job.compare.clone(), self.analysis_modes, first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -179,16 +161,19 @@ impl Prepared {
     /// The mass at the sensors that cross-orthogonality is to be measured with: the condensed one where the model's own modes are
     /// orthogonal with it, else that of the lowest modes themselves; none where these are too alike at the sensors.
     pub fn mass_at_sensors(&self, model: &ModalModel) -> Option<DMatrix<f64>> {
-        let ones = vec![1.0; self.source.whole.parameters().len()];
         let shapes = &model.exact.modes.shapes;
         let count = shapes.ncols().min(shapes.nrows());
         let lowest = shapes.columns(0, count.min(self.test.len())).into_owned();
-        let apart = |mass: &DMatrix<f64>| {
-            (lowest.tr_mul(&(mass * &lowest)) - DMatrix::identity(lowest.ncols(), lowest.ncols())).amax()
-        };
-        let condensed = self.source.whole.condensed(&ones, &self.sensors).ok().map(|(_, mass)| mass);
+        let identity = DMatrix::identity(lowest.ncols(), lowest.ncols());
+        let apart = |mass: &DMatrix<f64>| (lowest.tr_mul(&(mass * &lowest)) - &identity).amax();
+        let condensed = self.source.whole.condensed(&self.ones(), &self.sensors).ok().map(|(_, mass)| mass);
         let fitting = condensed.filter(|mass| apart(mass) <= LARGEST_OVERLAP);
         fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
+    }
+
+    /// The first factors.
+    pub(super) fn ones(&self) -> Vec<f64> {
+        vec![1.0; self.source.whole.parameters().len()]
     }
 
     /// What the loops are handed at the given parameter factors.
@@ -196,18 +181,20 @@ impl Prepared {
     /// # Errors
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
-        if let Some((compare, count, test, first)) = &self.first
+        if let Some((compare, count, first)) = &self.first
+            && (compare, *count) == (&self.job.compare, self.analysis_modes)
             && factors.iter().all(|&factor| factor == 1.0)
-            && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
         {
             return Ok(first.clone());
         }
-        let (whole, pair) = (&self.source.whole, pairing_rule(self.job.compare.pairing));
+        let (whole, sensors, test, count) = (&self.source.whole, &self.sensors, &self.test, self.analysis_modes);
+        let pair: Pair = match self.job.compare.pairing {
+            PairingRule::Closest => pair_modes,
+            PairingRule::Optimal => pair_by_assignment,
+        };
         let model = match self.job.compare.modes {
-            ComparedModes::Whole => whole.analyze(factors, &self.sensors, (&self.test, pair), self.analysis_modes),
-            ComparedModes::Condensed => {
-                whole.analyze_condensed(factors, &self.sensors, &self.test, Some(self.analysis_modes))
-            }
+            ComparedModes::Whole => whole.analyze(factors, sensors, (test, pair), count),
+            ComparedModes::Condensed => whole.analyze_condensed(factors, sensors, test, Some(count)),
         };
         // Gauss-Newton steps have weights of their own.
         let is_paper = self.job.compare.method == Method::Paper;
@@ -224,18 +211,8 @@ fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result
     ModeSet::from_measured(&frequencies, &shapes)
 }
 
-fn pairing_rule(rule: PairingRule) -> Pair {
-    match rule {
-        PairingRule::Closest => pair_modes,
-        PairingRule::Optimal => pair_by_assignment,
-    }
-}
-
 /// The pairs with the largest sum of squared closeness, every test mode with one.
-///
-/// # Errors
-/// Those of [`pair_optimally`]; [`Error::TooMany`] with more test modes than analysis modes.
-pub fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&cross.map(|closeness| 1.0 + closeness * closeness), 0.0)?;
     let (available, requested) = cross.shape();
     let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();

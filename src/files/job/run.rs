@@ -14,11 +14,11 @@ use crate::studies::weighted::gauss_newton::{
 };
 use crate::studies::weighted::identifiability::{Identifiability, identifiability};
 use crate::studies::weighted::residuals::{Weights, jacobian, residuals};
-use crate::studies::whole_model::WholeShare;
+use crate::studies::whole_model::{WholeParameter, WholeShare};
 
 /// Standard deviations where neither test nor job has any: what resonance frequencies of repeated tests scatter by, and shapes
 /// measured with accelerometers relative to their largest component.
-pub const USUAL: Noise = Noise { frequency: 0.005, shape: 0.02 };
+const USUAL: Noise = Noise { frequency: 0.005, shape: 0.02 };
 
 /// How the factors were found.
 #[derive(Debug, Clone)]
@@ -61,10 +61,8 @@ impl Prepared {
         for (what, list) in
             [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)]
         {
-            if let Some(list) = list.as_ref().filter(|list| list.len() != named) {
-                let expected = format!("{named} {what}, one a test mode of the job");
-                return Err(FileError::job(&self.path, expected, list.len().to_string()));
-            }
+            let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
+            self.job.refuse(other, format!("{named} {what}, one a test mode of the job"))?;
         }
         let own = self.own_weights();
         let all = own.iter().zip(&self.modes).map(|(own, &mode)| (own, self.deviations(mode)));
@@ -98,9 +96,7 @@ impl Prepared {
             shape: of(&data.shape_deviation, compare.shape_deviation, USUAL.shape),
         }
     }
-}
 
-impl Prepared {
     /// The deck with the elements that `factors` leave, every other byte as it was; none for a model of matrices.
     ///
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
@@ -110,18 +106,16 @@ impl Prepared {
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else { return Ok(None) };
         let mut elements = deck.model.elements.clone();
-        for ((parameter, members), &factor) in
-            self.source.whole.parameters().iter().zip(&self.source.members).zip(factors)
-        {
-            let has_masses = |rule: &ParameterRule| rule.name == parameter.name && !rule.masses.is_empty();
-            if (members.is_empty() || self.job.parameters.iter().any(has_masses)) && factor != 1.0 {
-                let expected =
-                    format!("parameters of elements for a corrected deck; {} is one of point masses", parameter.name);
-                return Err(FileError::job(&self.path, expected, format!("a factor of {factor}")));
-            }
+        let parameters = self.source.whole.parameters().iter().zip(&self.source.members);
+        for ((WholeParameter { name, share, .. }, members), &factor) in parameters.zip(factors) {
+            let has_masses = |rule: &ParameterRule| rule.name == *name && !rule.masses.is_empty();
+            let is_of_masses = members.is_empty() || self.job.parameters.iter().any(has_masses);
+            let refused = (is_of_masses && factor != 1.0).then(|| format!("a factor of {factor}"));
+            let expected = "parameters of elements for a corrected deck";
+            self.job.refuse(refused, format!("{expected}; {name} is one of point masses"))?;
             for element in elements.iter_mut().filter(|element| members.binary_search(&element.label).is_ok()) {
                 let Element { size, material: Material { density, .. }, .. } = element;
-                match parameter.share {
+                match share {
                     WholeShare::Stiffness(_) => (*size, *density) = (*size * factor, *density / factor),
                     WholeShare::Mass(_) => *density *= factor,
                 }
@@ -137,7 +131,7 @@ impl Prepared {
 /// # Errors
 /// Those of the analyses, of the loops and of [`Prepared::weights`].
 pub fn run(prepared: &Prepared, progress: impl FnMut(&str), go_on: impl Fn() -> bool) -> Result<Finished, FileError> {
-    run_from(prepared, &vec![1.0; prepared.source.whole.parameters().len()], progress, go_on)
+    run_from(prepared, &prepared.ones(), progress, go_on)
 }
 
 /// The same from other first factors than one, and then from these alone.

@@ -55,8 +55,7 @@ impl Samples {
     /// Reads a file of lines in any order; a header may stand anywhere, and a sample again as it was.
     ///
     /// # Errors
-    /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study, one that is no sample, and a sample that comes again
-    /// with other numbers.
+    /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study or of none, and a sample again with other numbers.
     pub fn read(path: &Path, study: &Study) -> Result<Self, FileError> {
         let mut samples = Self { path: path.to_owned(), places: BTreeMap::new(), whole: 0 };
         let failed = FileError::of_file(path, "read");

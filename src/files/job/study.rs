@@ -1,6 +1,5 @@
 //! Many runs of one job: each sample is drawn from the study's seed and its own number alone, whatever ran before it.
 
-use super::model::beside;
 use super::run::run_from;
 use super::{Finished, Job, Prepared};
 use crate::files::error::FileError;
@@ -50,7 +49,7 @@ impl Study {
         let mut identity = digest(format!("{} {seed} {vary:?}", env!("CARGO_PKG_VERSION")).as_bytes(), 0);
         let model = [&job.model.deck, &job.model.stiffness, &job.model.mass, &job.model.rows];
         let named = model.into_iter().chain(job.parameters.iter().map(|rule| &rule.matrix)).flatten();
-        let named = named.chain([&job.test.file]).map(|file| beside(path, file));
+        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
         for file in named.chain([path.to_owned()]) {
             // Behind a # may stand which matrix of the file.
             let text = file.to_string_lossy();
@@ -75,9 +74,9 @@ impl Study {
     /// The job of a sample, and its first factors.
     ///
     /// # Errors
-    /// Those of [`with_noise_by_mode`] and [`Prepared::with`].
+    /// Those of [`with_noise_by_mode`] and [`Prepared::new`].
     pub fn draw(&self, sample: u64) -> Result<(Prepared, Vec<f64>), FileError> {
-        let Prepared { path, job, data, source, .. } = &self.prepared;
+        let Prepared { job, data, source, .. } = &self.prepared;
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
         // A generator for each purpose: what varies beside it changes nothing of it.
         let generator = |what: Vary| {
@@ -91,14 +90,14 @@ impl Study {
             (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes);
         }
         generator(Vary::Subset).into_iter().for_each(|state| self.leave_out(&mut job, state));
-        let mut start = vec![1.0; ranges.len()];
+        let mut start = self.prepared.ones();
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
                 let drawn = 0.5 * 4.0_f64.powf(uniform(&mut state));
                 *factor = range.map_or(drawn, |range| range.clamp(drawn));
             }
         }
-        Ok((Prepared::with(path, job, data, source.clone())?, start))
+        Ok((Prepared::with(job, data, source.clone())?, start))
     }
 
     /// Leaves out of a job up to half of its sensors or of its modes.
@@ -124,9 +123,8 @@ impl Study {
         }
     }
 
-    /// Runs a sample as [`super::run`] runs a job: its line with number, outcome, whether within tolerance, error sum, exact analyses,
-    /// factors and [`Self::identity`], and why it failed if it did, with nothing between outcome and identity. `go_on` is asked on
-    /// the way whether to.
+    /// Runs a sample as [`super::run`] runs a job: its line as [`Self::header`] says, with [`Self::identity`] as its study, and why it
+    /// failed if it did, with nothing between outcome and study. `go_on` is asked on the way whether to.
     ///
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.

@@ -26,10 +26,8 @@ pub struct LabeledMatrix {
 }
 
 /// Reads a real matrix from a file, `name` in messages: in Matrix Market's format if it begins with `%%MatrixMarket`, as
-/// bulk data if a line begins with `DMIG`, and otherwise in that of OUTPUT4.
-///
-/// `wanted` is the matrix's name in capitals or not; it may be left out where the file has one matrix alone, and counts for
-/// nothing in Matrix Market's format. Matrices of other names may be complex.
+/// bulk data if a line begins with `DMIG`, and otherwise in that of OUTPUT4. `wanted` is the matrix's name in capitals or not,
+/// which may be left out where the file has one alone; Matrix Market has no names. Matrices of other names may be complex.
 ///
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without

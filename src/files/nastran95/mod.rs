@@ -4,23 +4,23 @@
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
 //! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
 //! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
-//! the mass nothing is taken over, but MAA must be $T M T^t$, as NASTRAN's elimination of the MPC equations makes it,
-//! with the lumped mass of elements that have a density.
+//! the mass nothing is taken over, but MAA must be $T M T^t$ with the lumped mass of elements that have a density.
 //!
-//! Appendix A, the eigensolution and everything else is computed here from these matrices: $M_S$ is singular, and
-//! NASTRAN's own eigenvalues are good to five or six digits only.
-//!
-//! NASTRAN-95 keeps coordinates, gages and material in single precision: its matrices differ from the crate's by up to
-//! 1.5e-7 of the largest entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
+//! All else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
+//! coordinates, gages and material in single precision: its matrices differ from the crate's by up to 1.5e-7 of the largest
+//! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
-mod matrices;
 mod output5;
 mod process;
 
 use crate::files::deck::{BulkData, Task, write};
 use crate::files::error::FileError;
+use crate::method::assembly::{dense_stiffness, lumped_mass};
+use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
-use nalgebra::Vector3;
+use crate::method::structure::{Element, Grid};
+use nalgebra::{DMatrix, Vector3};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -32,10 +32,16 @@ pub use output5::{Matrices, read_output5};
 pub const NAME: &str = "NASTRAN-95";
 
 /// How long a run may take unless told otherwise; the box takes half a second.
-pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(60);
-
+const TIME_LIMIT: Duration = Duration::from_secs(60);
 /// Bytes that a run may print, and write on Fortran unit 15, unless told otherwise; the box takes a few thousandths.
-pub const DEFAULT_OUTPUT_LIMIT: u64 = 1 << 28;
+const OUTPUT_LIMIT: u64 = 1 << 28;
+
+/// DOF of a grid in KGG: translations, then rotations.
+const GRID_DOF: usize = 6;
+/// KAA and the sum of the element matrices are the same numbers added in another order.
+const LARGEST_STIFFNESS_DIFFERENCE: f64 = 1e-9;
+/// NASTRAN-95 holds masses in single precision.
+const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
 
 /// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
 pub fn default_folder() -> PathBuf {
@@ -75,21 +81,18 @@ impl Nastran95 {
         if !home.join(process::PROGRAM).is_file() || !home.join(process::RIGID_FORMATS).is_dir() {
             return Err(missing());
         }
-        Ok(Self { home, time_limit: DEFAULT_TIME_LIMIT, output_limit: DEFAULT_OUTPUT_LIMIT, stop: Arc::default() })
+        Ok(Self { home, time_limit: TIME_LIMIT, output_limit: OUTPUT_LIMIT, stop: Arc::default() })
     }
 
     /// Runs a deck in a temporary folder that is removed, however the run ends.
     ///
     /// # Errors
-    /// [`FileError::SolverTimeLimit`], [`FileError::SolverInterrupted`], [`FileError::SolverCrashed`],
-    /// [`FileError::SolverFatal`] with NASTRAN's own message; [`FileError::SolverAnswer`] when it writes too much or
-    /// something else than files; [`FileError::File`].
+    /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         process::run(self, deck)
     }
 
-    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, with no more than `numbers`
-    /// entries in all.
+    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
     ///
     /// # Errors
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
@@ -109,12 +112,89 @@ impl Nastran95 {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
-        let all = matrices::with_single_elements(&bulk);
+        let all = with_single_elements(&bulk);
         let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
-        let answer = self.matrices(&deck, matrices::numbers_in_answer(&all))?;
-        let units = matrices::unit_stiffness(model, &bulk, &answer)?;
+        // KGG, KAA and MAA have no more than so many rows.
+        let rows = GRID_DOF.saturating_mul(all.grids.len());
+        let answer = self.matrices(&deck, rows.saturating_mul(rows).saturating_mul(3))?;
+        let units = unit_stiffness(model, &bulk, &answer)?;
         let model = model.with_unit_stiffness(units)?;
-        matrices::check_assembled(&model, factors, &answer)?;
+        check_assembled(&model, factors, &answer)?;
         Ok(model)
     }
+}
+
+/// The model with every element a second time, alone, on fixed grids of its own after all others.
+fn with_single_elements(bulk: &BulkData) -> BulkData {
+    let mut all = bulk.clone();
+    let base = bulk.first_free_label();
+    let position: HashMap<usize, _> = bulk.grids.iter().map(|grid| (grid.label, grid.position)).collect();
+    for (row, element) in bulk.elements.iter().enumerate() {
+        let first = base + all.grids.len() - bulk.grids.len();
+        let corners = element.grids.iter().filter_map(|grid| position.get(grid));
+        let corners = (first..).zip(corners);
+        all.grids.extend(corners.map(|(label, &position)| Grid { label, position, constrained: [true; 3] }));
+        let grids = (first..).take(element.grids.len()).collect();
+        all.elements.push(Element { label: base + row, grids, ..element.clone() });
+    }
+    all
+}
+
+/// Unit stiffness of every element at its free DOF, in the order of the model's structure, from the blocks of KGG.
+fn unit_stiffness(
+    model: &FiniteElementModel,
+    bulk: &BulkData,
+    answer: &Matrices,
+) -> Result<Vec<DMatrix<f64>>, FileError> {
+    let mut block_of = HashMap::new();
+    let mut start = GRID_DOF * bulk.grids.len();
+    for element in &bulk.elements {
+        block_of.insert(element.label, (start, element.size));
+        start += GRID_DOF * element.grids.len();
+    }
+    let kgg = matrix(answer, "KGG", start)?;
+    let structure = model.structure();
+    let unit = |element: &Element| {
+        let unknown = || Error::Unknown { owner: "the deck".into(), what: "element", label: element.label };
+        let &(start, size) = block_of.get(&element.label).ok_or_else(unknown)?;
+        let dof = (0..3 * element.grids.len()).map(|dof| (dof / 3, dof % 3));
+        let is_free = |corner: usize, direction| structure.free_dof_index(element.grids[corner], direction).is_some();
+        let free = dof.filter(|&(corner, direction)| is_free(corner, direction));
+        let rows: Vec<usize> = free.map(|(corner, direction)| start + GRID_DOF * corner + direction).collect();
+        Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
+    };
+    structure.elements().iter().map(unit).collect()
+}
+
+/// Refuses an answer whose assembled matrices are not those of the model it was asked about: elements are told apart by
+/// their place in KGG alone, and this check is what makes that safe.
+fn check_assembled(model: &FiniteElementModel, factors: &[f64], answer: &Matrices) -> Result<(), FileError> {
+    let free = model.structure().free_dof();
+    let sizes = model.sizes(factors)?;
+    let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
+    let t = model.load_distribution().dense();
+    let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len())?;
+    let mass = &t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
+    // NASTRAN's order is that of the grids' numbers.
+    let mut order: Vec<usize> = (0..free.len()).collect();
+    order.sort_by_key(|&row| (free[row].grid, free[row].direction));
+    let same = |name: &str, meaning: &str, here: DMatrix<f64>, limit: f64| {
+        let there = matrix(answer, name, free.len())?;
+        let here = here.select_rows(&order).select_columns(&order);
+        let difference = (there - &here).amax() / here.amax();
+        let expected = || format!("{name} to be {meaning} within {limit:.0e} of its largest entry");
+        let wrong = || FileError::answer(expected(), format!("them {difference:.1e} apart"));
+        (difference <= limit).then_some(()).ok_or_else(wrong)
+    };
+    same("KAA", "the sum of its element matrices", stiffness, LARGEST_STIFFNESS_DIFFERENCE)?;
+    same("MAA", "the masses the MPC equations distribute", mass, LARGEST_MASS_DIFFERENCE)
+}
+
+fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, FileError> {
+    let found = match answer.get(name) {
+        Some(matrix) if matrix.shape() == (size, size) => return Ok(matrix),
+        Some(matrix) => format!("{} x {}", matrix.nrows(), matrix.ncols()),
+        None => "none".to_owned(),
+    };
+    Err(FileError::answer(format!("a matrix {name} of {size} rows and columns"), found))
 }

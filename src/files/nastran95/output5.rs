@@ -15,15 +15,12 @@ const REAL: usize = 26;
 /// Where a matrix's header has its sizes, and after them its name.
 const HEADER_SIZES: usize = 26;
 const HEADER_NAME: usize = 74;
-/// NASTRAN's number for the type real double precision.
-const DOUBLE_PRECISION: usize = 2;
 
 /// Reads matrices that OUTPUT5 wrote with formatted records.
 ///
 /// After a title line every matrix has a header (number of columns, of rows, form, type, name), then a record for every
-/// column that is not zero: its number, its first and last row that are not, and what stands between them; then
-/// a column of number zero begins the next matrix. Together they have at most `numbers` entries: a damaged header must
-/// not ask for all memory.
+/// column that is not zero: its number, its first and last row that are not, and what stands between them; a column of number
+/// zero begins the next. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
 ///
 /// # Errors
 /// [`FileError::SolverAnswer`] naming the line for anything else.
@@ -50,7 +47,7 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
             matrices.extend(current.take());
             let size = |place: usize| integer(at, HEADER_SIZES + place * INTEGER);
             let (columns, rows, kind) = (size(0)?, size(1)?, size(3)?);
-            if kind != DOUBLE_PRECISION {
+            if kind != 2 {
                 return Err(wrong(at, "the header of a real double precision matrix"));
             }
             let fewer = columns.checked_mul(rows).and_then(|entries| left.checked_sub(entries));

@@ -3,6 +3,8 @@
 use super::{Answer, Nastran95};
 use crate::files::error::FileError;
 use crate::files::escaped;
+#[cfg(unix)]
+use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -34,15 +36,13 @@ pub(super) fn run(solver: &Nastran95, deck: &str) -> Result<Answer, FileError> {
     // What is analyzed may be nobody else's business.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    let scratch =
-        builder.prefix("corfem-nastran95-").tempdir().map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
+    let scratch = builder.prefix("corfem-nastran95-").tempdir();
+    let scratch = scratch.map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
     let answer = in_scratch(solver, deck, scratch.path());
-    let path = scratch.path().to_owned();
-    let removed = scratch.close().map_err(FileError::of_file(&path, "remove"));
+    let failed = FileError::of_file(scratch.path(), "remove");
+    let removed = scratch.close();
     // What went wrong with the run matters more than what went wrong in tidying up.
-    let answer = answer?;
-    removed?;
-    Ok(answer)
+    answer.and_then(|answer| removed.map(|()| answer).map_err(failed))
 }
 
 fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, FileError> {
@@ -65,7 +65,9 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     command.envs(files.map(|(variable, name)| (variable, path(name))));
     command.envs((1..*UNITS.start()).map(|unit| (format!("SOF{unit}"), "none")));
     command.envs(UNITS.map(|unit| (format!("FTN{unit}"), path(&format!("ftn{unit}")))));
-    own_group(&mut command);
+    // The program and what it may start are stopped together.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let child = command.spawn().map_err(FileError::of_file(&program, "run"))?;
     let status = wait(solver, child, &program, scratch)?;
     let printed = read(scratch, PRINTED, solver.output_limit)?.unwrap_or_default();
@@ -86,7 +88,9 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
 fn wait(solver: &Nastran95, mut child: Child, program: &Path, scratch: &Path) -> Result<ExitStatus, FileError> {
     let ended = watch(solver, &mut child, program, scratch);
     // What it started is in its group, whose number is not given to others before the program is waited for.
-    kill(&mut child);
+    #[cfg(unix)]
+    let _ = rustix::process::kill_process_group(Pid::from_child(&child), rustix::process::Signal::KILL);
+    let _ = child.kill();
     let status = child.wait().map_err(FileError::of_file(program, "run"))?;
     ended.map(|()| status)
 }
@@ -110,37 +114,16 @@ fn watch(solver: &Nastran95, child: &mut Child, program: &Path, scratch: &Path) 
     Ok(())
 }
 
-/// Puts the program and what it may start into a process group of their own, to be stopped together.
-#[cfg(unix)]
-fn own_group(command: &mut Command) {
-    std::os::unix::process::CommandExt::process_group(command, 0);
-}
-
-/// Whether the program has ended; it is not waited for yet, and its number not given to others.
-#[cfg(unix)]
+/// Whether the program has ended; where that can be, it is not waited for yet, and its number not given to others.
 fn has_ended(child: &mut Child) -> std::io::Result<bool> {
-    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-    let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
-    Ok(waitid(WaitId::Pid(Pid::from_child(child)), options)?.is_some())
-}
-
-#[cfg(unix)]
-fn kill(child: &mut Child) {
-    let group = rustix::process::Pid::from_child(child);
-    let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
-}
-
-#[cfg(not(unix))]
-fn own_group(_: &mut Command) {}
-
-#[cfg(not(unix))]
-fn has_ended(child: &mut Child) -> std::io::Result<bool> {
-    Ok(child.try_wait()?.is_some())
-}
-
-#[cfg(not(unix))]
-fn kill(child: &mut Child) {
-    let _ = child.kill();
+    #[cfg(unix)]
+    let ended = waitid(
+        WaitId::Pid(Pid::from_child(child)),
+        WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT,
+    );
+    #[cfg(not(unix))]
+    let ended = child.try_wait();
+    Ok(ended?.is_some())
 }
 
 /// The first fatal message in what NASTRAN prints, its lines joined.
@@ -149,7 +132,7 @@ fn fatal_message(printed: &str) -> Option<String> {
     let first = lines.next()?;
     // A message ends with a blank line, or where the next one begins.
     let rest = lines.take(MESSAGE_LINES - 1).take_while(|line| !line.trim().is_empty() && !line.contains("***"));
-    let words: Vec<&str> = std::iter::once(first).chain(rest).flat_map(str::split_whitespace).collect();
+    let words: Vec<&str> = [first].into_iter().chain(rest).flat_map(str::split_whitespace).collect();
     // The first column is the printer's carriage control.
     Some(shown(words.join(" ").trim_start_matches(['0', '1', '*', ' '])))
 }
@@ -188,6 +171,6 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
 }
 
 fn within_limit(name: &str, bytes: u64, limit: u64) -> Result<(), FileError> {
-    let too_large = || FileError::answer(format!("at most {limit} bytes in its file {name}"), bytes.to_string());
-    (bytes <= limit).then_some(()).ok_or_else(too_large)
+    let too_large = FileError::answer(format!("at most {limit} bytes in its file {name}"), bytes.to_string());
+    if bytes <= limit { Ok(()) } else { Err(too_large) }
 }

@@ -88,8 +88,9 @@ impl Row<'_> {
         let number = |text: &str| text.parse().or_else(|_| self.wrong("a grid number", text));
         let grid = if grid.is_empty() { None } else { Some(number(grid)?) };
         let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
-        let coordinates = if [x, y, z] == [""; 3] { None } else { Some(self.numbers(&axes)?) };
-        let place = coordinates.map(|coordinates| Vector3::from_column_slice(&coordinates));
+        let is_placed = [x, y, z] != [""; 3];
+        let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
+        let place = place.map(|numbers| Vector3::from_column_slice(&numbers));
         let name = match grid {
             None if name.is_empty() => return self.wrong("a name or a grid number", ""),
             Some(grid) if name.is_empty() => default_name(grid, direction),
@@ -102,8 +103,7 @@ impl Row<'_> {
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
     let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    let first = lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line);
-    let separator = separator(first);
+    let separator = separator(lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line));
     let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) = Default::default();
     for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
         let row = Row { file, number, cells: cells(line, separator), separator };
@@ -123,8 +123,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             rows.push(row);
         }
     }
-    let missing =
-        || FileError::line(file, text.lines().count(), "a header and a row frequency_hz", "the end of the file");
+    let (end, expected) = (text.lines().count(), "a header and a row frequency_hz");
+    let missing = || FileError::line(file, end, expected, "the end of the file");
     let (titles, modes) = header.ok_or_else(missing)?;
     let list = |place: usize| by_mode[place].as_ref().map(|row: &Row| row.numbers(&modes)).transpose();
     let mut data = TestData { frequencies_hz: list(0)?.ok_or_else(missing)?, ..TestData::default() };
@@ -164,26 +164,4 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
 /// A name as one cell on one line: line ends become blanks.
 pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""))
-}
-
-/// Writes a test in the layout that [`read`](super::read) takes, with commas; every number reads back as it is.
-///
-/// Wire frame, units and skipped datasets have no place in it. Line ends in a name become blanks.
-pub fn write_csv(data: &TestData) -> String {
-    let joined = |values: &mut dyn Iterator<Item = &f64>| values.map(|value| format!(",{value:?}")).collect::<String>();
-    let phase = Some(&data.phase_collinearity).filter(|list| !list.is_empty());
-    let lists = [Some(&data.frequencies_hz), data.frequency_deviation.as_ref(), data.shape_deviation.as_ref(), phase];
-    let mut text = String::new();
-    for (name, values) in ROWS.iter().zip(lists).filter_map(|(name, values)| Some((name, values?))) {
-        text += &format!("{name},,,,,,{}\n", joined(&mut values.iter()));
-    }
-    let modes: String = (1..=data.frequencies_hz.len()).map(|mode| format!(",mode {mode}")).collect();
-    text += &format!("grid,name,direction,sign,x,y,z{modes}\n");
-    for (sensor, row) in data.sensors.iter().zip(data.shapes.row_iter()) {
-        let grid = sensor.grid.map(|grid| grid.to_string()).unwrap_or_default();
-        let place = sensor.place.map_or(",,,".to_owned(), |place| joined(&mut place.iter()));
-        let direction = DIRECTIONS.get(sensor.direction).unwrap_or(&"?");
-        text += &format!("{grid},{},{direction},+{place}{}\n", quoted(&sensor.name), joined(&mut row.iter()));
-    }
-    text
 }

@@ -5,11 +5,8 @@
 mod csv;
 mod universal;
 mod universal_axes;
-mod universal_write;
 
-pub use csv::write_csv;
 pub(crate) use csv::{cells, quoted, separator};
-pub use universal_write::write_universal;
 
 use crate::files::deck::{decoded, number::parse_real};
 use crate::files::error::FileError;
@@ -22,8 +19,6 @@ use std::collections::HashSet;
 
 /// What directions 0 to 5 are called.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-/// What a sensor is of which there are two.
-const TWICE: [&str; 6] = ["sensor x", "sensor y", "sensor z", "sensor rx", "sensor ry", "sensor rz"];
 
 /// One sensor: it measures a displacement along an axis at a grid or point of the test.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,8 +29,7 @@ pub struct Sensor {
     pub grid: Option<usize>,
     /// 0, 1, 2 for displacements along x, y, z; 3, 4, 5 for rotations about them.
     pub direction: usize,
-    /// The unit vector along that axis, if it is one of a coordinate system of the test's own; tables and Universal Files that are
-    /// written have no place for it.
+    /// The unit vector along that axis, if it is one of a coordinate system of the test's own; it is not written.
     pub axis: Option<Vector3<f64>>,
     /// Where it is, in the model's units of length, if the file says so.
     pub place: Option<Vector3<f64>>,
@@ -69,8 +63,8 @@ impl TestData {
     ///
     /// # Errors
     /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
-    /// [`Error::NotFinite`], also for a place or an axis; [`Error::NotPositive`] for a frequency, a deviation or a shape; [`Error::TooMany`] for a direction
-    /// above 5; [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
+    /// [`Error::NotFinite`] and [`Error::NotPositive`] for numbers; [`Error::TooMany`] for a direction above 5;
+    /// [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
     pub fn check(&self) -> Result<(), Error> {
         let count = self.frequencies_hz.len();
         check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
@@ -81,8 +75,9 @@ impl TestData {
             if let Some((column, &value)) = numbers.enumerate().find(|(_, value)| !value.is_finite()) {
                 return Err(Error::NotFinite { what: "place and axis of a sensor", row, column, value });
             }
+            let names = ["sensor x", "sensor y", "sensor z", "sensor rx", "sensor ry", "sensor rz"];
             let wrong = Error::TooMany { what: "direction", available: 5, requested: sensor.direction };
-            let what = TWICE.get(sensor.direction).ok_or(wrong)?;
+            let what = names.get(sensor.direction).ok_or(wrong)?;
             if let Some(label) = sensor.grid.filter(|grid| !seen.insert((*grid, sensor.direction))) {
                 return Err(Error::Duplicate { what, label });
             }
@@ -90,8 +85,9 @@ impl TestData {
         let lists = [("frequency deviation", &self.frequency_deviation), ("shape deviation", &self.shape_deviation)];
         for (what, list) in lists.into_iter().filter_map(|(what, list)| Some((what, list.as_ref()?))) {
             check_length(what, list.len(), count)?;
-            let owner = |mode: usize| move || format!("test mode {mode} (from zero)");
-            list.iter().enumerate().try_for_each(|(mode, &value)| positive(what, owner(mode), value))?;
+            for (mode, &value) in list.iter().enumerate() {
+                positive(what, || format!("test mode {mode} (from zero)"), value)?;
+            }
         }
         let phases = self.phase_collinearity.len();
         check_length("phase collinearity", phases, if phases == 0 { 0 } else { count })

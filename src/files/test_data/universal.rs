@@ -1,9 +1,8 @@
 //! The Universal File (UFF, UNV) of SDRC, which test systems write: blocks of fixed columns between lines `    -1`.
 //!
-//! Datasets 15 and 2411 are nodes and their coordinates, 18 and 2420 coordinate systems of these (15) and of what is measured there (both),
-//! 55 a mode at the nodes, 82 a line of the wire frame, 164 the units, whose
-//! description is kept (nothing is converted), 151 a header. All others are passed over and named in [`TestData::skipped`], so is
-//! a dataset 55 that is no mode. A coordinate system that a node names and no dataset has is taken as global.
+//! Datasets 15 and 2411 are nodes and their coordinates, 18 and 2420 coordinate systems of these (15) and of what is measured
+//! there (both), 55 a mode at the nodes, 82 a line of the wire frame, 164 the units (nothing is converted), 151 a header. All others,
+//! and a dataset 55 that is no mode, are named in [`TestData::skipped`]. A coordinate system that a node names and no dataset has is taken as global.
 //!
 //! Only a line of these six columns and nothing else ends a block; a data line `        -1` does not. Exponents may be E or D, and
 //! full columns touch; where columns do not hold one number each, blanks separate them.
@@ -182,8 +181,8 @@ impl Found {
         for _ in 0..5 {
             block.line("five lines of identification")?;
         }
-        let kind = block.integers("six codes of a dataset 55", 6)?;
-        let (analysis, characteristic, specific, data_type, count) = (kind[1], kind[2], kind[3], kind[4], kind[5]);
+        let codes = block.integers("six codes of a dataset 55", 6)?;
+        let [analysis, characteristic, specific, data_type, count] = [1, 2, 3, 4, 5].map(|place| codes[place]);
         if ![2, 3, 7].contains(&analysis) || ![2, 3].contains(&characteristic) || !SHAPES.contains(&specific) {
             self.data.skipped.push(55);
             return Ok(());
@@ -205,7 +204,8 @@ impl Found {
         let omega = 2.0 * PI * frequency;
         let divisor = [1.0, omega, -omega * omega][specific.saturating_sub(10)];
         let mut shape = BTreeMap::new();
-        let parts = if data_type == 5 { 2 } else { 1 };
+        let is_complex = data_type == 5;
+        let parts = if is_complex { 2 } else { 1 };
         while !block.is_done() {
             let node = block.integers("the number of a node", 1)?[0];
             let mut values = Vec::with_capacity(parts * count);
@@ -214,13 +214,13 @@ impl Found {
                 values.extend(block.reals("values of a mode, six to a line", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {
-                let value = Complex::new(value[0], if parts == 2 { value[1] } else { 0.0 }) / divisor;
+                let value = Complex::new(value[0], if is_complex { value[1] } else { 0.0 }) / divisor;
                 if shape.insert((node, direction), value).is_some() {
                     return Err(block.wrong("each node once in a mode", format!("node {node} again")));
                 }
             }
         }
-        self.complex |= data_type == 5;
+        self.complex |= is_complex;
         self.data.frequencies_hz.push(frequency);
         self.shapes.push(shape);
         Ok(())
@@ -231,19 +231,18 @@ impl Found {
         let keys: Vec<(usize, usize)> = values.map(|(key, _)| *key).collect::<BTreeSet<_>>().into_iter().collect();
         let value = |row: usize, mode: usize| self.shapes[mode].get(&keys[row]).copied().unwrap_or_default();
         let shapes = DMatrix::from_fn(keys.len(), self.shapes.len(), value);
-        let real = || Ok((shapes.map(|value| value.re), Vec::new()));
         let data = &mut self.data;
-        (data.shapes, data.phase_collinearity) = if self.complex { realize(&shapes) } else { real() }?;
+        (data.shapes, data.phase_collinearity) =
+            if self.complex { realize(&shapes)? } else { (shapes.map(|value| value.re), Vec::new()) };
         for (node, direction) in keys {
             let at = self.nodes.get(&node);
-            let system = |which: usize| match at.map(|(_, systems, line)| (self.systems.get(&systems[which]), line)) {
-                Some((Some(axes), line)) if !axes.is_cartesian => {
-                    let found = "a cylindrical or spherical one";
-                    Err(FileError::line(file, *line, "a node with Cartesian coordinate systems", found))
-                }
-                axes => Ok(axes.and_then(|(axes, _)| axes)),
-            };
-            let (of_place, of_motion) = (system(0)?, system(1)?);
+            let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
+            if let Some((.., line)) =
+                at.filter(|_| [of_place, of_motion].iter().flatten().any(|axes| !axes.is_cartesian))
+            {
+                let found = "a cylindrical or spherical one";
+                return Err(FileError::line(file, *line, "a node with Cartesian coordinate systems", found));
+            }
             let to_global = |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
             // What six digits leave beside a global axis is none of a sensor's.
             let snapped = |component: f64| if component.abs() < ROTATION { 0.0 } else { component };

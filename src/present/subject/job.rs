@@ -18,7 +18,7 @@ impl Subject {
         let names: Vec<String> = whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
         let ones = vec![1.0; names.len()];
         let first = finished.map_or_else(|| prepared.analyze(&ones), |finished| Ok(finished.first.clone()))?;
-        let stem = prepared.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let stem = prepared.job.stem();
         let geometry = &prepared.source.geometry;
         let corners = |grids: &Vec<usize>| grids.iter().filter_map(|grid| geometry.places.get(grid).copied()).collect();
         let lines =

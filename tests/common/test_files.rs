@@ -1,10 +1,35 @@
-//! A test as a Universal File: nodes (dataset 15), wire frame (82) and every mode as a real normal one (55).
+//! Tests as files, written: a table as a spreadsheet has it, and a Universal File with nodes (dataset 15), wire frame (82) and
+//! every mode as a real normal one (55).
 
-use super::TestData;
+use corfem::files::test_data::{DIRECTIONS, TestData};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// Writes a test that [`read`](super::read) and other programs read, numbers with six digits (E13.5).
+/// Writes a test in the layout that the reader takes, with commas; every number reads back as it is.
+///
+/// Wire frame, units and skipped datasets have no place in it. Line ends in a name become blanks.
+pub fn write_csv(data: &TestData) -> String {
+    let joined = |values: &mut dyn Iterator<Item = &f64>| values.map(|value| format!(",{value:?}")).collect::<String>();
+    let phase = Some(&data.phase_collinearity).filter(|list| !list.is_empty());
+    let lists = [Some(&data.frequencies_hz), data.frequency_deviation.as_ref(), data.shape_deviation.as_ref(), phase];
+    let mut text = String::new();
+    let rows = ["frequency_hz", "frequency_deviation", "shape_deviation", "phase_collinearity"];
+    for (name, values) in rows.iter().zip(lists).filter_map(|(name, values)| Some((name, values?))) {
+        text += &format!("{name},,,,,,{}\n", joined(&mut values.iter()));
+    }
+    let modes: String = (1..=data.frequencies_hz.len()).map(|mode| format!(",mode {mode}")).collect();
+    text += &format!("grid,name,direction,sign,x,y,z{modes}\n");
+    for (sensor, row) in data.sensors.iter().zip(data.shapes.row_iter()) {
+        let grid = sensor.grid.map(|grid| grid.to_string()).unwrap_or_default();
+        let place = sensor.place.map_or(",,,".to_owned(), |place| joined(&mut place.iter()));
+        let direction = DIRECTIONS.get(sensor.direction).unwrap_or(&"?");
+        let quoted = format!("\"{}\"", sensor.name.replace(['\n', '\r'], " ").replace('"', "\"\""));
+        text += &format!("{grid},{},{direction},+{place}{}\n", quoted, joined(&mut row.iter()));
+    }
+    text
+}
+
+/// Writes a test that the reader and other programs read, numbers with six digits (E13.5).
 ///
 /// A sensor without a grid gets a node of its own behind the others. Names, deviations and phase collinearity have no place in the
 /// format, and a sensor that is zero in all modes counts as not measured when it is read.
