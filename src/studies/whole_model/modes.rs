@@ -52,7 +52,9 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
         let lowest: Vec<usize> = (0..count).collect();
         return Ok(CountedModes { vibrations: all.vibrations.select(&lowest), ..all });
     }
-    let (factor, shift) = shifted(stiffness, mass)?;
+    let plan = Factor::plan(&[stiffness, mass])?;
+    let factor_at = |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
     let mut wanted = count + BEYOND;
     loop {
         let found = subspace(&factor, mass, wanted, FOUND)?;
@@ -63,26 +65,26 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
             continue;
         }
         check_count(FINITE, count, omega_squared.len() - rigid)?;
-        check_number(stiffness, mass, &omega_squared, rigid + count, found.is_all)?;
-        let of = |places: Vec<usize>| (omega_squared.select_rows(&places), found.shapes.select_columns(&places));
-        let ((_, rigid_body), (omega_squared, shapes)) =
-            (of((0..rigid).collect()), of((rigid..rigid + count).collect()));
-        return Ok(CountedModes { rigid_body, vibrations: ModeSet { omega_squared, shapes } });
+        check_number(&factor_at, &omega_squared, rigid + count, found.is_all)?;
+        let of = |first, count| found.shapes.columns(first, count).into_owned();
+        let omega_squared = omega_squared.rows(rigid, count).into_owned();
+        let vibrations = ModeSet { omega_squared, shapes: of(rigid, count) };
+        return Ok(CountedModes { rigid_body: of(0, rigid), vibrations });
     }
 }
 
+/// The factor of $K + \sigma M$, named, for $\sigma$.
+type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
+
 /// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies.
-fn shifted(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64), Error> {
-    if let Ok(factor) = Factor::new("stiffness", stiffness)
+fn shifted(factor: At, stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64), Error> {
+    if let Ok(factor) = factor("stiffness", 0.0)
         && factor.smallest_pivot().0 > SMALLEST_PIVOT
     {
         return Ok((factor, 0.0));
     }
-    let factor_at = |shift: f64| {
-        let what = "stiffness shifted by the mass";
-        let shifted = SparseMatrix::sum(what, &[(1.0, stiffness), (shift, mass)])?;
-        Factor::new(what, &shifted)?.check_positive(what)
-    };
+    let what = "stiffness shifted by the mass";
+    let factor_at = |shift: f64| factor(what, shift)?.check_positive(what);
     let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
     let roots = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?.roots;
     let highest = roots.iter().map(|root| 1.0 / root - first).fold(1e-4 * first, f64::max);
@@ -174,21 +176,13 @@ fn squared_frequencies(
     shapes: &DMatrix<f64>,
 ) -> Result<DVector<f64>, Error> {
     let (forces, momenta) = (stiffness.times(shapes)?, mass.times(shapes)?);
-    let quotient = |mode: usize| {
-        let shape = shapes.column(mode);
-        (shape.dot(&forces.column(mode)) / shape.dot(&momenta.column(mode))).max(0.0)
-    };
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| quotient(mode)))
+    let energies = shapes.column_iter().zip(forces.column_iter()).zip(momenta.column_iter());
+    let quotients = energies.map(|((shape, force), momentum)| (shape.dot(&force) / shape.dot(&momentum)).max(0.0));
+    Ok(DVector::from_iterator(shapes.ncols(), quotients))
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
-fn check_number(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    omega_squared: &DVector<f64>,
-    needed: usize,
-    is_all: bool,
-) -> Result<(), Error> {
+fn check_number(factor: At, omega_squared: &DVector<f64>, needed: usize, is_all: bool) -> Result<(), Error> {
     let last = omega_squared.len();
     let gap = |place: &usize| omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place];
     let found = (needed..last).find(gap).unwrap_or(last);
@@ -198,7 +192,6 @@ fn check_number(
         // Neighbors so close that none of them can be left out: the bound stands just above the last.
         _ => (1.0 + APART) * omega_squared[last - 1],
     };
-    let what = "pencil at a bound on its frequencies";
-    let counted = Factor::new(what, &SparseMatrix::sum(what, &[(1.0, stiffness), (-bound, mass)])?)?.negative_count();
+    let counted = factor("pencil at a bound on its frequencies", -bound)?.negative_count();
     if counted == found { Ok(()) } else { Err(Error::Miscounted { bound, counted, found }) }
 }
