@@ -50,8 +50,7 @@ impl Factor {
         let sum = terms.iter().flat_map(|(number, matrix)| matrix.entries().iter().map(times(*number)));
         let mut entries = plan.entries_of(sum).ok_or_else(failed)?;
         // A positive definite matrix then has a unit diagonal.
-        let size = |entry: f64| if entry == 0.0 { 1.0 } else { entry.abs() };
-        let scale = plan.scale(&mut entries, size);
+        let scale = plan.scale(&mut entries, |entry| if entry == 0.0 { 1.0 } else { entry.abs() });
         let (values, is_done) = plan.factor(&entries, false)?;
         let SymbolicCholeskyRaw::Supernodal(supernodal) = plan.symbolic.raw() else { return Err(failed()) };
         let factor = SupernodalLdltRef::new(supernodal, &values);
