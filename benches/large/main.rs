@@ -1,7 +1,9 @@
 //! The cost of every stage on wings from 1.4 thousand to a million structural DOF: time, peak memory, and how both grow.
 //!
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
-//! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy.
+//! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy; with
+//! `--store paper/costs.csv` what was measured replaces what stands there, and the tables of `paper/cost.md` follow by
+//! `CORFEM_DOCUMENTS=write cargo test costs`.
 
 mod memory;
 mod numpy;
@@ -13,10 +15,11 @@ use std::path::Path;
 
 fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench").peekable();
-    let (mut names, mut folder) = (Vec::new(), None);
+    let (mut names, mut folder, mut costs) = (Vec::new(), None, None);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--write" => folder = Some(arguments.next().expect("--write wants a folder")),
+            "--store" => costs = Some(arguments.next().expect("--store wants a file")),
             _ => names.push(argument),
         }
     }
@@ -27,16 +30,44 @@ fn main() {
     for name in &names {
         let known = MESHES.map(|(name, _)| name).join(", ");
         let wing = Wing::named(name).unwrap_or_else(|| panic!("expected one of {known}, found {name}"));
-        let (stages, known, modal) = stages::of(&wing);
+        let (mut stages, known, modal) = stages::of(&wing);
+        let folder = folder.as_ref().map(|folder| Path::new(folder).join(name));
         if let Some(folder) = &folder {
-            numpy::write(&Path::new(folder).join(name), &known.model, &modal).expect("the folder can be written");
+            numpy::write(folder, &known.model, &modal).expect("the folder can be written");
         }
         if *name == MESHES[0].0 {
             print_papers_costs(&stages::papers_costs(&known, &stages));
         }
+        drop((known, modal));
+        let (mass, frequencies) = stages::whole_modes(&wing, &mut stages);
+        if let Some(folder) = &folder {
+            numpy::write_whole(folder, &mass, &frequencies).expect("the folder can be written");
+        }
+        if let Some(costs) = &costs {
+            store(Path::new(costs), &stages).expect("the file can be written");
+        }
         measured.push(stages);
     }
     print(&measured);
+}
+
+/// Writes what was measured of one wing over what stands in the file of costs; rows and columns have to be there.
+fn store(file: &Path, stages: &Stages) -> std::io::Result<()> {
+    let text = std::fs::read_to_string(file)?;
+    let mut rows: Vec<Vec<String>> = text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    let column = rows[0].iter().position(|name| *name == stages.dof.to_string()).expect("a column of this wing");
+    for row in &mut rows {
+        let seconds = stages.seconds(&row[0]);
+        if seconds.is_finite() {
+            row[column] = format!("{:.5}", 1e3 * seconds);
+        } else if row[0] == "most memory of an analysis" {
+            let analysis = stages.all.iter().find(|stage| stage.name == stages::ANALYSIS);
+            row[column] = format!("{:.1}", analysis.expect("it was timed").bytes as f64 / 1e6);
+        } else if row[0] == "entries of the factor" {
+            row[column] = format!("{:.3}", stages.factor_entries as f64 / 1e6);
+        }
+    }
+    std::fs::write(file, rows.iter().map(|row| row.join(",") + "\n").collect::<String>())
 }
 
 /// The paper's seconds and today's milliseconds.

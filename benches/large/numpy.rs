@@ -2,6 +2,7 @@
 
 use corfem::method::model::{FiniteElementModel, ModalModel};
 use corfem::method::structure::ElementKind;
+use corfem::studies::whole_model::SparseMatrix;
 use nalgebra::DMatrix;
 use std::fs::{File, create_dir_all};
 use std::io::{BufWriter, Result, Write};
@@ -77,4 +78,12 @@ pub fn write(folder: &Path, model: &FiniteElementModel, modal: &ModalModel) -> R
     let (count, modes) = (modal.shares.len(), modal.exact.modes.len());
     let diagonals = modal.shares.iter().flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
     numbers(&at("shares"), &[count, modes], diagonals)
+}
+
+/// Writes the mass of the whole model, and the frequencies of its lowest modes.
+pub fn write_whole(folder: &Path, mass: &SparseMatrix, frequencies: &[f64]) -> Result<()> {
+    let (at, entries) = (|name: &str| folder.join(format!("{name}.npy")), mass.entries());
+    integers(&at("mass_place"), &[entries.len(), 2], entries.iter().flat_map(|&(row, column, _)| [row, column]))?;
+    numbers(&at("mass_value"), &[entries.len()], entries.iter().map(|entry| entry.2))?;
+    numbers(&at("whole_frequencies"), &[frequencies.len()], frequencies.iter().copied())
 }

@@ -10,9 +10,11 @@ use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::ModalState;
+use corfem::method::structure::Material;
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::eigensolutions::planted;
 use corfem::studies::weighted::comparison::Known;
+use corfem::studies::whole_model::{SparseMatrix, WholeModel};
 use corfem::studies::wing::Wing;
 use nalgebra::DMatrix;
 use std::hint::black_box;
@@ -21,6 +23,12 @@ use std::time::{Duration, Instant};
 
 /// Modes of the analysis and of the test.
 pub const MODES: usize = 10;
+/// Modes of the whole model, and its density, lbf·s²/in⁴: aluminum, where the wing of the other stages has point masses alone.
+const WHOLE_MODES: usize = 20;
+const DENSITY: f64 = 2.6e-4;
+/// Stages that are named more than once.
+const CONDENSED: &str = "condensed model: these two and $K_D$";
+pub const ANALYSIS: &str = "analysis with all shares";
 /// The exact error sum to which a whole correlation goes.
 const ERROR: f64 = 0.05;
 /// A stage is repeated until it has taken so long together, but not more often than this.
@@ -37,6 +45,8 @@ pub struct Stage {
 /// All stages of one wing.
 pub struct Stages {
     pub dof: usize,
+    /// How many numbers the factor of the stiffness has.
+    pub factor_entries: usize,
     pub all: Vec<Stage>,
 }
 
@@ -79,10 +89,10 @@ fn settings() -> Settings {
 
 /// Times every stage of a wing, and hands it back with what an analysis found.
 pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
-    let mut stages = Stages { dof: 0, all: Vec::new() };
+    let mut stages = Stages { dof: 0, factor_entries: 0, all: Vec::new() };
     let structure = stages.time("grids and elements", || wing.structure().expect("a wing"));
     stages.dof = structure.free_dof().len();
-    drop(stages.time("element matrices", || element_matrices(&structure).expect("elements")));
+    drop(stages.time("element matrices (once)", || element_matrices(&structure).expect("elements")));
     drop(structure);
     let known = planted(wing).expect("a wing");
     let (model, test) = (&known.model, &known.test);
@@ -90,30 +100,48 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let (elements, sizes) = (model.element_matrices(), model.sizes(&ones).expect("sizes"));
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
-    let plan = Arc::new(stages.time("ordering and pattern, once", plan));
+    let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
+    stages.factor_entries = plan.factor_entries();
     let factorize = || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
     let flexibility = || structural.flexibility(model.load_distribution()).expect("a flexibility");
-    stages.time("flexibility, by forward substitution", flexibility);
+    stages.time("flexibility by forward substitution", flexibility);
     drop((structural, plan));
-    let condensed = stages.time("condensed model, these two and K_D", || model.condense(&ones).expect("it condenses"));
-    let modes = stages.time("modes", || solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes"));
-    stages.time("shapes of the structure, by solves", || condensed.structural_shapes(&modes.shapes).expect("shapes"));
+    let condensed = stages.time(CONDENSED, || model.condense(&ones).expect("it condenses"));
+    let modes = stages.time("modes: 10 of 108", || solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes"));
+    stages
+        .time("shapes of the structure: 10 solutions", || condensed.structural_shapes(&modes.shapes).expect("shapes"));
     drop(condensed);
     let analyze = |factors: &[f64]| model.analyze(factors, test, Some(MODES));
-    let modal = stages.time("analysis, with all shares", || analyze(&ones).expect("analyzed"));
+    let modal = stages.time(ANALYSIS, || analyze(&ones).expect("analyzed"));
     let start = ModalState::start(&modal);
     stages.time("gradient", || gradient(&modal, &start).expect("a gradient"));
     stages.time("derivatives by definition", || by_definition(&modal, &start).expect("derivatives"));
     let (settings, ranges) = (settings(), model.factor_ranges().expect("bounds"));
     let inner = || run(&modal, &ones, &ranges, &settings.inner).expect("it runs");
-    let run = stages.time("inner loop", inner);
-    stages.time("pass", || {
+    let run = stages.time("inner loop of the first pass", inner);
+    stages.time("pass with its analysis", || {
         inner();
         analyze(&run.factors).expect("analyzed")
     });
-    stages.time("correlation", || correlate(analyze, &ranges, &settings, |_, _| {}).expect("it runs"));
+    stages.time("correlation to an error sum of 5 %", || {
+        correlate(analyze, &ranges, &settings, |_, _| {}).expect("it runs")
+    });
     (stages, known, modal)
+}
+
+/// Times the modes of the whole model without any condensation, counted by inertia; with them its mass and their frequencies, Hz.
+///
+/// What an analysis at the points would have, elements by elements, is given away before.
+pub fn whole_modes(wing: &Wing, stages: &mut Stages) -> (SparseMatrix, Vec<f64>) {
+    let material = Material { density: DENSITY, ..wing.material };
+    let model = Wing { material, ..wing.clone() }.model().expect("a wing");
+    let ones = vec![1.0; model.parameters().len()];
+    let (whole, _) = WholeModel::of(&model).expect("a whole model");
+    drop(model);
+    let modes = || whole.modes(&ones, WHOLE_MODES).expect("modes").vibrations;
+    let found = stages.time("20 modes of the whole model (counted)", modes);
+    (whole.at(&ones).expect("matrices").1, found.frequencies_hz())
 }
 
 /// The paper's costs of its wing of 1326 SDOF in seconds, then and now: what it lists, what is done here in its place.
@@ -124,7 +152,7 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     let structural = FactorizedStiffness::new(model.element_matrices(), &sizes, model.structure().free_dof());
     let structural = structural.expect("it is held");
     let stiffness = model.condense(&ones).expect("it condenses").stiffness;
-    let mut now = Stages { dof: stages.dof, all: Vec::new() };
+    let mut now = Stages { all: Vec::new(), ..*stages };
     let identity = DMatrix::identity(stages.dof, stages.dof);
     drop(now.time("K_S", || structural.solve(&identity).expect("an inverse")));
     drop(now.time("K_D", || stiffness.clone().cholesky().expect("definite").inverse()));
@@ -132,10 +160,9 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     drop(now.time("B", || condense(&structural, &t).expect("it condenses")));
     drop(now.time("shares", || model.matrices(&ones).expect("shares")));
     let of = |name| stages.seconds(name);
-    let (condensed, flexibility) =
-        (of("condensed model, these two and K_D"), of("flexibility, by forward substitution"));
+    let (condensed, flexibility) = (of(CONDENSED), of("flexibility by forward substitution"));
     let shares = (now.seconds("shares") - condensed - (now.seconds("B") - flexibility)) / ones.len() as f64;
-    let generalized = of("analysis, with all shares") - condensed - of("modes");
+    let generalized = of(ANALYSIS) - condensed - of("modes: 10 of 108");
     vec![
         ("(i) K_S inverted, order 1326 (1458)", 60.0, of("assembly and factorization") + now.seconds("K_S")),
         ("(ii) K_D inverted, order 108", 4.5, now.seconds("K_D")),

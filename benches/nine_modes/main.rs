@@ -6,8 +6,10 @@ mod rivals;
 mod summary;
 
 use corfem::cases::run_case;
+use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::run;
+use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE};
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
 use problem::{NINE, PassSetting, Setting, passes};
@@ -95,4 +97,7 @@ fn main() {
     cases(&mut criterion, &passes);
     criterion.final_summary();
     summary::print(&folder, &passes);
+    let k = &setting.problem.exact.modes.omega_squared;
+    let settled = recursive_1_converged(k, &setting.beta, ROOT_TOLERANCE, MOST_ORDERS).expect("it settles");
+    println!("Recursive 1 settles at order {}", settled.order);
 }

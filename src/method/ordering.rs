@@ -9,62 +9,37 @@ use std::collections::VecDeque;
 /// Parts that are not cut again: a grid's three DOF times this are a dense block, which costs less than more bookkeeping.
 const SMALLEST_PART: usize = 24;
 
-/// Grid points joined by elements.
+/// Points of a mesh.
 pub(crate) struct Mesh {
-    points: Vec<Vector3<f64>>,
-    points_of: Vec<Vec<usize>>,
-    elements_of: Vec<Vec<usize>>,
+    /// Where they are, all alike where that is not known.
+    pub(crate) points: Vec<Vector3<f64>>,
+    /// Those coupled to each.
+    pub(crate) near: Vec<Vec<usize>>,
 }
 
 impl Mesh {
-    /// From positions, all alike where they are not known, and the points of every element, which may name a point twice.
-    pub(crate) fn new(points: Vec<Vector3<f64>>, mut points_of: Vec<Vec<usize>>) -> Self {
-        let mut elements_of = vec![Vec::new(); points.len()];
-        for (element, of_element) in points_of.iter_mut().enumerate() {
-            of_element.sort_unstable();
-            of_element.dedup();
-            of_element.iter().for_each(|&point| elements_of[point].push(element));
-        }
-        Self { points, points_of, elements_of }
-    }
-
-    fn neighbors(&self, point: usize) -> impl Iterator<Item = usize> {
-        self.elements_of[point].iter().flat_map(|&element| self.points_of[element].iter().copied())
-    }
-
-    /// The points in their order of elimination.
+    /// The points in their order of elimination: both sides of a cut, then what lies next to it.
     pub(crate) fn nested_dissection(&self) -> Vec<usize> {
-        let mut points: Vec<usize> = (0..self.points.len()).collect();
-        let mut order = Vec::with_capacity(points.len());
-        self.dissect(&mut points, &mut vec![0; self.points.len()], &mut 0, &mut order);
+        let (mut order, mut mark): (Vec<usize>, _) = ((0..self.points.len()).collect(), vec![0; self.points.len()]);
+        let (mut last, mut parts) = (0, vec![0..order.len()]);
+        while let Some(range) = parts.pop() {
+            let part = &mut order[range.clone()];
+            let directions = if part.len() > SMALLEST_PART { 0..4 } else { 0..0 };
+            let cuts = directions.filter_map(|direction| {
+                let keys: Vec<f64> = match direction {
+                    3 => self.distances(part, &mut mark, &mut last),
+                    axis => part.iter().map(|&point| self.points[point][axis]).collect(),
+                };
+                self.cut(part, &keys, &mut mark, &mut last)
+            });
+            let Some((sides, _)) = cuts.min_by_key(|cut| cut.1) else { continue };
+            let mut sorted: Vec<(u8, usize)> = sides.into_iter().zip(part.iter().copied()).collect();
+            sorted.sort_by_key(|pair| pair.0);
+            part.iter_mut().zip(&sorted).for_each(|(point, pair)| *point = pair.1);
+            let [first, both] = [1, 2].map(|side| range.start + sorted.partition_point(|pair| pair.0 < side));
+            parts.extend([range.start..first, first..both]);
+        }
         order
-    }
-
-    /// Appends a part to the order. `mark` holds for every point the last mark that was given it.
-    fn dissect(&self, part: &mut [usize], mark: &mut [usize], last: &mut usize, order: &mut Vec<usize>) {
-        let directions = if part.len() > SMALLEST_PART { 0..4 } else { 0..0 };
-        let cuts = directions.filter_map(|direction| {
-            let keys: Vec<f64> = match direction {
-                3 => self.distances(part, mark, last),
-                axis => part.iter().map(|&point| self.points[point][axis]).collect(),
-            };
-            self.cut(part, &keys, mark, last)
-        });
-        let Some((sides, _)) = cuts.min_by_key(|cut| cut.1) else {
-            order.extend_from_slice(part);
-            return;
-        };
-        let mut sorted: Vec<(u8, usize)> = sides.into_iter().zip(part.iter().copied()).collect();
-        sorted.sort_by_key(|pair| pair.0);
-        part.iter_mut().zip(&sorted).for_each(|(point, pair)| *point = pair.1);
-        let first = sorted.partition_point(|pair| pair.0 < 1);
-        let both = sorted.partition_point(|pair| pair.0 < 2);
-        drop(sorted);
-        let (parts, separator) = part.split_at_mut(both);
-        let (one, other) = parts.split_at_mut(first);
-        self.dissect(one, mark, last, order);
-        self.dissect(other, mark, last, order);
-        order.extend_from_slice(separator);
     }
 
     /// Cuts a part at the median of the keys of its points: for every point 0 or 1 for its side and 2 next to the cut, and how many
@@ -83,7 +58,8 @@ impl Mesh {
         *last += 2;
         part.iter().zip(&sides).for_each(|(&point, &side)| mark[point] = marks[usize::from(side)]);
         let next_to = |side: u8| -> Vec<usize> {
-            let is_next = |point: usize| self.neighbors(point).any(|near| mark[near] == marks[usize::from(1 - side)]);
+            let is_next =
+                |point: usize| self.near[point].iter().any(|&near| mark[near] == marks[usize::from(1 - side)]);
             (0..part.len()).filter(|&place| sides[place] == side && is_next(part[place])).collect()
         };
         let (first, second) = (next_to(0), next_to(1));
@@ -95,7 +71,7 @@ impl Mesh {
         Some((sides, separator.len() * (1 + lopsided)))
     }
 
-    /// How many elements lie between the points of a part and one at its end; those that cannot be reached come last.
+    /// How many couplings lie between the points of a part and one at its end; pieces that do not hang together follow one another.
     fn distances(&self, part: &[usize], mark: &mut [usize], last: &mut usize) -> Vec<f64> {
         let (mut start, mut first) = (part[0], 0);
         // From the farthest of the first point's: an end of the part.
@@ -104,20 +80,25 @@ impl Mesh {
             let inside = *last;
             first = inside + 1;
             part.iter().for_each(|&point| mark[point] = inside);
-            mark[start] = first;
-            *last = first;
-            let mut queue = VecDeque::from([start]);
-            while let Some(point) = queue.pop_front() {
-                start = point;
-                for near in self.neighbors(point) {
-                    if mark[near] == inside {
-                        mark[near] = mark[point] + 1;
-                        *last = mark[near].max(*last);
-                        queue.push_back(near);
+            let mut queue = VecDeque::new();
+            for piece in [start].iter().chain(part) {
+                if mark[*piece] == inside {
+                    *last += 1;
+                    mark[*piece] = *last;
+                    queue.push_back(*piece);
+                }
+                while let Some(point) = queue.pop_front() {
+                    start = point;
+                    for &near in &self.near[point] {
+                        if mark[near] == inside {
+                            mark[near] = mark[point] + 1;
+                            *last = mark[near].max(*last);
+                            queue.push_back(near);
+                        }
                     }
                 }
             }
         }
-        part.iter().map(|&point| mark[point].checked_sub(first).map_or(f64::MAX, |steps| steps as f64)).collect()
+        part.iter().map(|&point| (mark[point] - first) as f64).collect()
     }
 }

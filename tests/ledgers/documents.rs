@@ -48,14 +48,14 @@ fn documents() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// A document with the blocks of one name replaced, and how many there are.
-pub fn with_block(document: &str, name: &str, block: &str) -> (String, usize) {
-    let (start, end) = (format!("<!-- computed: {name} -->\n"), "<!-- end -->");
+/// A document with the blocks behind one marker replaced, and how many there are.
+pub fn with_block(document: &str, marker: &str, block: &str) -> (String, usize) {
+    let (start, end) = (format!("<!-- {marker} -->\n"), "<!-- end -->");
     let mut pieces = document.split(&start);
     let mut out = pieces.next().unwrap_or_default().to_owned();
     let mut count = 0;
     for piece in pieces {
-        let (_, after) = piece.split_once(end).unwrap_or_else(|| panic!("{name} has no end"));
+        let (_, after) = piece.split_once(end).unwrap_or_else(|| panic!("{marker} has no end"));
         out.push_str(&format!("{start}{}\n{end}{after}", block.trim()));
         count += 1;
     }
@@ -71,7 +71,7 @@ fn tables_in_documents_are_what_the_program_computes() {
         let block = filled(&template, &goldens).unwrap_or_else(|what| panic!("{name}: {what}"));
         let mut count = 0;
         for text in documents.values_mut() {
-            let (now, found) = with_block(text, &name, &block);
+            let (now, found) = with_block(text, &format!("computed: {name}"), &block);
             *text = now;
             count += found;
         }
@@ -130,7 +130,7 @@ fn every_table_of_numbers_says_where_they_come_from() {
 #[test]
 fn a_block_is_replaced_and_counted() {
     let document = "a\n<!-- computed: n -->\nold\n<!-- end -->\nb";
-    let (now, count) = with_block(document, "n", "new");
+    let (now, count) = with_block(document, "computed: n", "new");
     assert_eq!(now, document.replace("old", "new"));
     assert_eq!(count, 1);
 }

@@ -1,6 +1,7 @@
 //! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
 //! against the code.
 
+pub mod costs;
 pub mod documents;
 pub mod equations;
 pub mod errata;

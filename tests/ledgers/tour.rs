@@ -32,7 +32,7 @@ fn figures_in_the_tour_are_what_the_program_computes() {
     let figures = figures();
     for (number, (path, text)) in chapters() {
         let svg = figures.get(&*number).unwrap_or_else(|| panic!("chapter {number} has no figure"));
-        let (now, count) = with_block(&text, &format!("figure_{number}"), svg);
+        let (now, count) = with_block(&text, &format!("computed: figure_{number}"), svg);
         assert_eq!(count, 1, "chapter {number}");
         if std::env::var("CORFEM_DOCUMENTS").is_ok_and(|value| value == "write") {
             fs::write(path, now).expect("it can be written");

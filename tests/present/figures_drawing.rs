@@ -17,6 +17,7 @@ fn figures_of_a_run_in_the_order_of_the_report() {
         [
             "case_4_factors",
             "case_4_derivatives",
+            "growth",
             "linearization",
             "truncation",
             "matrices_stiffness",
@@ -76,7 +77,7 @@ fn stored_figures_are_what_the_command_writes() {
         assert!(numbers.agree(&stored, &figure.svg), "{name} differs: write it again");
         compared += 1;
     }
-    assert_eq!(compared, 14, "one of every kind");
+    assert_eq!(compared, 15, "one of every kind");
 }
 
 #[test]

@@ -16,7 +16,7 @@ use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_uppe
 use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
 use faer::{Accum, MatMut, MatRef, Par};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 use plan::fingerprint;
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ impl FactorizedStiffness {
     #[doc = include_str!("../../../paper/examples/factorization/new.md")]
     pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
         check_sizes(elements, sizes, free)?;
-        Self::planned(&Arc::new(FactorizationPlan::of(elements, free, |_| None)?), elements, sizes, free)
+        Self::planned(&Arc::new(FactorizationPlan::of(elements, free, |_| Vector3::zeros())?), elements, sizes, free)
     }
 
     /// The same by a plan that was made for these elements.
@@ -87,17 +87,13 @@ impl FactorizedStiffness {
         if diagonal.min() <= 0.0 {
             return singular(&|turn| f64::from(diagonal[turn] <= 0.0), 0.0);
         }
-        let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
-        for column in 0..count {
-            let (rows, range) = plan.column(column);
-            rows.iter().zip(&mut entries[range]).for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
-        }
+        let scale = plan.scale(&mut entries, |entry| entry);
         let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
         let mut shifted = entries.clone();
         for shift in [0.0, SINGULAR_SHIFT] {
             plan.pattern.col_ptr()[..count].iter().for_each(|&place| shifted[place] = entries[place] + shift);
-            let Some(values) = plan.factor(&shifted)? else { continue };
+            let (values, true) = plan.factor(&shifted, true)? else { continue };
             let factor = Self { plan: Arc::clone(plan), scale: DVector::from_element(count, 1.0), values };
             let (smallest, motion) = factor.weakest_motion(CLEARLY_HELD * round_off);
             if shift == 0.0 && smallest > round_off {

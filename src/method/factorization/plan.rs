@@ -5,6 +5,7 @@ use crate::method::error::Error;
 use crate::method::ordering::Mesh;
 use crate::method::structure::{StructuralDof, Structure};
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -20,13 +21,14 @@ use std::ops::Range;
 /// factor then has them.
 #[derive(Debug)]
 pub struct FactorizationPlan {
-    /// When each DOF is eliminated; everything below counts the DOF in that order.
-    pub(super) turn: Vec<usize>,
+    /// The DOF in the order of elimination, and when each is eliminated; everything below counts the DOF in that order.
+    pub(crate) order: Vec<usize>,
+    pub(crate) turn: Vec<usize>,
     /// The lower triangle, column by column; the first entry of a column is the diagonal.
     pub(super) pattern: SymbolicSparseColMat<usize>,
-    /// Place among the entries of every entry of every element's own lower triangle.
+    /// Place among the entries of every entry of every element's own lower triangle; none where a matrix is factorized.
     places: Vec<u32>,
-    pub(super) symbolic: SymbolicCholesky<usize>,
+    pub(crate) symbolic: SymbolicCholesky<usize>,
     /// Of the DOF that the elements had.
     pub(super) fingerprint: u64,
 }
@@ -48,43 +50,71 @@ impl FactorizationPlan {
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
         let position: HashMap<usize, Vector3<f64>> =
             structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
-        Self::of(elements, structure.free_dof(), |grid| position.get(&grid).copied())
+        Self::of(elements, structure.free_dof(), |grid| position.get(&grid).copied().unwrap_or_default())
     }
 
-    /// The same with positions where they are known.
+    /// The same with positions of grids, all alike where they are not known.
     pub(super) fn of(
         elements: &[ElementMatrix],
         free: &[StructuralDof],
-        position: impl Fn(usize) -> Option<Vector3<f64>>,
+        position: impl Fn(usize) -> Vector3<f64>,
     ) -> Result<Self, Error> {
         check_elements(elements, &vec![1.0; elements.len()], free.len())?;
-        let count = free.len();
-        let dof_of: Vec<&[StructuralDof]> = free.chunk_by(|a, b| a.grid == b.grid).collect();
-        let points: Vec<_> = dof_of.iter().map(|dof| position(dof[0].grid).unwrap_or_default()).collect();
-        let point_of: Vec<usize> = dof_of.iter().enumerate().flat_map(|(point, dof)| vec![point; dof.len()]).collect();
-        let points_of: Vec<Vec<usize>> =
-            elements.iter().map(|element| element.dof.iter().map(|&dof| point_of[dof]).collect()).collect();
-        let order = Mesh::new(points, points_of).nested_dissection();
-        // The DOF of a point follow one another.
-        let first_dof = |point: usize| point_of.partition_point(|&other| other < point);
-        let order = order.into_iter().flat_map(|point| first_dof(point)..first_dof(point + 1));
+        let mut touching = vec![Vec::new(); free.len()];
+        for ElementMatrix { dof, .. } in elements {
+            dof.iter().for_each(|&row| touching[row].push(dof.as_slice()));
+        }
+        let plan = Self::of_matrices(free.len(), |row| touching[row].concat(), |row| position(free[row].grid))?;
+        let mut places = Vec::new();
+        for ElementMatrix { dof, .. } in elements {
+            let turns: Vec<usize> = dof.iter().map(|&dof| plan.turn[dof]).collect();
+            for (column, &other) in turns.iter().enumerate() {
+                let place = |&turn: &usize| plan.place(turn.max(other), turn.min(other)).map(|place| place as u32);
+                places.extend(turns[column..].iter().filter_map(place));
+            }
+        }
+        Ok(Self { places, fingerprint: fingerprint(elements), ..plan })
+    }
+
+    /// The plan for symmetric matrices that couple every row to those listed, which have a position each. Neighbors coupled to the same
+    /// rows, as those of one grid are, are one point of the mesh.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub(crate) fn of_matrices(
+        count: usize,
+        coupled: impl Fn(usize) -> Vec<usize>,
+        position: impl Fn(usize) -> Vector3<f64>,
+    ) -> Result<Self, Error> {
+        let column = |row: usize| {
+            let mut rows = [coupled(row), vec![row]].concat();
+            rows.sort_unstable();
+            rows.dedup();
+            rows
+        };
+        let columns: Vec<Vec<usize>> = (0..count).map(column).collect();
+        let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
+        let point_of: Vec<usize> = points.iter().enumerate().flat_map(|(point, of)| vec![point; of.len()]).collect();
+        let first_row = |point: usize| point_of.partition_point(|&other| other < point);
+        let near = |of: &&[Vec<usize>]| {
+            let mut near: Vec<usize> = of[0].iter().map(|&row| point_of[row]).collect();
+            near.dedup();
+            near
+        };
+        let places = (0..points.len()).map(|point| position(first_row(point))).collect();
+        let order = Mesh { points: places, near: points.iter().map(near).collect() }.nested_dissection().into_iter();
+        let order: Vec<usize> = order.flat_map(|point| first_row(point)..first_row(point + 1)).collect();
         let mut turn = vec![0; count];
-        order.enumerate().for_each(|(place, dof)| turn[dof] = place);
-        let (column_starts, rows) = lower_pattern(elements, &turn);
+        order.iter().enumerate().for_each(|(place, &dof)| turn[dof] = place);
+        let (mut column_starts, mut rows) = (vec![0], Vec::new());
+        for (column, &dof) in order.iter().enumerate() {
+            rows.extend(columns[dof].iter().map(|&row| turn[row]).filter(|&row| row >= column));
+            rows[column_starts[column]..].sort_unstable();
+            column_starts.push(rows.len());
+        }
         let available = u32::MAX as usize;
         if rows.len() > available {
             return Err(Error::TooMany { what: "entries of the stiffness", available, requested: rows.len() });
-        }
-        let place = |row: usize, column: usize| {
-            let (from, to) = (column_starts[column], column_starts[column + 1]);
-            (from + rows[from..to].partition_point(|&other| other < row)) as u32
-        };
-        let mut places = Vec::new();
-        for ElementMatrix { dof, .. } in elements {
-            let turns: Vec<usize> = dof.iter().map(|&dof| turn[dof]).collect();
-            for (column, &other) in turns.iter().enumerate() {
-                places.extend(turns[column..].iter().map(|&turn| place(turn.max(other), turn.min(other))));
-            }
         }
         let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
         let parameters = CholeskySymbolicParams {
@@ -97,7 +127,13 @@ impl FactorizationPlan {
         let symbolic =
             factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters);
         let symbolic = symbolic.map_err(failed)?;
-        Ok(Self { turn, pattern, places, symbolic, fingerprint: fingerprint(elements) })
+        Ok(Self { order, turn, pattern, places: Vec::new(), symbolic, fingerprint: 0 })
+    }
+
+    /// Where an entry of the lower triangle stands among all, counted in the order of elimination.
+    fn place(&self, row: usize, column: usize) -> Option<usize> {
+        let (rows, range) = self.column(column);
+        rows.binary_search(&row).ok().map(|place| range.start + place)
     }
 
     /// How many numbers the factor holds.
@@ -120,6 +156,17 @@ impl FactorizationPlan {
         values
     }
 
+    /// Those of a symmetric matrix given by row, column and value; none where it has an entry that the plan has not.
+    pub(crate) fn entries_of(&self, matrix: impl Iterator<Item = (usize, usize, f64)>) -> Option<Vec<f64>> {
+        let mut values = vec![0.0; self.pattern.row_idx().len()];
+        for (row, column, value) in matrix.map(|(row, column, value)| (self.turn[row], self.turn[column], value)) {
+            if row >= column {
+                values[self.place(row, column)?] += value;
+            }
+        }
+        Some(values)
+    }
+
     /// The rows of a column's entries and the range of their places.
     pub(super) fn column(&self, column: usize) -> (&[usize], Range<usize>) {
         let range = self.pattern.col_ptr()[column]..self.pattern.col_ptr()[column + 1];
@@ -127,53 +174,51 @@ impl FactorizationPlan {
     }
 
     /// The product of the matrix of given entries with a vector.
-    pub(super) fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
+    pub(crate) fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
         let mut product = DVector::zeros(x.len());
         for column in 0..x.len() {
             let (rows, range) = self.column(column);
-            let (mut sum, own) = (0.0, x[column]);
-            for (&row, entry) in rows.iter().zip(&entries[range]) {
-                product[row] += entry * own;
-                sum += entry * x[row];
+            product[column] += entries[range.start] * x[column];
+            // The diagonal comes first.
+            for (&row, entry) in rows.iter().zip(&entries[range]).skip(1) {
+                product[row] += entry * x[column];
+                product[column] += entry * x[row];
             }
-            // The diagonal, which comes first in a column, is counted twice by now.
-            product[column] += sum - entries[self.pattern.col_ptr()[column]] * own;
         }
         product
     }
 
-    /// The Cholesky factor of given entries, in one thread whatever the library's global setting: its parallel kernels have open
-    /// reports of wrong results on large matrices. None for a matrix that is not positive definite to working precision.
-    pub(super) fn factor(&self, entries: &[f64]) -> Result<Option<Vec<f64>>, Error> {
-        let mut values = vec![0.0; self.symbolic.len_val()];
-        let scratch = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::NoConvergence("sparse Cholesky"))?;
-        let (none, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
-        let symbolic = &self.symbolic;
-        let done =
-            symbolic.factorize_numeric_llt(&mut values, matrix, Side::Lower, none, Par::Seq, stack, Spec::default());
-        let is_definite = done.is_ok();
-        Ok(is_definite.then_some(values))
+    /// Scales entries so that the given size of those of the diagonal becomes one, and says by what.
+    pub(crate) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
+        let starts = &self.pattern.col_ptr()[..self.turn.len()];
+        let scale = DVector::from_iterator(starts.len(), starts.iter().map(|&at| 1.0 / size(entries[at]).sqrt()));
+        for column in 0..scale.len() {
+            let (rows, range) = self.column(column);
+            rows.iter().zip(&mut entries[range]).for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
+        }
+        scale
     }
-}
 
-/// Where the columns of the lower triangle begin, and the rows of its entries, ascending in each.
-fn lower_pattern(elements: &[ElementMatrix], turn: &[usize]) -> (Vec<usize>, Vec<usize>) {
-    let mut touching = vec![Vec::new(); turn.len()];
-    for ElementMatrix { dof, .. } in elements {
-        dof.iter().for_each(|&column| touching[turn[column]].push(dof));
+    /// The factor of given entries, in one thread whatever the library's global setting: its parallel kernels have open reports of
+    /// wrong results on large matrices. Of a `definite` matrix $L$ of $L L^t$, else $L$ and $D$ of $L D L^t$; and whether there is
+    /// one to working precision.
+    pub(crate) fn factor(&self, entries: &[f64], definite: bool) -> Result<(Vec<f64>, bool), Error> {
+        let (symbolic, side, one) = (&self.symbolic, Side::Lower, Par::Seq);
+        let mut values = vec![0.0; symbolic.len_val()];
+        let scratch = match definite {
+            true => symbolic.factorize_numeric_llt_scratch::<f64>(one, Spec::default()),
+            false => symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()),
+        };
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::NoConvergence("sparse factorization"))?;
+        let stack = MemStack::new(&mut memory);
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
+        let (llt, ldlt) = (LltRegularization::default(), LdltRegularization::default());
+        let is_done = match definite {
+            true => symbolic.factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default()).is_ok(),
+            false => {
+                symbolic.factorize_numeric_ldlt(&mut values, matrix, side, ldlt, one, stack, Spec::default()).is_ok()
+            }
+        };
+        Ok((values, is_done))
     }
-    let (mut starts, mut rows) = (vec![0], Vec::new());
-    let mut of_column = Vec::new();
-    for (column, touching) in touching.iter().enumerate() {
-        of_column.clear();
-        of_column.push(column);
-        of_column.extend(touching.iter().flat_map(|dof| dof.iter().map(|&dof| turn[dof])).filter(|&row| row > column));
-        of_column.sort_unstable();
-        of_column.dedup();
-        rows.extend_from_slice(&of_column);
-        starts.push(rows.len());
-    }
-    (starts, rows)
 }

@@ -2,7 +2,7 @@
 
 use super::bars::{BarFigure, Bars, Series};
 use super::matrices::{HeatMap, draw_by_twos};
-use super::{Figure, linearization, numbers};
+use super::{Figure, growth, linearization, numbers};
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
 use crate::present::tables::fewer_modes::costs;
@@ -45,7 +45,9 @@ pub fn comparison_figures(
     let steps = linearization::draw("linearization", title, &both_structures(Exact::SameCondensation)?)?;
     let steps_caption = "Frequencies and shapes predicted for a step toward the right gages, by perturbation and by linear Taylor \
         steps, beside the exact ones of the same condensed model.";
+    let caption = "Milliseconds of every stage on wings of any size, and the exponents of their growth.";
     Ok(vec![
+        Figure::new("growth", caption, growth::draw("growth", "Time of every stage against the size of the model")?),
         Figure::new("linearization", steps_caption, steps),
         Figure::new("truncation", truncation_caption, truncated),
         Figure::new("matrices_stiffness", stiffness_caption, stiffness),

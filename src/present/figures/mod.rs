@@ -13,6 +13,7 @@ pub mod comparisons;
 pub mod cover_gages;
 pub mod error_history;
 pub mod factors;
+pub mod growth;
 pub mod linearization;
 pub mod matrices;
 pub mod frame;

@@ -58,7 +58,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let differences = section_of(include_str!("../../../paper/results.md"), "");
     let why = "Where the results differ from the published ones, and why";
     let cost = [iteration_table(contents.results)?, settings_table(contents.results)];
-    let cost = part(&cost, contents.figures, &["linearization"]);
+    let cost = part(&cost, contents.figures, &["growth", "linearization"]);
     parts.extend([
         named("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
         named("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),

@@ -1,25 +1,24 @@
-//! A sparse symmetric factorization, in one thread whatever the library's global setting, that also counts.
+//! A sparse symmetric factorization by the method's own plan, that also counts.
 
 use super::SparseMatrix;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_shape, check_solution, from_faer, start_vector, to_faer};
+use crate::method::factorization::FactorizationPlan;
+use crate::method::linear_algebra::{check_length, check_shape, check_solution, start_vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
-use faer::sparse::linalg::cholesky::{
-    LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, Par, Side, Spec};
-use nalgebra::{DMatrix, DVector};
+use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholeskyRaw};
+use faer::{Conj, MatMut, Par};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::sync::Arc;
 
 /// $A = S^{-1} L D L^t S^{-1}$ of a symmetric matrix, where the diagonal $S$ brings its largest entries to one.
 #[derive(Debug)]
 pub struct Factor {
-    symbolic: SymbolicCholesky<usize>,
+    plan: Arc<FactorizationPlan>,
     values: Vec<f64>,
+    /// This and the pivots of $D$ in the order of elimination.
     scale: DVector<f64>,
-    /// Every pivot of $D$ and the row it belongs to.
-    pivots: Vec<(f64, usize)>,
+    pivots: Vec<f64>,
 }
 
 impl Factor {
@@ -29,56 +28,56 @@ impl Factor {
     /// [`Error::WrongShape`] unless it is square; [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot
     /// vanishes; [`Error::WrongSolution`] when the factor does not solve its own matrix.
     pub fn new(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
-        let count = matrix.rows();
-        check_length(what, matrix.columns(), count)?;
-        let mut largest = DVector::<f64>::zeros(count);
-        for &(row, _, value) in matrix.entries() {
-            largest[row] = largest[row].max(value.abs());
-        }
-        // Of the diagonal where there is one: a positive definite matrix then has a unit diagonal.
-        matrix.entries().iter().filter(|entry| entry.0 == entry.1).for_each(|entry| largest[entry.0] = entry.2.abs());
-        if let Some(dof) = largest.iter().position(|&entry| entry == 0.0) {
-            return Err(Error::NotPositiveDefinite { what, dof });
-        }
-        let scale = largest.map(|entry| 1.0 / entry.sqrt());
-        let lower = matrix.entries().iter().filter(|(row, column, _)| row >= column);
-        let scaled = lower.map(|&(row, column, value)| Triplet::new(row, column, value * scale[row] * scale[column]));
+        check_length(what, matrix.columns(), matrix.rows())?;
+        Self::planned(&Self::plan(&[matrix])?, what, &[(1.0, matrix)])
+    }
+
+    /// The plan for sums of square matrices of one size.
+    pub(super) fn plan(matrices: &[&SparseMatrix]) -> Result<Arc<FactorizationPlan>, Error> {
+        let count = matrices.iter().map(|matrix| matrix.rows()).max().unwrap_or(0);
+        let coupled = |row: usize| matrices.iter().flat_map(|matrix| matrix.column(row)).map(|entry| entry.0).collect();
+        Ok(Arc::new(FactorizationPlan::of_matrices(count, coupled, |_| Vector3::zeros())?))
+    }
+
+    /// As [`Self::new`] of a sum of matrices, each times its number, by their plan.
+    pub(super) fn planned(
+        plan: &Arc<FactorizationPlan>,
+        what: &'static str,
+        terms: &[(f64, &SparseMatrix)],
+    ) -> Result<Self, Error> {
         let failed = || Error::NoConvergence("sparse factorization");
-        let scaled = SparseColMat::try_new_from_triplets(count, count, &scaled.collect::<Vec<_>>());
-        let scaled = scaled.map_err(|_| failed())?;
-        let amd = SymmetricOrdering::Amd;
-        let symbolic = factorize_symbolic_cholesky(scaled.symbolic(), Side::Lower, amd, Default::default());
-        let symbolic = symbolic.map_err(|_| failed())?;
-        let mut values = vec![0.0; symbolic.len_val()];
-        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| failed())?;
-        let (none, stack) = (Default::default(), MemStack::new(&mut memory));
-        let (side, spec) = (Side::Lower, Spec::default());
-        let done = symbolic.factorize_numeric_ldlt(&mut values, scaled.as_ref(), side, none, Par::Seq, stack, spec);
-        let is_done = done.is_ok();
-        let pivots = pivots(&symbolic, &values);
-        let vanished = |pivot: &&(f64, usize)| !(pivot.0.is_finite() && pivot.0 != 0.0);
-        if let Some(&(_, dof)) = pivots.iter().find(vanished) {
-            return Err(Error::NotPositiveDefinite { what, dof });
+        let times = |number: f64| move |&(row, column, value): &(usize, usize, f64)| (row, column, number * value);
+        let sum = terms.iter().flat_map(|(number, matrix)| matrix.entries().iter().map(times(*number)));
+        let mut entries = plan.entries_of(sum).ok_or_else(failed)?;
+        // A positive definite matrix then has a unit diagonal.
+        let scale = plan.scale(&mut entries, |entry| if entry == 0.0 { 1.0 } else { entry.abs() });
+        let (values, is_done) = plan.factor(&entries, false)?;
+        let SymbolicCholeskyRaw::Supernodal(supernodal) = plan.symbolic.raw() else { return Err(failed()) };
+        let factor = SupernodalLdltRef::new(supernodal, &values);
+        let blocks = (0..supernodal.n_supernodes()).map(|node| factor.supernode(node).val());
+        let pivots: Vec<f64> =
+            blocks.flat_map(|block| (0..block.ncols()).map(move |column| block[(column, column)])).collect();
+        if let Some(at) = pivots.iter().position(|pivot| !pivot.is_finite() || *pivot == 0.0) {
+            return Err(Error::NotPositiveDefinite { what, dof: plan.order[at] });
         }
-        if !is_done {
-            return Err(failed());
-        }
-        let factor = Self { symbolic, values, scale, pivots };
-        let column = |x: &DVector<f64>| DMatrix::from_column_slice(count, 1, x.as_slice());
-        let scaled_column = |x: DMatrix<f64>, by: &DVector<f64>| x.column(0).component_mul(by);
-        let unscale = factor.scale.map(f64::recip);
-        let times = |x: &DVector<f64>| {
-            let product = matrix.times(&column(&x.component_mul(&factor.scale)));
-            product.map_or_else(|_| DVector::from_element(count, f64::NAN), |p| scaled_column(p, &factor.scale))
+        is_done.then_some(()).ok_or_else(failed)?;
+        let factor = Self { plan: Arc::clone(plan), values, scale, pivots };
+        let solved = |right: &DVector<f64>| {
+            let column = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
+            factor.solved(column).column(0).into_owned()
         };
-        let solved = |x: &DVector<f64>| {
-            let right = column(&x.component_mul(&unscale));
-            let solution = factor.solve(&right);
-            solution.map_or_else(|_| DVector::from_element(count, f64::NAN), |s| scaled_column(s, &unscale))
-        };
-        check_solution(what, times, solved, &start_vector(count))?;
+        check_solution(what, |x| plan.times(&entries, x), solved, &start_vector(factor.scale.len()))?;
         Ok(factor)
+    }
+
+    /// Solutions of the scaled problem, in the order of elimination.
+    fn solved(&self, mut columns: DMatrix<f64>) -> DMatrix<f64> {
+        let (symbolic, count) = (&self.plan.symbolic, columns.ncols());
+        let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(count, Par::Seq));
+        let view = MatMut::from_column_major_slice_mut(columns.as_mut_slice(), self.scale.len(), count);
+        let factor = LdltRef::new(symbolic, &self.values);
+        factor.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
+        columns
     }
 
     /// $A^{-1} R$ for every column of $R$ (rows × m).
@@ -86,21 +85,17 @@ impl Factor {
     /// # Errors
     /// [`Error::WrongShape`] unless it has a row per row of the matrix.
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        check_shape("right-hand sides", right, self.scale.len(), right.ncols())?;
-        let scaled = |mut matrix: DMatrix<f64>| {
-            matrix.column_iter_mut().for_each(|mut column| column.component_mul_assign(&self.scale));
-            matrix
-        };
-        let mut columns = to_faer(&scaled(right.clone()));
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns.ncols(), Par::Seq);
-        let (factor, mut memory) = (LdltRef::new(&self.symbolic, &self.values), MemBuffer::new(scratch));
-        factor.solve_in_place_with_conj(Conj::No, columns.as_mut(), Par::Seq, MemStack::new(&mut memory));
-        Ok(scaled(from_faer(columns.as_ref())))
+        let (count, columns, FactorizationPlan { order, turn, .. }) = (self.scale.len(), right.ncols(), &*self.plan);
+        check_shape("right-hand sides", right, count, columns)?;
+        let solved =
+            self.solved(DMatrix::from_fn(count, columns, |at, column| self.scale[at] * right[(order[at], column)]));
+        let at = |row: usize, column: usize| self.scale[turn[row]] * solved[(turn[row], column)];
+        Ok(DMatrix::from_fn(count, columns, at))
     }
 
     /// The number of negative pivots, which is that of the matrix's negative eigenvalues (Sylvester's law of inertia).
     pub fn negative_count(&self) -> usize {
-        self.pivots.iter().filter(|(pivot, _)| *pivot < 0.0).count()
+        self.pivots.iter().filter(|pivot| **pivot < 0.0).count()
     }
 
     /// Refuses a matrix that is not positive definite beyond round-off.
@@ -115,27 +110,7 @@ impl Factor {
 
     /// The smallest pivot of the matrix scaled to unit diagonal, and the row of the matrix that it belongs to.
     pub fn smallest_pivot(&self) -> (f64, usize) {
-        let smallest = self.pivots.iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        smallest.copied().unwrap_or((0.0, 0))
+        let pivots = self.pivots.iter().copied().zip(self.plan.order.iter().copied());
+        pivots.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0))
     }
-}
-
-/// The pivots of a factorization and the rows of the matrix they belong to.
-fn pivots(symbolic: &SymbolicCholesky<usize>, values: &[f64]) -> Vec<(f64, usize)> {
-    let mut pivots = Vec::with_capacity(symbolic.nrows());
-    match symbolic.raw() {
-        SymbolicCholeskyRaw::Simplicial(simplicial) => {
-            pivots.extend(simplicial.col_ptr()[..simplicial.ncols()].iter().map(|&first| values[first]));
-        }
-        SymbolicCholeskyRaw::Supernodal(supernodal) => {
-            let factor = SupernodalLdltRef::new(supernodal, values);
-            for node in 0..supernodal.n_supernodes() {
-                let columns = factor.supernode(node).val();
-                pivots.extend((0..columns.ncols()).map(|column| columns[(column, column)]));
-            }
-        }
-    }
-    let order = symbolic.perm().map(|order| order.arrays().0.to_vec());
-    let row = |place: usize| order.as_ref().map_or(place, |order| order[place]);
-    pivots.into_iter().enumerate().map(|(place, pivot)| (pivot, row(place))).collect()
 }

@@ -51,7 +51,9 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
         check_count(FINITE, count, all.vibrations.len())?;
         return Ok(CountedModes { vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations, ..all });
     }
-    let (factor, shift) = shifted(stiffness, mass)?;
+    let plan = Factor::plan(&[stiffness, mass])?;
+    let factor_at = |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
     let mut wanted = count + BEYOND;
     loop {
         let (_, shapes, is_all) = subspace(&factor, mass, wanted, FOUND)?;
@@ -62,23 +64,23 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
             continue;
         }
         check_count(FINITE, count, omega_squared.len() - rigid)?;
-        check_number(stiffness, mass, &omega_squared, rigid + count, is_all)?;
+        check_number(&factor_at, &omega_squared, rigid + count, is_all)?;
         return Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, count));
     }
 }
 
+/// The factor of $K + \sigma M$, named, for $\sigma$.
+type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
+
 /// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies.
-fn shifted(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64), Error> {
-    if let Ok(factor) = Factor::new("stiffness", stiffness)
+fn shifted(factor: At, stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64), Error> {
+    if let Ok(factor) = factor("stiffness", 0.0)
         && factor.smallest_pivot().0 > SMALLEST_PIVOT
     {
         return Ok((factor, 0.0));
     }
-    let factor_at = |shift: f64| {
-        let what = "stiffness shifted by the mass";
-        let shifted = SparseMatrix::sum(what, &[(1.0, stiffness), (shift, mass)])?;
-        Factor::new(what, &shifted)?.check_positive(what)
-    };
+    let what = "stiffness shifted by the mass";
+    let factor_at = |shift: f64| factor(what, shift)?.check_positive(what);
     let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
     let (roots, ..) = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?;
     let highest = roots.iter().map(|root| 1.0 / root - first).fold(1e-4 * first, f64::max);
@@ -172,13 +174,7 @@ fn squared_frequencies(
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
-fn check_number(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    omega_squared: &DVector<f64>,
-    needed: usize,
-    is_all: bool,
-) -> Result<(), Error> {
+fn check_number(factor: At, omega_squared: &DVector<f64>, needed: usize, is_all: bool) -> Result<(), Error> {
     let last = omega_squared.len();
     let gap = |place: &usize| omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place];
     let found = (needed..last).find(gap).unwrap_or(last);
@@ -188,7 +184,6 @@ fn check_number(
         // Neighbors so close that none of them can be left out: the bound stands just above the last.
         _ => (1.0 + APART) * omega_squared[last - 1],
     };
-    let what = "pencil at a bound on its frequencies";
-    let counted = Factor::new(what, &SparseMatrix::sum(what, &[(1.0, stiffness), (-bound, mass)])?)?.negative_count();
+    let counted = factor("pencil at a bound on its frequencies", -bound)?.negative_count();
     if counted == found { Ok(()) } else { Err(Error::Miscounted { bound, counted, found }) }
 }

@@ -53,6 +53,7 @@ impl SparseMatrix {
             is_same
         });
         entries.retain(|entry| entry.2 != 0.0);
+        entries.shrink_to_fit();
         Ok(Self { rows, columns, entries })
     }
 
@@ -71,11 +72,21 @@ impl SparseMatrix {
         &self.entries
     }
 
+    /// The entries of one column.
+    pub(super) fn column(&self, column: usize) -> &[(usize, usize, f64)] {
+        let first = |column: usize| self.entries.partition_point(|entry| entry.1 < column);
+        &self.entries[first(column)..first(column + 1)]
+    }
+
     /// Whether it is square and every entry exactly that of the other triangle.
     pub fn is_symmetric(&self) -> bool {
-        let mut mirrored: Vec<_> = self.entries.iter().map(|&(row, column, value)| (column, row, value)).collect();
-        mirrored.sort_by_key(|&(row, column, _)| (column, row));
-        self.rows == self.columns && mirrored == self.entries
+        *self == self.transposed()
+    }
+
+    fn transposed(&self) -> Self {
+        let mut entries: Vec<_> = self.entries.iter().map(|&(row, column, value)| (column, row, value)).collect();
+        entries.sort_by_key(|&(row, column, _)| (column, row));
+        Self { rows: self.columns, columns: self.rows, entries }
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -132,9 +143,7 @@ impl SparseMatrix {
     /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
-        let mirrored = self.entries.iter().map(|&(row, column, value)| (column, row, -value));
-        let difference =
-            Self::new(what, self.rows, self.columns, self.entries.iter().copied().chain(mirrored).collect())?;
+        let difference = Self::sum(what, &[(1.0, self), (-1.0, &self.transposed())])?;
         let largest = self.entries.iter().fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
         let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > SYMMETRY * largest;
         match difference.entries.iter().find(is_apart) {

@@ -1,0 +1,73 @@
+//! Every stage of a pass, ready to be done again: of the paper's box, and of the wing of 1,458 structural DOF.
+
+use corfem::cases::Case;
+use corfem::method::assembly::element_matrices;
+use corfem::method::derivatives::{by_definition, gradient};
+use corfem::method::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::model::FiniteElementModel;
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::state::ModalState;
+use corfem::studies::delta_wing::correlation;
+use corfem::studies::eigensolutions::planted;
+use corfem::studies::wing::Wing;
+use std::hint::black_box;
+use std::sync::Arc;
+
+/// The structures.
+pub const STRUCTURES: [&str; 2] = ["box", "wing"];
+
+/// A stage: its name, and what does it once.
+pub type Stage = (&'static str, Box<dyn FnMut()>);
+
+/// Case 2 with its nine modes, or the wing with ten and an inner loop to an error sum of 5 %.
+fn problem(structure: &str) -> (FiniteElementModel, ModeSet, usize, InnerSettings) {
+    if structure == "box" {
+        let case = Case::new(2).expect("a case");
+        return (case.model().expect("a model"), case.test_modes().expect("test modes").into(), 9, case.settings.inner);
+    }
+    let known = planted(&Wing::default()).expect("a wing");
+    (known.model, known.test, 10, InnerSettings { tolerance: 0.05, ..correlation::settings().inner })
+}
+
+fn stage<T: 'static>(name: &'static str, work: impl Fn() -> T + 'static) -> Stage {
+    (name, Box::new(move || drop(black_box(work()))))
+}
+
+/// All stages of a structure, in the order of a pass.
+pub fn stages(structure: &str) -> Vec<Stage> {
+    // What the stages share lives as long as the program.
+    let (model, test, modes, settings) = problem(structure);
+    let (model, test): (&'static _, &'static _) = (Box::leak(Box::new(model)), Box::leak(Box::new(test)));
+    let ones: &'static [f64] = vec![1.0; model.parameters().len()].leak();
+    let (elements, free) = (model.element_matrices(), model.structure().free_dof());
+    let sizes = model.sizes(ones).expect("sizes");
+    let plan = move || FactorizationPlan::new(model.structure(), elements).expect("a plan");
+    let shared = Arc::new(plan());
+    let factorize = move || FactorizedStiffness::planned(&shared, elements, &sizes, free).expect("it is held");
+    let structural = factorize();
+    let condensed = model.condense(ones).expect("it condenses");
+    let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");
+    let modal = &*Box::leak(Box::new(analyze()));
+    let start = &*Box::leak(Box::new(ModalState::start(modal)));
+    let ranges = model.factor_ranges().expect("bounds");
+    let inner = move || run(modal, ones, &ranges, &settings).expect("it runs");
+    let factors = inner().factors;
+    let pass = inner.clone();
+    vec![
+        stage("element matrices", move || element_matrices(model.structure()).expect("elements")),
+        stage("ordering and pattern", plan),
+        stage("assembly and factorization", factorize),
+        stage("flexibility", move || structural.flexibility(model.load_distribution()).expect("a flexibility")),
+        stage("condensed model: these two and K_D", move || model.condense(ones).expect("it condenses")),
+        stage("modes", move || solve(&condensed.stiffness, &condensed.mass, modes).expect("modes")),
+        stage("analysis with all shares", analyze),
+        stage("gradient", move || gradient(modal, start).expect("a gradient")),
+        stage("derivatives by definition", move || by_definition(modal, start).expect("derivatives")),
+        stage("inner loop of the first pass", inner),
+        stage("pass with its analysis", move || {
+            pass();
+            model.analyze(&factors, test, Some(modes)).expect("analyzed")
+        }),
+    ]
+}
