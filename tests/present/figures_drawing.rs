@@ -24,13 +24,24 @@ fn figures_of_a_run_in_the_order_of_the_report() {
         ]
         .map(String::from),
     );
+    let wings = [("delta_wing", &["structure", "mode_shapes", "errors", "factors", "agreement", "derivatives"][..])];
+    for (wing, drawn) in wings.into_iter().chain([("wing", &["structure", "errors", "factors", "agreement"][..])]) {
+        expected.extend(drawn.iter().map(|what| format!("{wing}_{what}")));
+    }
     assert_eq!(names, expected);
     for figure in figures() {
         assert!(figure.caption.ends_with('.') && figure.caption.len() > 30, "{}", figure.name);
-        if let Some(case) = figure.name.strip_prefix("case_") {
-            assert!(figure.caption.starts_with(&format!("Case {}:", &case[..1])));
-            assert!(figure.svg.contains(&format!("<title>Case {}:", &case[..1])));
-        }
+        // Caption, title and the words above the drawing say what it is of.
+        let title = written(&figure.svg).remove(0).text;
+        assert!(figure.svg.contains(&format!("<title>{title}</title>")), "{title}");
+        let of = match figure.name.split_once('_') {
+            Some(("case", case)) => format!("Case {}:", &case[..1]),
+            Some(("delta" | "wing", _)) => {
+                format!("{} with wrong gages:", title.split(" with").next().expect("a name"))
+            }
+            _ => "Case".to_owned(),
+        };
+        assert!(figure.caption.starts_with(&of) && title.starts_with(&of), "{}: {title}", figure.name);
     }
 }
 
