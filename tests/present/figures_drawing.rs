@@ -57,7 +57,8 @@ fn letters_stay_on_the_page_and_off_each_other() {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
         let words: Vec<_> = written(&figure.svg).into_iter().filter(|word| !word.text.is_empty()).collect();
-        assert!(words.len() > 10, "{}", figure.name);
+        // The large wing has a title, one kind of support and its axes, and no numbers.
+        assert!(words.len() > if figure.name == "wing_structure" { 2 } else { 10 }, "{}", figure.name);
         for (row, one) in words.iter().enumerate() {
             let [left, top, right, bottom] = one.bounds;
             if left < 0.0 || top < 0.0 || right > width || bottom > height {
