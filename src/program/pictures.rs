@@ -10,8 +10,9 @@ use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, run_case};
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
-use corfem::present::figures::{case_figures, comparison_figures};
+use corfem::present::figures::{case_figures, comparison_figures, subject_figures};
 use corfem::present::page::{Contents, page};
+use corfem::present::subject::Subject;
 use corfem::present::table::counted;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use std::path::PathBuf;
@@ -37,12 +38,15 @@ pub fn pictures(FolderArguments { folder }: &FolderArguments, as_page: bool, qui
     let matrices = compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?;
     let mut figures = case_figures(&results)?;
     figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes, &matrices)?);
+    let wings = Subject::wings()?;
+    figures.extend(wings.iter().map(subject_figures).collect::<Result<Vec<_>, _>>()?.concat());
     if as_page {
         let html = page(&Contents {
             results: &results,
             fit: &fit(&Reconstruction::embedded()?)?,
             fewer_modes: &fewer_modes,
             matrices: &matrices,
+            wings: &wings,
             figures: &figures,
             command: &format!("corfem report --output {}", folder.display()),
         })?;

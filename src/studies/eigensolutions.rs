@@ -4,7 +4,7 @@ use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::outer_loop::{Settings, correlate};
+use crate::method::outer_loop::{Correlation, Settings, correlate};
 use crate::studies::delta_wing::correlation;
 use crate::studies::weighted::comparison::Known;
 use crate::studies::wing::Wing;
@@ -52,6 +52,18 @@ pub fn planted(wing: &Wing) -> Result<Known, Error> {
     let truth: Vec<f64> = pattern.into_iter().cycle().take(model.parameters().len()).collect();
     let test = model.modes(&truth)?.lowest(WING_MODES)?.into();
     Ok(Known { name: "Wing".to_owned(), model, test, truth })
+}
+
+/// The planted wing of 1,458 structural DOF, correlated to the smaller of the [`ERRORS`].
+///
+/// # Errors
+/// Those of [`planted`] and [`correlate`].
+pub fn recovered() -> Result<(Known, Correlation), Error> {
+    let known = planted(&Wing::default())?;
+    let settings = Settings { error_sum_tolerance: ERRORS[1], ..correlation::settings() };
+    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, Some(WING_MODES));
+    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
+    Ok((known, run))
 }
 
 /// Counts both ways on one structure to an exact error sum, with the rule of the step of given settings.

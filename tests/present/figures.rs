@@ -8,7 +8,7 @@ use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
 use corfem::present::figures::mode_shapes::Modes;
 use corfem::present::figures::subject::{derivatives, mode_agreement};
-use corfem::present::figures::{Figure, case_figures, comparison_figures};
+use corfem::present::figures::{Figure, case_figures, comparison_figures, subject_figures};
 use corfem::present::subject::Subject;
 use corfem::present::table::{Cell, Column, Table};
 use corfem::present::tables::cases::{frequency_table, iteration_table};
@@ -40,11 +40,18 @@ pub fn comparison() -> &'static MatrixComparison {
     })
 }
 
+/// The wings, correlated once.
+pub fn wings() -> &'static [Subject] {
+    static WINGS: OnceLock<[Subject; 2]> = OnceLock::new();
+    WINGS.get_or_init(|| Subject::wings().expect("they run"))
+}
+
 /// Every figure, drawn anew.
 pub fn draw_all() -> Vec<Figure> {
     let mut figures = case_figures(results()).expect("drawn");
     let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
     figures.extend(compared.expect("drawn"));
+    figures.extend(wings().iter().flat_map(|wing| subject_figures(wing).expect("drawn")));
     figures
 }
 

@@ -1,6 +1,6 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
-use crate::present::figures::{comparison, fewer_modes_runs, figures, results};
+use crate::present::figures::{comparison, fewer_modes_runs, figures, results, wings};
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::cases::fit::{Fit, fit};
 use corfem::cases::torque_box::Reconstruction;
@@ -16,7 +16,8 @@ use corfem::studies::matrix_comparison::USUAL_CASE;
 const COMMAND: &str = "corfem report --out <somewhere>";
 
 fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) -> Contents<'a> {
-    Contents { results, fit, fewer_modes: fewer_modes_runs(), matrices: comparison(), figures, command: COMMAND }
+    let (fewer_modes, matrices) = (fewer_modes_runs(), comparison());
+    Contents { results, fit, fewer_modes, matrices, wings: wings(), figures, command: COMMAND }
 }
 
 /// A text as it stands in HTML.
@@ -24,7 +25,7 @@ fn escaped(text: &str) -> String {
     text.replace('>', "&gt;")
 }
 
-fn html() -> String {
+pub fn html() -> String {
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
     page(&contents(results(), &fit, figures())).expect("a page")
 }
@@ -144,7 +145,7 @@ fn page_needs_nothing_beside_it() {
         assert_eq!(html.matches(&format!("<figure id=\"{}\">", figure.name)).count(), 1);
         assert!(html.contains(&figure.svg.replace("http://www.w3.org/2000/svg", "")), "{}", figure.name);
         let caption = escaped(&figure.caption);
-        assert!(html.contains(&format!("<figcaption>{caption}</figcaption>")), "{caption}");
+        assert!(html.contains(&format!("{caption}</figcaption>")), "{caption}");
     }
     assert!(html.contains("name=\"viewport\"") && html.contains("@media print"));
 }

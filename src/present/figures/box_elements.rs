@@ -4,6 +4,7 @@ use super::canvas::*;
 use super::view::{DEPTH_DRAWN, View};
 use crate::cases::Case;
 use crate::method::structure::{Element, ElementKind};
+use crate::present::tables::kind_letter;
 use nalgebra::Vector3;
 
 /// One of the three layers the box is taken apart into.
@@ -39,8 +40,8 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
     let model = case.model()?;
     let structure = model.structure();
     let elements: Vec<Placed> = structure.elements().iter().map(|e| (e, structure.corners(e))).collect();
-    let title = "The wing torque box taken apart: panels 1 to 15 and rods 16 to 39";
-    svg("box_elements", title, 690.0, |area| {
+    let title = format!("Case {}: the wing torque box taken apart, panels 1 to 15 and rods 16 to 39", case.number);
+    svg("box_elements", &title, 690.0, |area| {
         let corners: Vec<Vector3<f64>> = elements.iter().flat_map(|(_, corners)| corners).copied().collect();
         // All three layers at the scale at which the webs, the highest, fill the width.
         let fitted = View::isometric(DEPTH_DRAWN).fitted(&corners, [20.0, 0.0, 720.0, 460.0]);
@@ -52,8 +53,9 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
             let of_layer = elements.iter().filter(|(_, corners)| Layer::of(corners) == layer);
             draw_layer(area, fitted, of_layer.collect(), (layer, name, top))?;
         }
-        write(area, "Large numbers: panels. Small ones: rods.", (452.0, 646.0), START)?;
-        write(area, &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."), (452.0, 666.0), START)?;
+        write(area, "Blue, S: shear panels. Orange, M: membranes.", (400.0, 626.0), START)?;
+        write(area, "Large numbers: panels. Small ones: rods.", (400.0, 646.0), START)?;
+        write(area, &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."), (400.0, 666.0), START)?;
         write(area, &fitted.axes(), (14.0, 20.0), START)
     })
 }
@@ -75,7 +77,7 @@ fn draw_layer(area: &Area, fitted: View, mut elements: Vec<&Placed>, (layer, nam
         let corners: Vec<Place> = corners.iter().map(|&corner| view.place(corner)).collect();
         match element.kind {
             ElementKind::Rod => line(area, &corners, Pen::solid(BLUE, 2.2))?,
-            _ => polygon(area, &corners, Some(between(PALE, SKY, 0.25)), Pen::solid(INK, 0.8))?,
+            kind => polygon(area, &corners, Some(fill(kind)), Pen::solid(INK, 0.8))?,
         }
     }
     for (element, corners) in elements {
@@ -90,9 +92,15 @@ fn draw_layer(area: &Area, fitted: View, mut elements: Vec<&Placed>, (layer, nam
         if layer == Layer::Webs {
             middle.z += 0.42 * corners.iter().map(|corner| corner.z.abs()).sum::<f64>() / 4.0;
         }
-        write(area, &number, view.place(middle), MIDDLE.high(14.0).bold())?;
+        let letter = kind_letter(element.kind);
+        write(area, &format!("{number} {letter}"), view.place(middle), MIDDLE.high(14.0).bold())?;
     }
     Ok(())
+}
+
+/// Membranes are pale orange, shear panels blue.
+fn fill(kind: ElementKind) -> RGBColor {
+    if kind == ElementKind::Membrane { between(WHITE, ORANGE, 0.4) } else { between(PALE, SKY, 0.25) }
 }
 
 fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {

@@ -17,6 +17,8 @@ pub(super) use plotters::style::{RGBColor, WHITE};
 const UNITS: f64 = 10.0;
 /// Every figure's width, px.
 pub(super) const WIDTH: f64 = 760.0;
+/// Height of what its title fills above everything else, px.
+const HEAD: f64 = 30.0;
 /// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
@@ -123,7 +125,7 @@ impl Letters {
     }
 }
 
-/// Draws a figure and returns it as an SVG document that names itself to a screen reader.
+/// Draws a figure below its title and returns it as an SVG document that names itself to a screen reader too.
 pub(super) fn svg(
     name: &str,
     title: &str,
@@ -131,11 +133,13 @@ pub(super) fn svg(
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<String, PresentError> {
     let mut drawn = String::new();
+    let height = HEAD + height;
     let (across, down) = (units(WIDTH).unsigned_abs(), units(height).unsigned_abs());
     {
         let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
-            .and_then(|()| draw(&area))
+            .and_then(|()| write(&area, &cut(title, 88), (14.0, 16.0), START.high(14.0).bold()))
+            .and_then(|()| draw(&area.split_vertically(units(HEAD)).1))
             .and_then(|()| area.present())
             .map_err(|error| PresentError::Drawing { figure: name.to_owned(), found: error.to_string() })?;
     }
@@ -247,14 +251,14 @@ where
     mesh
 }
 
-/// Where a point of a chart lies.
+/// Where a point of a chart lies below the title.
 pub(super) fn placed(
     chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
     x: f64,
     y: f64,
 ) -> Place {
     let (x, y) = chart.plotting_area().map_coordinate(&(x, y));
-    (f64::from(x) / UNITS, f64::from(y) / UNITS)
+    (f64::from(x) / UNITS, f64::from(y) / UNITS - HEAD)
 }
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.
@@ -265,7 +269,10 @@ pub(super) fn name_room(names: &[String], least: f64) -> f64 {
 
 /// A name as long as a figure has room for.
 pub(super) fn shortened(name: &str) -> String {
-    const MOST: usize = 40;
-    let cut = || name.chars().take(MOST - 1).chain(['…']).collect();
-    if name.chars().count() > MOST { cut() } else { name.to_owned() }
+    cut(name, 40)
+}
+
+fn cut(text: &str, most: usize) -> String {
+    let cut = || text.chars().take(most - 1).chain(['…']).collect();
+    if text.chars().count() > most { cut() } else { text.to_owned() }
 }

@@ -21,15 +21,20 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
     let mut figures = Vec::new();
     if let Some(first) = results.first() {
         let case = &first.case;
-        let caption = "The wing torque box with its structural and dynamic points (the paper's Figure 2).";
-        let title = "The wing torque box: structural and dynamic points";
+        let caption =
+            "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
+        let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
         let subject = Subject::of_case(first)?.on(case.model()?.structure());
         figures.push(Figure::new("box_points", caption, draw_structure("box_points", title, &subject)?));
-        let caption = "The box taken apart, its elements numbered (Figure 3).";
+        // From the second case on covers are membranes.
+        let case = &results.get(1).unwrap_or(first).case;
+        let caption = "the box taken apart, its elements numbered (the paper's Figure 3).";
+        let caption = format!("Case {}: {caption}", case.number);
         figures.push(Figure::new("box_elements", caption, box_elements::draw(case)?));
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
-    let caption = "Cover gages of the test configuration and of each first model (Figure 4); root at the left.";
+    let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
+        the left.";
     figures.push(Figure::new("cover_gages", caption, cover_gages::draw(&cover_gages::cover_gages(&cases))?));
     for result in results {
         add_figures_of(result, &mut figures)?;
@@ -49,7 +54,7 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         let at = all.iter().position(|figure| figure.name == format!("case_{case}_{what}"))?;
         let mut figure = all.swap_remove(at);
         if let Some(number) = number.filter(|number| !number.is_empty()) {
-            figure.caption += &format!(" (Figure {number}).");
+            figure.caption = format!("{} (the paper's Figure {number}).", figure.caption.trim_end_matches('.'));
         }
         Some(figure)
     };

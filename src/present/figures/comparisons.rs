@@ -41,9 +41,9 @@ pub fn comparison_figures(
         "{corrections}: frequency errors of the box as tested and with every cover thicker, a set of gages that no correction \
         was fitted to."
     );
-    let title = "Predicted modes: errors against the size of the step";
+    let title = "Case 2 and delta wing: errors of predicted modes against the size of the step";
     let steps = linearization::draw("linearization", title, &both_structures(Exact::SameCondensation)?)?;
-    let steps_caption = "Frequencies and shapes predicted for a step toward the right gages, by perturbation and by linear Taylor \
+    let steps_caption = "Case 2 and delta wing: frequencies and shapes predicted for a step toward the right gages, by perturbation and by linear Taylor \
         steps, beside the exact ones of the same condensed model.";
     let caption = "Milliseconds of every stage on wings of any size, and the exponents of their growth.";
     Ok(vec![

@@ -55,7 +55,7 @@ const HEAD: f64 = 40.0;
 /// The covers of the configurations as SVG.
 pub fn draw(configurations: &[Configuration]) -> Result<String, PresentError> {
     let height = HEAD + ROW * configurations.len() as f64 + 62.0;
-    let title = "Cover gages of the test configuration and of each case's first model";
+    let title = "Cases 1 to 4: cover gages of the test configuration and of each first model";
     svg("cover_gages", title, height, |area| on(area, configurations))
 }
 

@@ -114,10 +114,11 @@ impl Factors {
                 mark(area, place(published, row), diamond)?;
             }
             mark(area, tip, Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)))?;
-            let mut ends = [tip.0, tip.0];
+            let right = place(factor.published.unwrap_or(factor.value), row).0;
+            let mut ends = [tip.0.min(right), tip.0.max(right)];
             if let Some(deviation) = factor.deviation.filter(|deviation| deviation.is_finite()) {
                 let bar = [-deviation, deviation].map(|part| place(factor.value + part, row));
-                ends = bar.map(|end| end.0);
+                ends = [ends[0].min(bar[0].0), ends[1].max(bar[1].0)];
                 line(area, &bar, Pen::solid(ORANGE, 2.4))?;
                 for (x, y) in bar {
                     line(area, &[(x, y - 5.0), (x, y + 5.0)], Pen::solid(ORANGE, 2.0))?;

@@ -12,9 +12,9 @@ use nalgebra::Vector3;
 /// Lines so wide that each is seen where all three lie on each other.
 fn pens() -> [(&'static str, Pen); 3] {
     [
-        ("test", Pen::solid(between(WHITE, ORANGE, 0.6), 5.5)),
-        ("first", Pen::solid(SKY, 2.6)),
-        ("corrected", Pen::solid(INK, 0.9)),
+        ("test", Pen::solid(between(WHITE, ORANGE, 0.6), 7.0)),
+        ("first", Pen::solid(SKY, 4.0)),
+        ("corrected", Pen::solid(INK, 1.0)),
     ]
 }
 
@@ -50,9 +50,14 @@ impl Modes {
     /// # Errors
     /// [`WrongShape`](crate::method::error::Error::WrongShape) unless every row of the shapes has a sensor.
     pub fn of(subject: &Subject) -> Result<Option<Self>, PresentError> {
-        let frame = Frame::of(subject);
+        let mut frame = Frame::of(subject);
         if frame.known.values().all(Vec::is_empty) {
             return Ok(None);
+        }
+        // Beside a support nothing is measured: a node line there would be the interpolation's.
+        if subject.moved.is_none() {
+            let is_held = |node: &usize| frame.known.get(node).is_some_and(Vec::is_empty);
+            frame.panels.retain(|panel| !panel.iter().any(is_held));
         }
         let test = &subject.test;
         check_shape("mode shapes", &test.shapes, subject.sensors.len(), test.len())?;

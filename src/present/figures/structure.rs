@@ -53,7 +53,10 @@ impl Names {
 pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<String, PresentError> {
     let frame = Frame::of(subject);
     let all: Vec<_> = frame.nodes.iter().chain(subject.grids.iter().map(|(_, at)| at)).copied().collect();
-    let (view, heights) = View::flat(&all).map_or_else(|| View::solid(&all), |(_, view)| (view, 1.0));
+    let numbered = subject.grids.len() <= MOST_NUMBERS;
+    // Numbers need room between an upper and a lower surface.
+    let solid = || if numbered { View::solid(&all) } else { (View::isometric(1.0), 1.0) };
+    let (view, heights) = View::flat(&all).map_or_else(solid, |(_, view)| (view, 1.0));
     let view = view.fitted(&all, [60.0, 50.0, WIDTH - 120.0, DRAWING - 80.0]);
     let mut places: BTreeMap<[i64; 3], (Vector3<f64>, Vec<&str>)> = BTreeMap::new();
     let key = |at: &Vector3<f64>| [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64);
@@ -81,7 +84,9 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
     svg(name, title, height, |area| {
         view.lines(area, &frame.lines, &frame.nodes, Pen::solid(SILVER, 1.1))?;
         let mut x = 14.0;
-        for (form, words) in [(SENSOR, "sensor"), (support(true), "held"), (support(false), "grid")] {
+        let drawn = [!named.is_empty(), !subject.supports.is_empty(), numbered && !subject.grids.is_empty()];
+        let kinds = [(SENSOR, "sensor"), (support(true), "held"), (support(false), "grid")].into_iter().zip(drawn);
+        for ((form, words), _) in kinds.filter(|(_, is_drawn)| *is_drawn) {
             marked(area, (x, 18.0), form, words)?;
             x += 40.0 + 7.2 * words.len() as f64;
         }
@@ -91,7 +96,6 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
             mark(area, view.place(*at), support(true))?;
         }
         let mut names = Names(Vec::new());
-        let numbered = subject.grids.len() <= MOST_NUMBERS;
         for (at, name) in &named {
             mark(area, view.place(*at), SENSOR)?;
             names.write(area, name, view.place(*at), VERMILION)?;

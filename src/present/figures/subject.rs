@@ -25,9 +25,9 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             figures.push(Figure::new(&name, format!("{}: {caption}.", subject.title), svg));
             Ok::<_, PresentError>(())
         };
-    if subject.sensors.iter().any(|sensor| sensor.place.is_some()) {
-        let caption = "the structure with its sensors, grids and supports";
-        add("structure", "structure and sensors", caption, &|name, title| draw_structure(name, title, subject))?;
+    if !subject.frame.is_empty() || subject.sensors.iter().any(|sensor| sensor.place.is_some()) {
+        let caption = "the structure, with what is known of its sensors, grids and supports";
+        add("structure", "structure", caption, &|name, title| draw_structure(name, title, subject))?;
     }
     if let Some(modes) = Modes::of(subject)? {
         for (part, modes) in modes.parts() {
@@ -41,8 +41,8 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             );
             add(&format!("mode_shapes{part}"), "mode shapes", &caption, &|name, title| modes.draw(name, title))?;
             if let Some(normal) = modes.normal() {
-                let caption = "node lines in plan, interpolated between the sensors; at these, gray is up in the test and larger \
-                    is farther";
+                let caption = "node lines in plan, interpolated between the sensors and left out beside supports, where nothing is \
+                    measured; at a sensor, gray is up in the test and larger is farther";
                 let draw = |name: &str, title: &str| modes.draw_node_lines(name, title, normal);
                 add(&format!("node_lines{part}"), "node lines", caption, &draw)?;
             }
@@ -65,7 +65,7 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
     );
     add("agreement", "analysis against test modes before and after", &caption, &|name, title| {
         let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
-        draw_by_twos(name, title, &maps, &[note, "The modal assurance criterion (MAC) is not mass-weighted."])
+        draw_by_twos(name, title, &maps, &[note, "MAC: modal assurance criterion, which knows no mass."])
     })?;
     if let Some(maps) = derivatives(subject) {
         let caption = "derivatives of the frequencies and of the error sum at the first model";
@@ -82,7 +82,7 @@ fn factors(subject: &Subject) -> Factors {
         name: name.clone(),
         value,
         deviation: subject.deviations.as_ref().and_then(|deviations| deviations.get(e).copied()),
-        published: None,
+        published: subject.truth.get(e).copied(),
         bounds: subject.ranges.get(e).copied().flatten(),
         remark: subject.is_at_bound(e, value).then_some("at bound"),
     };
@@ -91,7 +91,7 @@ fn factors(subject: &Subject) -> Factors {
         limits: None,
         across: "factor on the first model".to_owned(),
         decimals: 3,
-        published: "",
+        published: "right",
     }
 }
 
@@ -108,9 +108,11 @@ pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
     };
     let [before, after] = [subject.agreement(&subject.initial)?, subject.agreement(subject.corrected())?];
     let cross = [("before", before.orthogonality), ("after", after.orthogonality)];
-    let cross = cross.into_iter().filter_map(|(when, cross)| Some(map(&format!("Cross-orthogonality {when}"), cross?)));
+    let cross = cross
+        .into_iter()
+        .filter_map(|(when, cross)| Some(map(&format!("Cross-orthogonality {when}, mass-weighted"), cross?)));
     let assurance = [("before", before.assurance), ("after", after.assurance)];
-    let assurance = assurance.map(|(when, assurance)| map(&format!("Modal assurance criterion {when}"), assurance));
+    let assurance = assurance.map(|(when, assurance)| map(&format!("MAC {when}, not mass-weighted"), assurance));
     Ok(cross.chain(assurance).collect())
 }
 

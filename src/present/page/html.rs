@@ -20,11 +20,17 @@ fn scrolling(label: &str, body: &str) -> String {
     format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n{body}\n</div>\n")
 }
 
-pub(super) fn figure(figure: &Figure) -> String {
-    let Figure { name, caption, svg } = figure;
-    let (drawing, caption) = (scrolling(caption, svg), escaped(caption));
-    let name = escaped(name);
-    format!("<figure id=\"{name}\">\n{drawing}<figcaption>{caption}</figcaption>\n</figure>\n")
+/// A figure; what to see in it stands before its caption.
+pub(super) fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> String {
+    let (drawing, caption, name) = (scrolling(caption, svg), escaped(caption), escaped(name));
+    let see = if see.is_empty() { String::new() } else { format!("<strong>{}</strong> ", escaped(see)) };
+    format!("<figure id=\"{name}\">\n{drawing}<figcaption>{see}{caption}</figcaption>\n</figure>\n")
+}
+
+/// Figures side by side where there is room.
+pub(super) fn figures(class: &str, figures: impl Iterator<Item = String>) -> String {
+    let figures: String = figures.collect();
+    if figures.is_empty() { figures } else { format!("<div class=\"{class}\">\n{figures}</div>\n") }
 }
 
 pub(super) fn table(table: &Table) -> String {
@@ -55,17 +61,15 @@ fn cell(cell: &Cell) -> String {
     format!("<td>{}{published}</td>", escaped(&cell.computed()))
 }
 
-/// A Markdown document without its title, or one of its sections without its heading, as HTML; headings that are left
-/// stand one level lower.
+/// A section of a Markdown document without its heading, as HTML.
 pub(super) fn section_of(markdown: &str, heading: &str) -> String {
-    let body = if heading.is_empty() {
-        markdown.split_once('\n').map_or("", |(_, body)| body)
-    } else {
-        let start = format!("## {heading}\n");
-        let after = markdown.split_once(&start).map_or("", |(_, after)| after);
-        after.split("\n## ").next().unwrap_or_default()
-    };
-    let events = Parser::new_ext(body, Options::ENABLE_TABLES).flat_map(|event| match event {
+    let after = markdown.split_once(&format!("## {heading}\n")).map_or("", |(_, after)| after);
+    prose(after.split("\n## ").next().unwrap_or_default())
+}
+
+/// Markdown as HTML; headings stand one level lower.
+pub(super) fn prose(markdown: &str) -> String {
+    let events = Parser::new_ext(markdown, Options::ENABLE_TABLES).flat_map(|event| match event {
         Event::Start(Tag::Table(alignment)) => {
             vec![Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()), Event::Start(Tag::Table(alignment))]
         }

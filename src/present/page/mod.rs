@@ -1,15 +1,16 @@
-//! The report as one web page that needs nothing beside it: tables, figures, assumptions, fit, and what made it.
+//! The report as one web page that needs nothing beside it: the story, then tables, figures, assumptions, fit, and what made it.
 //!
 //! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
 //! once.
 
 mod html;
+mod story;
 
 use super::figures::{Figure, subject_figures};
 use super::subject::Subject;
 use super::table::{Digits, Table};
 use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
-use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
+use super::tables::subject::{derivative_table, factor_table, history_table, paired_table, subject_tables};
 use super::tables::{fewer_modes, matrices, paper_tables, preflight};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
@@ -17,7 +18,8 @@ use crate::cases::{Case, CaseResult};
 use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
 use crate::studies::preflight::Specimen;
-use html::{escaped, figure, section, section_of, table};
+use html::{escaped, figure, figures, prose, section, section_of, table};
+use story::story;
 
 /// What the page tells.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +32,8 @@ pub struct Contents<'a> {
     pub fewer_modes: &'a [FewerModesRun],
     /// Corrections by elements and by matrices.
     pub matrices: &'a MatrixComparison,
+    /// Wings with wrong gages, correlated.
+    pub wings: &'a [Subject],
     /// The figures of all these.
     pub figures: &'a [Figure],
     /// The command that makes the page again.
@@ -44,18 +48,27 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// # Errors
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
-    let mut parts = vec![
+    let mut parts = story(contents);
+    let (told, appendix): (String, usize) = (parts.iter().map(|(.., body)| body.as_str()).collect(), parts.len());
+    let is_left = |figure: &&Figure| !told.contains(&format!("<figure id=\"{}\">", figure.name));
+    let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
+    let contents = &Contents { figures: &left, ..*contents };
+    parts.extend([
         named("summary-section", "Summary", "Summary", summary_section(contents)?),
         named("box", "The box", "The box", box_section(contents)),
         named("preflight", "Pre-flight", "Before the first step", preflight_section(contents)?),
-    ];
+    ]);
     for result in contents.results {
         let number = result.case.number;
         let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
-        let heading = format!("Case {number}: {}", about(number));
-        parts.push(named(&format!("case-{number}"), &format!("Case {number}"), &heading, body));
+        let heading = format!("Tables of Case {number}");
+        parts.push(named(&format!("case-{number}"), &heading, &heading, body));
     }
-    let differences = section_of(include_str!("../../../paper/results.md"), "");
+    for wing in contents.wings {
+        let body = part(&subject_tables(wing)?, contents.figures, &[&format!("{}_", wing.name)]);
+        parts.push(named(&wing.name, &wing.title, &wing.title, body));
+    }
+    let differences = prose(include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'));
     let why = "Where the results differ from the published ones, and why";
     let cost = [iteration_table(contents.results)?, settings_table(contents.results)];
     let cost = part(&cost, contents.figures, &["growth", "linearization"]);
@@ -68,12 +81,14 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     ]);
     let bodies = parts.iter().map(|(.., body)| body.as_str());
     let tables = bodies.flat_map(|body| body.split("<table id=\"").skip(1)).filter_map(|rest| rest.split('"').next());
-    let lead = format!(
-        "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
-         those of a ground vibration test. Four cases of the published example, every number beside the published one. {}",
+    let held = format!(
+        "<p>Every computed number has the published one behind it in parentheses. {}</p>\n",
         paper_tables(tables)
     );
-    Ok(document(TITLE, &lead, &parts))
+    parts.insert(appendix, named("appendix", "Appendix", "Appendix: the tables, and the other figures", held));
+    let lead = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
+         those of a ground vibration test.";
+    Ok(document(TITLE, lead, &parts))
 }
 
 /// A section: its id, what a link to it says, its heading, its HTML.
@@ -106,24 +121,22 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
 /// Those of [`subject_figures`] and [`Subject::agreement`].
 pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result<String, PresentError> {
     let figures = subject_figures(subject)?;
-    let drawn = |whats: &[&str]| -> String {
-        let is_of =
-            |figure: &&Figure| whats.iter().any(|what| figure.name.contains(&format!("{}_{what}", subject.name)));
-        figures.iter().filter(is_of).map(figure).collect()
+    let of = |tables: &[Table], whats: &[&str]| {
+        let names: Vec<String> = whats.iter().map(|what| format!("{}_{what}", subject.name)).collect();
+        part(tables, &figures, &names.iter().map(String::as_str).collect::<Vec<_>>())
     };
     let class = if subject.converged { "note" } else { "finding" };
     let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words));
     let summary = words + &table(&paired_table(subject)?);
-    let derivatives = derivative_table(subject).as_ref().map(table).unwrap_or_default();
-    let others: String = extra.iter().map(table).collect();
+    let derivatives: Vec<Table> = derivative_table(subject).into_iter().collect();
     let parts = [
         ("summary", "Summary", summary),
-        ("factors", "Factors", table(&factor_table(subject)) + &drawn(&["factors"])),
-        ("structure", "Structure", drawn(&["structure"])),
-        ("modes", "Mode shapes", drawn(&["mode_shapes", "node_lines", "agreement"])),
-        ("history", "History", table(&history_table(subject)) + &drawn(&["errors"])),
-        ("derivatives", "Derivatives", derivatives + &drawn(&["derivatives"])),
-        ("others", "Further results", others),
+        ("factors", "Factors", of(&[factor_table(subject)], &["factors"])),
+        ("structure", "Structure", of(&[], &["structure"])),
+        ("modes", "Mode shapes", of(&[], &["mode_shapes", "node_lines", "agreement"])),
+        ("history", "History", of(&[history_table(subject)], &["errors"])),
+        ("derivatives", "Derivatives", of(&derivatives, &["derivatives"])),
+        ("others", "Further results", of(extra, &[])),
         ("made", "How it was made", made("Units are the model's own", command)),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
@@ -134,33 +147,20 @@ pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.
-fn part(tables: &[Table], figures: &[Figure], prefixes: &[&str]) -> String {
+fn part(tables: &[Table], drawn: &[Figure], prefixes: &[&str]) -> String {
     let starts = |figure: &&Figure| prefixes.iter().any(|prefix| figure.name.starts_with(prefix));
-    let figures = figures.iter().filter(starts).map(figure);
-    tables.iter().map(table).chain(figures).collect()
+    let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
+    tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
 }
 
 fn summary_section(contents: &Contents) -> Result<String, PresentError> {
     let results = contents.results;
     let mut body = table(&summary(results)?) + &table(&outcome_table(results));
-    body += "<p class=\"note\">Computed numbers, the published ones behind them in parentheses.</p>\n";
     body += if results.iter().all(CaseResult::succeeded) {
         "<p>Every case did what was asked of it: correlated within the tolerances, or named its modeling error.</p>\n"
     } else {
         "<p><strong>At least one case did not converge within its limits; the best found is shown.</strong></p>\n"
     };
-    for result in results {
-        if let Some(anomaly) = &result.anomaly {
-            body += &format!(
-                "<p class=\"finding\">Case {}: element {} asks for {:.1} times its stiffness in the first iteration, \
-                {:.1} times as much as any other. Look for a modeling error there.</p>\n",
-                result.case.number,
-                escaped(&anomaly.parameter),
-                anomaly.factor,
-                anomaly.ratio
-            );
-        }
-    }
     Ok(body)
 }
 
@@ -217,14 +217,4 @@ fn made(units: &str, command: &str) -> String {
          gives the same page.</p>\n",
         escaped(command)
     )
-}
-
-/// What a case of the paper is about.
-fn about(case: usize) -> &'static str {
-    match case {
-        1 => "every panel a shear panel, all half as thick again",
-        2 => "membrane covers, all panels half as thick again",
-        3 => "membrane covers, gages alternating 30 percent above and below",
-        _ => "one cover a hundred times too thin by mistake",
-    }
 }

@@ -1,11 +1,14 @@
-//! The paper's cases and the delta wing as subjects.
+//! The paper's cases and two wings as subjects.
 
 use super::{Derivatives, SensorPoint, Subject};
 use crate::cases::CaseResult;
 use crate::cases::torque_box::dynamic_points;
 use crate::present::PresentError;
 use crate::studies::delta_wing::DeltaWing;
-use crate::studies::delta_wing::correlation::{GROUPS, WingCorrelation, first_model, measured_grids};
+use crate::studies::delta_wing::correlation::{
+    GROUPS, Recovered, WingCorrelation, correlate_wing, first_model, measured_grids,
+};
+use crate::studies::eigensolutions::recovered;
 use nalgebra::Vector3;
 
 /// Grids of the box's root, rear and front.
@@ -61,8 +64,22 @@ impl Subject {
             sensors: measured_grids(structure).into_iter().map(sensor).collect(),
             mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
             derivatives: Some(Derivatives::of(&first)?),
+            truth: run.groups.iter().map(Recovered::true_factor).collect(),
             ..Self::of("delta_wing", &names, &run.test, &run.correlation.initial, Some(&run.correlation)).on(structure)
         })
+    }
+
+    /// Delta wing and the wing of [`recovered`], each correlated from wrong gages.
+    ///
+    /// # Errors
+    /// Those of both correlations, and of [`Self::of_wing`].
+    pub fn wings() -> Result<[Self; 2], PresentError> {
+        let (wing, (known, run)) = (DeltaWing::embedded()?, recovered()?);
+        let names: Vec<String> = known.model.parameters().iter().map(|group| group.name.clone()).collect();
+        let (title, ranges) = ("Wing of 1,458 DOF with wrong gages".to_owned(), known.model.factor_ranges()?);
+        let large = Self::of("wing", &names, &known.test, &run.initial, Some(&run)).on(known.model.structure());
+        let delta = Self::of_wing(&wing, &correlate_wing(&wing, |_, _| {})?)?;
+        Ok([delta, Self { title, ranges, truth: known.truth, ..large }])
     }
 }
 

@@ -64,6 +64,8 @@ pub struct Subject {
     pub ranges: Vec<Option<Range>>,
     /// Standard deviation of every factor of the best stage, if known.
     pub deviations: Option<Vec<f64>>,
+    /// Factors that make the model right, where they are known.
+    pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
     pub test: ModeSet,
     /// Rows of the shapes; none where nothing is known of them.
@@ -144,6 +146,7 @@ impl Subject {
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,
+            truth: Vec::new(),
             test: test.clone(),
             sensors: Vec::new(),
             frame: Vec::new(),
