@@ -130,3 +130,18 @@ fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
         assert_eq!(format!("{:.1}", 100.0 * excess), percent, "case {number}");
     }
 }
+
+/// An element matrix of another origin need not be semidefinite, and its share counts what no way to deform explains.
+#[test]
+fn shares_of_an_indefinite_element_sum_to_the_stiffness() {
+    let model = with_every_element(&Case::new(1).unwrap());
+    let mut units: Vec<DMatrix<f64>> = model.element_matrices().iter().map(|element| element.unit.clone()).collect();
+    let (size, last) = (0.01 * units[4].amax(), units[4].nrows() - 1);
+    units[4][(0, last)] += size;
+    units[4][(last, 0)] += size;
+    assert!(units[4].symmetric_eigenvalues().min() < -0.1 * size);
+    let factors = vec![1.0; model.parameters().len()];
+    let found = model.with_unit_stiffness(units).unwrap().matrices(&factors).unwrap();
+    let sum: DMatrix<f64> = found.shares.iter().map(Share::matrix).sum();
+    assert!((sum - &found.stiffness).amax() <= MATRIX_ROUND_OFF * found.stiffness.amax());
+}

@@ -4,7 +4,7 @@ use crate::common::appendix_c::FORMULAE;
 use crate::common::tolerances::CANCELLED_DIFFERENCE;
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::error::Error;
-use nalgebra::{DMatrix, dvector};
+use nalgebra::{DMatrix, dmatrix, dvector};
 
 /// The separation that an error names is the denominator relative to $(k_{ii} + \beta_{ii})\gamma_j$, here ten.
 #[test]
@@ -53,4 +53,17 @@ fn a_root_beyond_all_numbers_is_refused() {
         Err(Error::NotFinite { what, row, .. }) => assert_eq!((what, row), ("perturbed roots", 0)),
         other => panic!("{other:?}"),
     }
+}
+
+/// Powers of two are exact: in other units of stiffness the recursion takes the same orders and changes the same.
+#[test]
+fn when_roots_settle_does_not_depend_on_units() {
+    let settle = |unit: f64| {
+        let beta = unit * dmatrix![0.1, 0.2, 0.1; 0.2, -0.1, 0.3; 0.1, 0.3, 0.2];
+        let change = ModalChange::of_vibrations(&(unit * dvector![1.0, 3.0, 8.0]), beta, DMatrix::zeros(3, 3));
+        let settled = general::recursive_1_converged(&change, 1e-9, 100).unwrap();
+        (settled.order, settled.last_change)
+    };
+    assert_eq!(settle(2_f64.powi(60)), settle(1.0));
+    assert_eq!(settle(2_f64.powi(-60)), settle(1.0));
 }

@@ -3,9 +3,11 @@
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition, gradient};
-use corfem::method::model::ModalModel;
+use corfem::method::derivatives::{DERIVATIVE_STEP, HELD_SEPARATION, by_definition, gradient};
+use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
+use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
@@ -184,4 +186,20 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     for (a, b) in gradient(&problem, &state).unwrap().iter().zip(at_start) {
         assert!((a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP, "{a:e} {b:e}");
     }
+}
+
+/// Two modes closer than a hundredth keep their own shapes, whatever couples them; two further apart do not.
+#[test]
+fn close_modes_are_held_to_their_own_shapes() {
+    let changes = |apart: f64, coupling: f64| {
+        let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
+        let shares = vec![Share::Stiffness(dmatrix![30.0, coupling; coupling, 50.0])];
+        let model = DynamicModel { shares, mass: DMatrix::identity(2, 2), stiffness };
+        let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
+        let problem = model.analyze(&test, None).unwrap();
+        by_definition(&problem, &ModalState::start(&problem)).unwrap()
+    };
+    let (inside, outside) = (0.99 * HELD_SEPARATION, 1.02 * HELD_SEPARATION);
+    assert_eq!(changes(inside, 20.0), changes(inside, 0.0));
+    assert_ne!(changes(outside, 20.0), changes(outside, 0.0));
 }

@@ -9,6 +9,7 @@ use crate::common::tolerances::{
 use crate::common::vibrations::{Chain, chain_and_truth};
 use crate::method::derivatives::{assert_near, exact_error_sum, with_one};
 use crate::method::mass_parameters::both;
+use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::derivatives::{DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient};
 use corfem::method::error::Error;
 use corfem::method::error_sum::{ModeWeight, mode_errors};
@@ -177,4 +178,22 @@ fn either_rule_gives_changes_for_a_thousandth() {
     for (change, slope) in changes(DerivativeRule::Gradient).iter().zip(slopes) {
         assert_eq!(*change, DERIVATIVE_STEP * slope);
     }
+}
+
+/// Roots that differ by round-off are one root, and their gradient is that of equal ones.
+#[test]
+fn roots_apart_by_round_off_count_as_equal() {
+    let gradient_at = |apart: f64| {
+        let first = Share::Stiffness(dmatrix![100.0, 0.0; 0.0, 0.0]);
+        let coupled = Share::Stiffness(dmatrix![50.0, 50.0; 50.0, 50.0]);
+        let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
+        let model = DynamicModel { shares: vec![first, coupled], mass: DMatrix::identity(2, 2), stiffness };
+        let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
+        let problem = model.analyze(&test, None).unwrap();
+        gradient(&problem, &ModalState::start(&problem)).unwrap()
+    };
+    let equal = gradient_at(0.0);
+    assert_near(&gradient_at(0.5 * SMALLEST_SEPARATION), &equal, CENTRAL_DIFFERENCE);
+    // A little further apart the shapes have a derivative, and it is large.
+    assert!(gradient_at(2.0 * SMALLEST_SEPARATION)[1].abs() > 1e3 * equal[1].abs());
 }

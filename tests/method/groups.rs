@@ -1,11 +1,13 @@
 //! Groups: the paper's substructures, all elements of one scaled together.
 
 use crate::common::tolerances::{GROUPED_GAGE, ROUND_OFF};
+use crate::common::torque_boxes::with_parameters;
 use corfem::cases::error::CaseError;
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case};
 use corfem::method::error::Error;
-use corfem::method::model::Scaled;
+use corfem::method::model::{Parameter, Scaled};
+use corfem::method::step::REFERENCE_GAGE;
 
 fn grouped(number: usize) -> CaseResult {
     let mut case = Case::new(number).expect("a case");
@@ -114,4 +116,24 @@ fn there_is_a_gage_for_every_panel() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+/// What steps are taken in: a group's size is the mean of its members', one of masses has none.
+#[test]
+fn the_size_of_a_group_is_the_mean_of_its_members() {
+    let case = Case::new(1).unwrap();
+    let own = case.model().unwrap();
+    let structure = own.structure();
+    let (panel, other, rod) = (&structure.elements()[0], &structure.elements()[1], &structure.elements()[20]);
+    assert_ne!(panel.size, rod.size);
+    let expected = [panel.size + rod.size, 3.0 * other.size];
+    let tip = Parameter { scaled: Scaled::PointMass, ..Parameter::group("tip", &[0]) };
+    let parameters =
+        vec![Parameter::group("two", &[panel.label, rod.label]), Parameter::element(other.label, None), tip];
+    let sizes =
+        with_parameters(&case, parameters).analyze(&[2.0, 3.0, 1.0], &case.test_modes().unwrap(), None).unwrap().sizes;
+    for (found, expected) in sizes.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() <= ROUND_OFF, "{found} {expected}");
+    }
+    assert_eq!(sizes[2], REFERENCE_GAGE);
 }

@@ -226,3 +226,27 @@ fn a_solver_that_does_not_solve_is_refused_with_its_residual() {
     let nothing = check_solution("test matrix", product, |_| DVector::from_element(6, f64::NAN), &probe);
     assert!(matches!(nothing, Err(Error::WrongSolution { .. })));
 }
+
+#[test]
+fn eigenvalues_of_very_large_and_small_matrices_scale() {
+    let matrix = DMatrix::from_fn(4, 4, |i, j| 1.0 / (1 + i + j) as f64);
+    let (expected, _) = symmetric_eigen("test matrix", &matrix).unwrap();
+    for power in [-300, -200, 200, 300] {
+        let scale = 10_f64.powi(power);
+        let (found, _) = symmetric_eigen("test matrix", &(&matrix * scale)).unwrap();
+        assert!((found / scale - &expected).amax() <= MATRIX_ROUND_OFF, "{power}");
+    }
+}
+
+/// Both numbers are of the right side: 1e-6 of it, and what the solution's length allows.
+#[test]
+fn the_residual_of_a_wrong_solution_is_a_fraction() {
+    let probe = DVector::from_column_slice(&[3.0, 4.0, 0.0, 0.0]);
+    let off = |by: f64| check_solution("springs", |x| 2.0 * x, |loads| 0.5 * (1.0 + by) * loads, &probe);
+    let Err(Error::WrongSolution { residual, allowed, .. }) = off(1e-6) else { panic!("a wrong solution passes") };
+    assert!((residual / 1e-6 - 1.0).abs() <= DIFFERENCE_ROUND_OFF, "{residual:e}");
+    let expected = 1e4 * f64::EPSILON * 2.0 * 5.0 * (1.0 + 1e-6) / 10.0;
+    assert!((allowed / expected - 1.0).abs() <= DIFFERENCE_ROUND_OFF, "{allowed:e}");
+    off(0.9 * allowed).unwrap();
+    off(1.1 * allowed).unwrap_err();
+}

@@ -204,3 +204,11 @@ fn a_chain_needs_masses_and_springs() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn a_frequency_whose_square_is_no_positive_number_is_refused() {
+    for frequency in [1e-170, 1e170] {
+        let refused = ModeSet::from_measured(&[frequency], &identity(1)).unwrap_err();
+        assert!(matches!(refused, Error::NotPositive { what: "squared frequency", .. }), "{refused:?}");
+    }
+}

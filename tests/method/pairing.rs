@@ -200,3 +200,16 @@ fn modal_assurance_by_hand() {
     let mac = modal_assurance(&dmatrix![1.0; 2.0], &dmatrix![3.0, -2.0; 1.0, 1.0]).unwrap();
     assert_eq!(mac, dmatrix![0.5, 0.0]);
 }
+
+/// The squares of such components are no numbers, and the assurance does not depend on scale.
+#[test]
+fn modal_assurance_of_very_large_and_small_shapes_is_theirs() {
+    let shapes = dmatrix![1.0, 2.0; 3.0, -1.0; 0.5, 4.0];
+    let expected = modal_assurance(&shapes, &shapes).unwrap();
+    for scale in [1e-300, 1e-200, 1e200, 1e300] {
+        let found = modal_assurance(&(&shapes * scale), &(&shapes / 7.0)).unwrap();
+        assert!((found - &expected).amax() <= MATRIX_ROUND_OFF, "{scale:e}");
+        let found = modal_assurance(&(&shapes / 7.0), &(&shapes * scale)).unwrap();
+        assert!((found - &expected).amax() <= MATRIX_ROUND_OFF, "{scale:e}");
+    }
+}

@@ -10,7 +10,7 @@ use super::figures::{Figure, subject_figures};
 use super::subject::Subject;
 use super::table::{Digits, Table};
 use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
-use super::tables::subject::{derivative_table, factor_table, history_table, paired_table, subject_tables};
+use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, matrices, paper_tables, preflight};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::cases::fit::Fit;
@@ -65,7 +65,8 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         parts.push(named(&format!("case-{number}"), &heading, &heading, body));
     }
     for wing in contents.wings {
-        let body = part(&subject_tables(wing)?, contents.figures, &[&format!("{}_", wing.name)]);
+        let tables = [paired_table(wing)?, factor_table(wing), history_table(wing)];
+        let body = part(&tables, contents.figures, &[&format!("{}_", wing.name)]);
         parts.push(named(&wing.name, &wing.title, &wing.title, body));
     }
     let differences = prose(include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'));

@@ -49,7 +49,8 @@ pub fn root_error_table() -> Result<Table, PresentError> {
         .column("Change", "", springs(|problem| problem.change))
         .notes([note]);
     for rule in formulae(ORDERS) {
-        let largest = |problem: &TwoMasses| Ok(problem.root_errors(rule)?.map(f64::abs).into_iter().fold(0.0, f64::max));
+        let largest =
+            |problem: &TwoMasses| Ok(problem.root_errors(rule)?.map(f64::abs).into_iter().fold(0.0, f64::max));
         let errors: Vec<f64> = problems.iter().map(largest).collect::<Result<_, PresentError>>()?;
         table = table.column(rule_name(rule), "%", percents(errors, Digits::Scientific(1)));
     }
