@@ -4,10 +4,10 @@ use crate::common::loops::correlate_chain;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::cases::{Case, run_case};
-use corfem::method::error_sum::{errors, mode_errors};
+use corfem::method::error_sum::{ModeError, errors, mode_errors};
 use corfem::method::model::Range;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::verdict::Outcome;
+use corfem::method::verdict::{Outcome, Verdict};
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
@@ -89,4 +89,24 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 fn case_4_is_never_called_within_tolerance() {
     let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
     assert_eq!((result.correlation.verdict.outcome, result.correlation.converged), (Outcome::Cap, false));
+}
+
+/// What to try next goes by why the correlation ended, and nothing is to be tried once the model is within tolerance.
+#[test]
+fn advice_goes_by_the_outcome() {
+    let says = |outcome, is_within, at_bound: &[usize]| {
+        let worst = ModeError { frequency: 0.01, shape: 0.02 };
+        let at_bound = at_bound.to_vec();
+        Verdict { outcome, is_within, error_sum: 0.03, worst_mode: 0, worst, at_bound, unseen: Vec::new() }.to_string()
+    };
+    for (outcome, at_bound, advice) in [
+        (Outcome::Cap, vec![0], "Try more iterations or passes."),
+        (Outcome::Nothing, vec![0], "Look for a mistake in the test's units"),
+        (Outcome::LocalMinimum, vec![0], "Try wider bounds"),
+        (Outcome::LocalMinimum, vec![], "Try other parameters or groups"),
+    ] {
+        let (outside, within) = (says(outcome, false, &at_bound), says(outcome, true, &at_bound));
+        assert!(outside.contains(advice), "{outside}");
+        assert!(!within.contains(advice) && !within.contains("Try"), "{within}");
+    }
 }
