@@ -21,7 +21,7 @@ impl Mesh {
     /// The points in their order of elimination: both sides of a cut, then what lies next to it.
     pub(crate) fn nested_dissection(&self) -> Vec<usize> {
         let (mut order, mut mark): (Vec<usize>, _) = ((0..self.points.len()).collect(), vec![0; self.points.len()]);
-        let (mut last, mut parts) = (0, vec![0..order.len()]);
+        let (mut last, mut parts) = (0, Vec::from_iter(Some(0..order.len())));
         while let Some(range) = parts.pop() {
             let part = &mut order[range.clone()];
             let directions = if part.len() > SMALLEST_PART { 0..4 } else { 0..0 };
