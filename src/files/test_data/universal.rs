@@ -9,7 +9,6 @@
 //!
 //! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
 //! are in ascending order of node and direction. A node that a mode leaves out is zero in it.
-//!
 //! The frequency of a complex eigenvalue is its magnitude over $2 \pi$, that of the undamped structure; of a conjugate pair the one
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
@@ -22,11 +21,10 @@ use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-/// Columns of a record of node numbers or codes, and of one of values.
+/// Columns of a record of node numbers or codes, of one of values, of a line of these, and of a node in dataset 15.
 const INTEGER: usize = 10;
 const REAL: usize = 13;
 pub(super) const LONG_REAL: usize = 25;
-/// Columns of a line of values, and of a node in dataset 15.
 pub(super) const VALUES: [usize; 6] = [REAL; 6];
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
