@@ -94,6 +94,11 @@ impl FileError {
         Self::DeckLine { file: file.to_owned(), line, expected, found: found.into() }
     }
 
+    /// An error about one of the lines of a file, counted from zero, or about its end.
+    pub(crate) fn at(file: &str, lines: &[&str], at: usize, expected: &'static str) -> Self {
+        Self::line(file, at + 1, expected, lines.get(at).map_or("the end of the file", |line| line.trim()))
+    }
+
     pub(crate) fn answer(expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self::SolverAnswer { expected: expected.into(), found: found.into() }
     }

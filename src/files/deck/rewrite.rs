@@ -13,6 +13,8 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
 type Target = (u64, u64);
+/// Elements with one property by what they are to have.
+type Groups<'a> = BTreeMap<Target, Vec<&'a Kept<Option<usize>>>>;
 
 /// What is to change: fields by line and place, counted from the line's last field, and cards behind a line.
 struct Changes<'a> {
@@ -101,7 +103,7 @@ impl Changes<'_> {
             wanted.insert(element.label, (element.size.to_bits(), element.material.density.to_bits()));
         }
         // By kind and number of the property, or of the element that has none.
-        let mut users: BTreeMap<_, (Holder, Target, BTreeMap<Target, Vec<&Kept<_>>>)> = BTreeMap::new();
+        let mut users: BTreeMap<_, (Holder, Target, Groups)> = BTreeMap::new();
         for (label, kept) in &known.connections {
             let holder = known.holder(kept)?;
             let number = kept.value.map_or(Ok(*label), |_| kept.card.label(kept.start + 1))?;

@@ -78,8 +78,10 @@ fn on_rows(job: &Job, file: &Path, row_of: &BTreeMap<(usize, usize), usize>) -> 
     Ok(SparseMatrix::new("matrix by labels", row_of.len(), row_of.len(), entries.collect())?)
 }
 
+/// Grid and direction.
+type Label = (usize, usize);
 /// Labels and places of a model's rows.
-type Rows = (Vec<(usize, usize)>, BTreeMap<usize, Vector3<f64>>);
+type Rows = (Vec<Label>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn rows(file: &Path) -> Result<Rows, FileError> {
@@ -101,7 +103,7 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
 }
 
 /// Grid and direction of a row, and its place if it has one.
-fn row(cells: &[String]) -> Option<((usize, usize), Option<Vector3<f64>>)> {
+fn row(cells: &[String]) -> Option<(Label, Option<Vector3<f64>>)> {
     let [grid, direction, place @ ..] = cells else { return None };
     let label = (grid.parse().ok()?, DIRECTIONS.iter().position(|name| name == direction)?);
     if place.iter().all(String::is_empty) {

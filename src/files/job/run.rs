@@ -58,9 +58,8 @@ impl Prepared {
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
-        for (what, list) in
-            [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)]
-        {
+        let lists = [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)];
+        for (what, list) in lists {
             let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
             self.job.refuse(other, format!("{named} {what}, one a test mode of the job"))?;
         }

@@ -50,8 +50,7 @@ pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found
 
 impl Lines<'_> {
     fn wrong(&self, at: usize, expected: &'static str) -> FileError {
-        let found = self.lines.get(at).map_or("the end of the file", |line| line.trim());
-        FileError::line(self.file, at + 1, expected, found)
+        FileError::at(self.file, &self.lines, at, expected)
     }
 
     fn require(&self, is_met: bool, at: usize, expected: &'static str) -> Result<(), FileError> {

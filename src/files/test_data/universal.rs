@@ -9,7 +9,6 @@
 //!
 //! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
 //! are in ascending order of node and direction. A node that a mode leaves out is zero in it.
-//!
 //! The frequency of a complex eigenvalue is its magnitude over $2 \pi$, that of the undamped structure; of a conjugate pair the one
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
@@ -22,11 +21,10 @@ use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-/// Columns of a record of node numbers or codes, and of one of values.
+/// Columns of a record of node numbers or codes, of one of values, of a line of these, and of a node in dataset 15.
 const INTEGER: usize = 10;
 const REAL: usize = 13;
 pub(super) const LONG_REAL: usize = 25;
-/// Columns of a line of values, and of a node in dataset 15.
 pub(super) const VALUES: [usize; 6] = [REAL; 6];
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
@@ -99,9 +97,7 @@ fn is_mark(line: &str) -> bool {
 
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let lines: Vec<&str> = text.lines().collect();
-    let wrong = |at: usize, expected| {
-        FileError::line(file, at + 1, expected, lines.get(at).map_or("the end of the file", |line| line.trim()))
-    };
+    let wrong = |at, expected| FileError::at(file, &lines, at, expected);
     let (mut found, mut at) = (Found::default(), 0);
     while let Some(blank) = lines[at..].iter().position(|line| !line.trim().is_empty()) {
         at += blank;
@@ -178,9 +174,7 @@ impl Found {
 
     /// Dataset 55, if it is a mode.
     fn mode(&mut self, block: &mut Block) -> Result<(), FileError> {
-        for _ in 0..5 {
-            block.line("five lines of identification")?;
-        }
+        (0..5).try_for_each(|_| block.line("five lines of identification").map(drop))?;
         let codes = block.integers("six codes of a dataset 55", 6)?;
         let [analysis, characteristic, specific, data_type, count] = [1, 2, 3, 4, 5].map(|place| codes[place]);
         if ![2, 3, 7].contains(&analysis) || ![2, 3].contains(&characteristic) || !SHAPES.contains(&specific) {
@@ -204,8 +198,7 @@ impl Found {
         let omega = 2.0 * PI * frequency;
         let divisor = [1.0, omega, -omega * omega][specific.saturating_sub(10)];
         let mut shape = BTreeMap::new();
-        let is_complex = data_type == 5;
-        let parts = if is_complex { 2 } else { 1 };
+        let parts = if data_type == 5 { 2 } else { 1 };
         while !block.is_done() {
             let node = block.integers("the number of a node", 1)?[0];
             let mut values = Vec::with_capacity(parts * count);
@@ -214,13 +207,13 @@ impl Found {
                 values.extend(block.reals("values of a mode, six to a line", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {
-                let value = Complex::new(value[0], if is_complex { value[1] } else { 0.0 }) / divisor;
+                let value = Complex::new(value[0], value.get(1).copied().unwrap_or(0.0)) / divisor;
                 if shape.insert((node, direction), value).is_some() {
                     return Err(block.wrong("each node once in a mode", format!("node {node} again")));
                 }
             }
         }
-        self.complex |= is_complex;
+        self.complex |= parts == 2;
         self.data.frequencies_hz.push(frequency);
         self.shapes.push(shape);
         Ok(())
@@ -237,9 +230,8 @@ impl Found {
         for (node, direction) in keys {
             let at = self.nodes.get(&node);
             let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
-            if let Some((.., line)) =
-                at.filter(|_| [of_place, of_motion].iter().flatten().any(|axes| !axes.is_cartesian))
-            {
+            let is_other = [of_place, of_motion].iter().flatten().any(|axes| !axes.is_cartesian);
+            if let (Some((.., line)), true) = (at, is_other) {
                 let found = "a cylindrical or spherical one";
                 return Err(FileError::line(file, *line, "a node with Cartesian coordinate systems", found));
             }
