@@ -50,8 +50,8 @@ pub struct Prepared {
     pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and how and with how many modes it was compared.
-    first: Option<(Compare, usize, ModalModel)>,
+    /// The first model, and how, with how many modes and with which test it was compared.
+    first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
 impl Prepared {
@@ -151,7 +151,8 @@ impl Prepared {
         let expected = "a mode of the model with a modal assurance of";
         self.job.refuse(best, format!("{expected} {floor} or more for one test mode at least"))?;
         if self.unpaired.is_empty() {
-            self.first = first.ok().map(|first| (self.job.compare.clone(), self.analysis_modes, first));
+            let (compare, test) = (self.job.compare.clone(), self.test.clone());
+            self.first = first.ok().map(|first| (compare, self.analysis_modes, test, first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -181,8 +182,8 @@ impl Prepared {
     /// # Errors
     /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
-        if let Some((compare, count, first)) = &self.first
-            && (compare, *count) == (&self.job.compare, self.analysis_modes)
+        if let Some((compare, count, test, first)) = &self.first
+            && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
             && factors.iter().all(|&factor| factor == 1.0)
         {
             return Ok(first.clone());
