@@ -38,19 +38,19 @@ pub fn draw(name: &str, title: &str) -> Result<String, PresentError> {
     svg(name, title, HEIGHT, |area| {
         let dof = (1e3..1.2e6).log_scale().with_key_points(vec![1e3, 1e4, 1e5, 1e6]);
         let time = (0.5..3e5).log_scale().with_key_points(vec![1.0, 10.0, 100.0, 1e3, 1e4, 1e5]);
-        let mut chart = chart(area, [66.0, 320.0, 20.0, 50.0]).build_cartesian_2d(dof, time)?;
+        let mut chart = chart(area, [66.0, 340.0, 20.0, 50.0]).build_cartesian_2d(dof, time)?;
         axes(&mut chart).x_label_formatter(&|x| format!("{x}")).y_label_formatter(&|x| format!("{x}")).draw()?;
         let known = STAGES.into_iter().filter(|stage| !measured(stage.0).is_empty());
         for (row, (stage, color, form, dash)) in known.enumerate() {
             let points = measured(stage);
             let (at, look) = (36.0 + 44.0 * row as f64, Mark(form, 3.5, Some(color), Pen::solid(color, 1.0)));
             let places: Vec<Place> = points.iter().map(|&(dof, time)| placed(&chart, dof, time)).collect();
-            for places in [&places, &vec![(456.0, at), (490.0, at)]] {
+            for places in [&places, &vec![(436.0, at), (470.0, at)]] {
                 line(area, places, Pen(color, 1.8, dash))?;
             }
-            places.iter().chain([&(473.0, at)]).try_for_each(|&place| mark(area, place, look))?;
-            write(area, stage, (500.0, at), START)?;
-            write(area, &format!("exponent {:.2}", exponent(&points)), (500.0, at + 17.0), START.small())?;
+            places.iter().chain([&(453.0, at)]).try_for_each(|&place| mark(area, place, look))?;
+            write(area, stage, (480.0, at), START)?;
+            write(area, &format!("exponent {:.2}", exponent(&points)), (480.0, at + 17.0), START.small())?;
         }
         write(area, "structural degrees of freedom", (250.0, HEIGHT - 12.0), MIDDLE)?;
         name_upright(area, "milliseconds", 0.5 * HEIGHT)
