@@ -204,6 +204,18 @@ fn the_data_see_what_the_columns_say() {
 }
 
 #[test]
+fn a_narrower_prior_adds_its_own_information() {
+    let columns = DMatrix::from_row_slice(2, 3, &[3.0, 0.0, 1.5, 0.0, 1.0, 0.0]);
+    let seen = identifiability(&columns, 0.5).unwrap();
+    // The second column is shorter than one over the prior's deviation: the test adds less than is known before.
+    assert_eq!(seen.subset, [0]);
+    let [(0, 2, cosine)] = seen.parallel[..] else { panic!("{:?}", seen.parallel) };
+    assert!((cosine - 1.0).abs() < ROUND_OFF);
+    assert!((seen.covariance[(1, 1)] - 1.0 / (1.0 + 4.0)).abs() < ROUND_OFF);
+    assert!((seen.learned[1] - (1.0 - 4.0 / 5.0)).abs() < ROUND_OFF);
+}
+
+#[test]
 fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
     let known = Known::of_case(2).unwrap();
     let seen = corrected(&known, &[None; 15], &WeightedSettings::default()).identifiability;

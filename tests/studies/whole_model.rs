@@ -154,6 +154,20 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
 /// Test shapes of any scale are brought to that of the modes they answer: the difference has no part of the shape, and whatever
 /// factors they came with are gone but for their signs.
 #[test]
+fn a_factor_scales_its_own_share_of_stiffness_or_mass() {
+    let (wall, between) = ((0, None, 5.0), (1, Some(0), 7.0));
+    let parameter = |name: &str, share| WholeParameter { name: name.to_owned(), share, range: None };
+    let parameters = vec![
+        parameter("wall", WholeShare::Stiffness(springs(2, &[wall]))),
+        parameter("tip", WholeShare::Mass(masses(&[0.0, 3.0]))),
+    ];
+    let model = WholeModel::new(springs(2, &[wall, between]), masses(&[2.0, 4.0]), parameters).unwrap();
+    let (stiffness, mass) = model.at(&[2.0, 0.5]).unwrap();
+    assert_eq!(stiffness.dense(), springs(2, &[(0, None, 10.0), between]).dense());
+    assert_eq!(mass.dense(), masses(&[2.0, 2.5]).dense());
+}
+
+#[test]
 fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let truth = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
     let real = shear_building(&truth.map(|factor| factor * 1.0e5), 1.0, None);
