@@ -19,9 +19,9 @@ use corfem::studies::noisy_modes::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::Weights;
 use corfem::studies::whole_model::{
-    Factor, MOST_DENSE_ROWS, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
+    Factor, MOST_DENSE_ROWS, SparseMatrix, WholeModel, WholeParameter, WholeShare, check_none_missed, lowest_modes,
 };
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 fn chain(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
     let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
@@ -52,6 +52,23 @@ fn a_long_chain_has_the_closed_form_whatever_holds_it() {
 }
 
 /// A square net of springs has sums of the chain's eigenvalues, most of them twice.
+#[test]
+fn a_mode_that_was_missed_is_missing_from_the_count() {
+    let (stiffness, mass) = (chain(ChainEnds::FixedFree, 200, 3.0), masses(&[2.0; 200]));
+    let exact = chain_eigenvalues(ChainEnds::FixedFree, 200, 3.0, 2.0);
+    let lowest = DVector::from_column_slice(&exact[..12]);
+    check_none_missed(&stiffness, &mass, &lowest).unwrap();
+    for missed in 0..11 {
+        let error = check_none_missed(&stiffness, &mass, &lowest.clone().remove_row(missed)).unwrap_err();
+        assert!(matches!(error, Error::Miscounted { counted: 12, found: 11, .. }), "{error}");
+    }
+    // One that is no mode at all is one too many.
+    let doubled = check_none_missed(&stiffness, &mass, &lowest.clone().insert_row(5, lowest[5])).unwrap_err();
+    assert!(matches!(doubled, Error::Miscounted { counted: 12, found: 13, .. }), "{doubled}");
+    let none = check_none_missed(&stiffness, &mass, &DVector::zeros(0)).unwrap_err();
+    assert!(matches!(none, Error::Empty { .. }), "{none}");
+}
+
 #[test]
 fn repeated_roots_of_a_square_net_are_all_found() {
     let side = 31;

@@ -10,5 +10,5 @@ mod sparse;
 pub use analysis::{WholeModel, WholeParameter, WholeShare};
 pub use condensation::{CondensationError, LARGEST_CONDENSATION_ERROR};
 pub use factor::Factor;
-pub use modes::{FINITE, MOST_DENSE_ROWS, lowest_modes};
+pub use modes::{FINITE, MOST_DENSE_ROWS, check_none_missed, lowest_modes};
 pub use sparse::SparseMatrix;

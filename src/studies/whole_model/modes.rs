@@ -1,7 +1,7 @@
 //! The lowest modes of a sparse pencil, none of them missed.
 
 use super::{Factor, SparseMatrix};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::{ModeSet, check_count};
 use crate::studies::free_modes::{CountedModes, counted_modes};
@@ -171,6 +171,24 @@ fn squared_frequencies(
     let (forces, momenta) = (stiffness.times(shapes)?, mass.times(shapes)?);
     let square = |mode: usize, of: &DMatrix<f64>| shapes.column(mode).dot(&of.column(mode));
     Ok(DVector::from_fn(shapes.ncols(), |mode, _| (square(mode, &forces) / square(mode, &momenta)).max(0.0)))
+}
+
+/// Refuses squared frequencies (rad²/s², ascending, rigid-body modes among them) that are not all the lowest ones of a pencil: one
+/// that was missed, whatever program found them, is missing from the count by inertia just above the last.
+///
+/// # Errors
+/// [`Error::Empty`]; [`Error::Miscounted`]; those of [`SparseMatrix::check_symmetric`].
+pub fn check_none_missed(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    omega_squared: &DVector<f64>,
+) -> Result<(), Error> {
+    at_least_one("modes", omega_squared.len())?;
+    stiffness.check_symmetric("stiffness")?;
+    mass.check_symmetric("mass")?;
+    let plan = Factor::plan(&[stiffness, mass])?;
+    let factor_at = |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    check_number(&factor_at, omega_squared, omega_squared.len(), false)
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
