@@ -51,8 +51,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
         check_count(FINITE, count, all.vibrations.len())?;
         return Ok(CountedModes { vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations, ..all });
     }
-    let plan = Factor::plan(&[stiffness, mass])?;
-    let factor_at = |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let factor_at = factors(stiffness, mass)?;
     let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
     let mut wanted = count + BEYOND;
     loop {
@@ -67,6 +66,15 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
         check_number(&factor_at, &omega_squared, rigid + count, is_all)?;
         return Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, count));
     }
+}
+
+/// Factors of $K + \sigma M$ by one plan.
+fn factors<'a>(
+    stiffness: &'a SparseMatrix,
+    mass: &'a SparseMatrix,
+) -> Result<impl Fn(&'static str, f64) -> Result<Factor, Error>, Error> {
+    let plan = Factor::plan(&[stiffness, mass])?;
+    Ok(move |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]))
 }
 
 /// The factor of $K + \sigma M$, named, for $\sigma$.
@@ -186,8 +194,7 @@ pub fn check_none_missed(
     at_least_one("modes", omega_squared.len())?;
     stiffness.check_symmetric("stiffness")?;
     mass.check_symmetric("mass")?;
-    let plan = Factor::plan(&[stiffness, mass])?;
-    let factor_at = |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let factor_at = factors(stiffness, mass)?;
     check_number(&factor_at, omega_squared, omega_squared.len(), false)
 }
 
