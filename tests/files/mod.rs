@@ -9,6 +9,7 @@ pub mod deck_modes;
 pub mod deck_numbers;
 pub mod deck_reading;
 pub mod deck_rewrite;
+pub mod deck_rewrite_drawn;
 pub mod matrices;
 pub mod matrices_damaged;
 pub mod readers_survive;
@@ -17,6 +18,7 @@ pub mod test_data;
 pub mod test_data_csv;
 pub mod test_data_pyuff;
 pub mod test_data_universal;
+pub mod test_data_axes;
 
 pub mod nastran95_analysis;
 pub mod nastran95_bounds;
@@ -28,5 +30,6 @@ pub mod nastran95_process;
 pub mod nastran95_program;
 
 pub mod job_errors;
+pub mod job_matrices;
 pub mod jobs;
 pub mod study;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 const NONE: &str = "NONE\nNONE\nNONE\nNONE\nNONE\n";
 
-fn dataset(number: &str, body: &str) -> String {
+pub fn dataset(number: &str, body: &str) -> String {
     format!("    -1\n{number:>6}\n{body}    -1\n")
 }
 
@@ -21,13 +21,13 @@ fn mode(codes: [usize; 6], record: &str, values: &str) -> String {
     dataset("55", &format!("{NONE}{codes}\n         2         4         0         1\n{record}\n{values}"))
 }
 
-fn real_mode(values: &str) -> String {
+pub fn real_mode(values: &str) -> String {
     mode([1, 2, 2, 8, 2, 3], "  1.25000E+01  0.00000E+00  0.00000E+00  0.00000E+00", values)
 }
 
-const TIP: &str = "        12\n  0.00000E+00  0.00000E+00  1.00000E+00\n";
+pub const TIP: &str = "        12\n  0.00000E+00  0.00000E+00  1.00000E+00\n";
 
-fn parsed(text: &str) -> TestData {
+pub fn parsed(text: &str) -> TestData {
     read("wing.unv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -70,97 +70,6 @@ fn data_that_begin_with_minus_one_end_no_dataset() {
     let error = read("wing.unv", real_mode("        -1\n  0.00000E+00  0.00000E+00  1.00000E+00\n").as_bytes());
     let error = error.expect_err("no node");
     assert!(matches!(&error, FileError::DeckLine { line: 11, found, .. } if found == "-1"), "{error}");
-}
-
-fn row(values: &[f64], width: usize) -> String {
-    values.iter().map(|value| format!("{value:width$.5}")).collect::<String>() + "\n"
-}
-
-/// A node of dataset 15 with the coordinate systems of its place and of its displacements.
-fn node(node: usize, [of_place, of_motion]: [usize; 2], place: [f64; 3]) -> String {
-    format!("{node:10}{of_place:10}{of_motion:10}        11") + &row(&place, 13)
-}
-
-/// A system of dataset 18: origin, a point on the x axis, one in the xz plane.
-fn system(number: usize, kind: usize, reference: usize, points: [[f64; 3]; 3]) -> String {
-    let numbers = format!("{number:10}{kind:10}{reference:10}         8         1\nSYS\n");
-    numbers + &row(&points[..2].concat(), 13) + &row(&points[2], 13)
-}
-
-/// A system of dataset 2420: unit vectors along its axes, and its origin.
-fn matrix(number: usize, kind: usize, rows: [[f64; 3]; 4]) -> String {
-    format!("{number:10}{kind:10}         8\nCS{number}\n") + &rows.map(|values| row(&values, 25)).concat()
-}
-
-const PART: &str = "         1\nPart\n";
-
-#[test]
-fn sensors_measure_along_the_axes_of_their_nodes() {
-    // System 3 is turned by a quarter about z: its x is the global y; 4 stands in it, and its x points along the y of 3.
-    let quarter = system(3, 0, 0, [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]]);
-    let within = system(4, 0, 3, [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, 0.0, 3.0]]);
-    let oblique = matrix(5, 0, [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
-    let values = |nodes: &[usize]| {
-        nodes.iter().map(|node| format!("{node:10}\n") + &row(&[1.0, 2.0, 3.0], 13)).collect::<String>()
-    };
-    let nodes = [
-        node(1, [3, 0], [1.0, 2.0, 3.0]),
-        node(2, [0, 3], [1.0, 2.0, 3.0]),
-        node(3, [4, 4], [1.0, 2.0, 3.0]),
-        node(4, [5, 5], [1.0, 0.0, 0.0]),
-        node(5, [9, 9], [1.0, 2.0, 3.0]),
-    ];
-    // Wherever the systems stand in the file.
-    let text = dataset("15", &nodes.concat())
-        + &real_mode(&values(&[1, 2, 3, 4, 5]))
-        + &dataset("18", &(quarter + &within))
-        + &dataset("2420", &(PART.to_owned() + &oblique));
-    let data = parsed(&text);
-    assert!(data.skipped.is_empty(), "{:?}", data.skipped);
-    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
-    let expected = [
-        (Vector3::new(8.0, 1.0, 3.0), [x, y, z]),
-        (Vector3::new(1.0, 2.0, 3.0), [y, -x, z]),
-        // Of 4 in the global axes: origin (10, 1, 0), x along -x, y along -y.
-        (Vector3::new(9.0, -1.0, 3.0), [-x, -y, z]),
-        (Vector3::new(0.6, 1.8, 0.0), [Vector3::new(0.6, 0.8, 0.0), Vector3::new(-0.8, 0.6, 0.0), z]),
-        (Vector3::new(1.0, 2.0, 3.0), [x, y, z]),
-    ];
-    for (sensors, (place, axes)) in data.sensors.chunks(3).zip(expected) {
-        for (sensor, axis) in sensors.iter().zip(axes) {
-            let found = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
-            assert!((found - axis).amax() < ROUND_OFF, "{}: {found}", sensor.name);
-            assert!((sensor.place.expect("a place") - place).amax() < ROUND_OFF, "{}", sensor.name);
-        }
-    }
-    // Coordinates of dataset 2411 are global ones.
-    let long = dataset("2411", &format!("{:10}{:10}{:10}        11\n{}", 1, 3, 3, row(&[1.0, 2.0, 3.0], 25)));
-    let quarter = system(3, 0, 0, [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]]);
-    let data = parsed(&(dataset("18", &quarter) + &long + &real_mode(&values(&[1]))));
-    assert_eq!((data.sensors[0].place, data.sensors[0].axis), (Some(Vector3::new(1.0, 2.0, 3.0)), Some(y)));
-}
-
-#[test]
-fn coordinate_systems_that_are_none_are_refused() {
-    let said =
-        |text: String| read("wing.unv", (text + &real_mode(TIP)).as_bytes()).map(drop).expect_err("wrong").to_string();
-    let points = |points| dataset("18", &system(3, 0, 0, points));
-    let origin = said(points([[1.0; 3], [1.0; 3], [0.0; 3]]));
-    assert!(origin.contains("line 6: expected a point beside the origin, found the origin"), "{origin}");
-    let on_axis = said(points([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
-    assert!(on_axis.contains("line 6: expected a point beside the x axis, found one on it"), "{on_axis}");
-    let unknown = said(dataset("18", &system(3, 0, 2, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])));
-    assert!(
-        unknown.contains("a reference that is zero or a Cartesian coordinate system of before, found 2"),
-        "{unknown}"
-    );
-    let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.1], [0.0, 0.0, 1.0], [0.0; 3]];
-    let skew = said(dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows))));
-    assert!(skew.contains("expected three unit vectors at right angles above it, found others"), "{skew}");
-    let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
-    let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
-    let expected = "line 10: expected a node with Cartesian coordinate systems, found a cylindrical or spherical one";
-    assert!(cylinder.contains(expected), "{cylinder}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ pub mod figures_box;
 pub mod figures_comparisons;
 pub mod figures_drawing;
 pub mod figures_legible;
+pub mod frame;
 pub mod matrix_tables;
 pub mod noisy_tables;
 pub mod page;

@@ -1,8 +1,7 @@
-//! `corfem correlate`, `corfem check JOB` and `corfem init` from outside: what they print, write and leave alone.
+//! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
 
 use crate::common::tolerances::{FIELD_ROUNDING, WEIGHTED_FACTOR};
 use crate::program::cli::{corfem, text};
-use corfem::files::job::{Job, Prepared, read};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,11 +11,11 @@ use std::process::Output;
 /// The worked jobs, and whether their models are decks.
 const JOBS: [(&str, bool); 3] = [("box", true), ("building", false), ("wing", true)];
 
-fn folder_of(name: &str) -> PathBuf {
+pub fn folder_of(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs").join(name)
 }
 
-fn words(path: &Path) -> &str {
+pub fn words(path: &Path) -> &str {
     path.to_str().expect("UTF-8")
 }
 
@@ -221,79 +220,6 @@ fn a_report_is_written_although_its_deck_cannot_be() {
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("a is one of point masses"), "{}", text(&output.stderr));
     assert_eq!(names(&out), ["correlation.json", "factors.csv", "report.html"]);
-}
-
-#[test]
-fn init_writes_a_job_that_reads_and_nothing_over_another() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("job.toml");
-    assert_eq!(corfem(&["init", words(&path)]).status.code(), Some(0));
-    let written = fs::read(&path).expect("it reads");
-    assert_eq!(written, corfem(&["init"]).stdout);
-    let refused = corfem(&["init", words(&path)]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("job.toml: expected to write it"), "{}", text(&refused.stderr));
-    assert_eq!(fs::read(&path).expect("it reads"), written);
-    let job = read(&path).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(job.title.as_deref(), Some("my structure"));
-    // Every example and default is one that the reader takes, but for those of a model of matrices.
-    let examples = String::from_utf8(written.clone()).expect("UTF-8");
-    let examples: String =
-        examples.lines().skip_while(|line| !line.starts_with("title")).fold(String::new(), |all, line| {
-            let entry = line.strip_prefix("# ").filter(|entry| entry.split(' ').nth(1) == Some("="));
-            all + entry.unwrap_or(line) + "\n"
-        });
-    toml::from_str::<Job>(&examples).unwrap_or_else(|error| panic!("{error}"));
-    // Pointed to files that exist, it is a job that can be looked at.
-    let wing = |file: &str| words(&folder_of("wing").join(file)).to_owned();
-    let text = String::from_utf8(written).expect("UTF-8");
-    let text = text.replace("\"model.bdf\"", &format!("{:?}", wing("model.bdf")));
-    let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
-    let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
-    fs::write(&path, text).expect("written");
-    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
-}
-
-/// The names of a struct's fields, as the reader itself lists them when it finds another.
-fn entries(table: &str) -> Vec<String> {
-    let base = "[model]\n[test]\nfile = \"t\"\n";
-    let text = match table {
-        "" => format!("stranger = 1\n{base}"),
-        "model" => "[model]\nstranger = 1\n[test]\nfile = \"t\"\n".to_owned(),
-        "test" => format!("{base}stranger = 1\n"),
-        table => format!("{base}{table}\nstranger = 1\n"),
-    };
-    let error = toml::from_str::<Job>(&text).expect_err("a stranger").to_string();
-    let list = error.split("expected ").nth(1).unwrap_or_else(|| panic!("{table}: {error}"));
-    list.split('`').skip(1).step_by(2).map(str::to_owned).collect()
-}
-
-#[test]
-fn init_explains_every_entry_that_a_job_may_have() {
-    let template = text(&corfem(&["init"]).stdout);
-    let tables = ["", "model", "test", "[sensors]", "[[parameter]]", "[compare]", "[[sensors.place]]"];
-    let all: Vec<String> = tables.iter().flat_map(|table| entries(table)).collect();
-    assert!(all.len() > 35, "{all:?}");
-    let uses = |entry: &str| {
-        let is_use = |line: &str| {
-            let line = line.trim_start_matches(['#', ' ']);
-            line.starts_with(&format!("[{entry}]")) || line.starts_with(&format!("[[{entry}]]"))
-        };
-        template.contains(&format!("{entry} = ")) || template.lines().any(is_use)
-    };
-    for entry in all {
-        assert!(uses(&entry), "{entry}");
-    }
-    for entry in ["[correlation]", "[correlation.inner]"].into_iter().flat_map(entries) {
-        assert!(uses(&entry) || uses(&format!("correlation.{entry}")), "correlation: {entry}");
-    }
-}
-
-#[test]
-fn the_example_of_a_test_reads() {
-    let output = corfem(&["init", "--test"]);
-    let data = corfem::files::test_data::read("test.csv", &output.stdout).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
 }
 
 /// A correlation that would last is stopped: the best so far is written whole, and standard error says so.

@@ -7,6 +7,7 @@ pub mod cli_settings;
 pub mod cli_cost;
 pub mod cli_study;
 pub mod cli_jobs;
+pub mod cli_init;
 pub mod cli_pictures;
 pub mod cli_places;
 pub mod cli_streams;

@@ -23,6 +23,7 @@ pub mod preflight_modes;
 pub mod preflight_rates;
 
 pub mod whole_model;
+pub mod whole_model_modes;
 pub mod weighted;
 pub mod weighted_coverage;
 
