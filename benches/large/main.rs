@@ -1,10 +1,11 @@
 //! The cost of every stage on wings from 1.4 thousand to a million structural DOF: time, peak memory, and how both grow.
 //!
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
-//! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy; with
-//! `--store paper/costs.csv` what was measured replaces what stands there, and the tables of `paper/cost.md` follow by
-//! `CORFEM_DOCUMENTS=write cargo test costs`.
+//! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy, and with
+//! `--scipy python3` that is done in the same run, in a process for each wing. With `--store paper/costs.csv` what was measured replaces
+//! what stands there, and the tables of `paper/cost.md` follow by `CORFEM_DOCUMENTS=write cargo test costs`.
 
+mod machine;
 mod memory;
 mod numpy;
 mod stages;
@@ -12,14 +13,16 @@ mod stages;
 use corfem::studies::wing::{MESHES, Wing};
 use stages::Stages;
 use std::path::Path;
+use std::process::Command;
 
 fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench").peekable();
-    let (mut names, mut folder, mut costs) = (Vec::new(), None, None);
+    let (mut names, mut folder, mut costs, mut scipy) = (Vec::new(), None, None, None);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--write" => folder = Some(arguments.next().expect("--write wants a folder")),
             "--store" => costs = Some(arguments.next().expect("--store wants a file")),
+            "--scipy" => scipy = Some(arguments.next().expect("--scipy wants the name of a Python with SciPy")),
             _ => names.push(argument),
         }
     }
@@ -47,6 +50,11 @@ fn main() {
             store(Path::new(costs), &stages).expect("the file can be written");
         }
         measured.push(stages);
+        if let (Some(python), Some(folder)) = (&scipy, &folder) {
+            let mut command = Command::new(python);
+            command.arg("benches/scipy_wing.py").args(costs.iter().flat_map(|costs| ["--store", costs])).arg(folder);
+            assert!(command.status().expect("Python starts").success(), "SciPy found something else");
+        }
     }
     print(&measured);
 }
@@ -57,14 +65,15 @@ fn store(file: &Path, stages: &Stages) -> std::io::Result<()> {
     let mut rows: Vec<Vec<String>> = text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
     let column = rows[0].iter().position(|name| *name == stages.dof.to_string()).expect("a column of this wing");
     for row in &mut rows {
-        let seconds = stages.seconds(&row[0]);
-        if seconds.is_finite() {
-            row[column] = format!("{:.5}", 1e3 * seconds);
-        } else if row[0] == "most memory of an analysis" {
-            let analysis = stages.all.iter().find(|stage| stage.name == stages::ANALYSIS);
-            row[column] = format!("{:.1}", analysis.expect("it was timed").bytes as f64 / 1e6);
-        } else if row[0] == "entries of the factor" {
-            row[column] = format!("{:.3}", stages.factor_entries as f64 / 1e6);
+        let stage = stages.all.iter().find(|stage| stage.name == row[0]);
+        match (stage, row[1].as_str(), row[0].as_str()) {
+            (Some(stage), "ms", _) => row[column] = format!("{:.5}", 1e3 * stage.seconds),
+            (Some(stage), "MB", _) => row[column] = format!("{:.1}", stage.bytes as f64 / 1e6),
+            (.., "entries of the factor") => row[column] = format!("{:.3}", stages.factor_entries as f64 / 1e6),
+            (.., "operations of the factorization") => row[column] = format!("{:.4}", stages.factor_operations / 1e6),
+            (.., "product of dense matrices") => row[column] = format!("{:.2}", stages.machine.operations / 1e9),
+            (.., "reading of memory") => row[column] = format!("{:.2}", stages.machine.bytes / 1e9),
+            _ => {}
         }
     }
     std::fs::write(file, rows.iter().map(|row| row.join(",") + "\n").collect::<String>())

@@ -1,5 +1,6 @@
 //! What is timed: a correlation's stages one by one, each through the library's own functions.
 
+use crate::machine::Machine;
 use crate::memory::peak;
 use corfem::method::appendix_a::condense;
 use corfem::method::assembly::element_matrices;
@@ -28,12 +29,14 @@ const WHOLE_MODES: usize = 20;
 const DENSITY: f64 = 2.6e-4;
 /// Stages that are named more than once.
 const CONDENSED: &str = "condensed model: these two and $K_D$";
-pub const ANALYSIS: &str = "analysis with all shares";
+const ANALYSIS: &str = "analysis with all shares";
 /// The exact error sum to which a whole correlation goes.
 const ERROR: f64 = 0.05;
-/// A stage is repeated until it has taken so long together, but not more often than this.
+/// A stage is repeated until it has taken so long together, but not more often than this; and done twice at least, for the first time
+/// pays for memory that was never touched, unless that alone takes too long.
 const LONG_ENOUGH: Duration = Duration::from_millis(400);
 const MOST_REPEATS: usize = 50;
+const TOO_LONG: Duration = Duration::from_secs(30);
 
 /// One stage: its name, its least time and the most memory held meanwhile.
 pub struct Stage {
@@ -47,6 +50,10 @@ pub struct Stages {
     pub dof: usize,
     /// How many numbers the factor of the stiffness has.
     pub factor_entries: usize,
+    /// How many multiplications and additions make it.
+    pub factor_operations: f64,
+    /// What the machine does at most in one thread.
+    pub machine: Machine,
     pub all: Vec<Stage>,
 }
 
@@ -60,7 +67,7 @@ impl Stages {
             let (done, held) = peak(&mut work);
             let took = start.elapsed();
             (least, total, repeats, bytes) = (least.min(took), total + took, repeats + 1, bytes.max(held));
-            if total >= LONG_ENOUGH || repeats == MOST_REPEATS {
+            if repeats == MOST_REPEATS || total >= TOO_LONG || (total >= LONG_ENOUGH && repeats > 1) {
                 self.all.push(Stage { name, seconds: least.as_secs_f64(), bytes });
                 return black_box(done);
             }
@@ -89,7 +96,8 @@ fn settings() -> Settings {
 
 /// Times every stage of a wing, and hands it back with what an analysis found.
 pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
-    let mut stages = Stages { dof: 0, factor_entries: 0, all: Vec::new() };
+    let machine = Machine::measured();
+    let mut stages = Stages { dof: 0, factor_entries: 0, factor_operations: 0.0, machine, all: Vec::new() };
     let structure = stages.time("grids and elements", || wing.structure().expect("a wing"));
     stages.dof = structure.free_dof().len();
     drop(stages.time("element matrices (once)", || element_matrices(&structure).expect("elements")));
@@ -101,7 +109,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
-    stages.factor_entries = plan.factor_entries();
+    (stages.factor_entries, stages.factor_operations) = (plan.factor_entries(), plan.factor_operations());
     let factorize = || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
     let flexibility = || structural.flexibility(model.load_distribution()).expect("a flexibility");

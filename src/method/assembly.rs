@@ -9,7 +9,7 @@ use crate::method::structure::{Element, Structure};
 use nalgebra::{DMatrix, DVector};
 
 /// One element's stiffness and mass for unit size at the free structural DOF it touches.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ElementMatrix {
     /// The element's number.
     pub label: usize,
@@ -24,11 +24,15 @@ pub struct ElementMatrix {
 /// Refuses elements that do not fit their sizes or the DOF that there are.
 pub(crate) fn check_elements(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<(), Error> {
     check_length("element sizes", sizes.len(), elements.len())?;
-    elements.iter().try_for_each(|ElementMatrix { dof, unit, unit_mass, .. }| {
-        check_shape("element stiffness", unit, dof.len(), dof.len())?;
-        check_length("element mass", unit_mass.len(), dof.len())?;
-        dof.iter().try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
-    })
+    elements.iter().try_for_each(|element| check_element(element, dof_count))
+}
+
+/// Refuses an element that does not fit the DOF that there are.
+pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result<(), Error> {
+    let ElementMatrix { dof, unit, unit_mass, .. } = element;
+    check_shape("element stiffness", unit, dof.len(), dof.len())?;
+    check_length("element mass", unit_mass.len(), dof.len())?;
+    dof.iter().try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
 }
 
 /// Unit stiffness and mass of every element, restricted to the free DOF, in the structure's order.

@@ -9,6 +9,8 @@ use corfem::present::figures::growth::{exponent, measured};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+const FACTOR: &str = "assembly and factorization";
+const SHAPES: &str = "shapes of the structure: 10 solutions";
 const MARKER: &str = "measured: paper/costs.csv, November 2026, two x86-64 cores of a virtual machine";
 
 /// A stage with its unit, and the DOF and costs of the wings on which it was measured.
@@ -71,22 +73,57 @@ fn exponent_of(points: &[(f64, f64)]) -> String {
     format!("{:.2}", log_log_slope(points)).replace("-0.00", "0.00")
 }
 
-fn table() -> String {
-    let rows = rows();
-    let heading: String = rows[0].points.iter().map(|point| format!(" {} DOF |", grouped(point.0))).collect();
-    let mut lines = vec![
-        format!("| stage, ms |{heading} from size to size | fitted |"),
-        format!("|---|{}---|---|", "---|".repeat(rows[0].points.len())),
-    ];
-    for row in &rows {
-        let unit = if row.unit == "ms" { String::new() } else { format!(", {}", row.unit) };
-        let cells: String =
-            row.points.iter().map(|point| format!(" {} |", point.1.map(written).unwrap_or_default())).collect();
+/// The sizes, under a name for what stands in the rows and before further headings.
+fn head(what: &str, further: &str) -> String {
+    let sizes: String = rows()[0].points.iter().map(|point| format!(" {} DOF |", grouped(point.0))).collect();
+    let bars = "---|".repeat(1 + sizes.matches('|').count() + further.matches('|').count());
+    format!("| {what} |{sizes}{further}\n|{bars}\n")
+}
+
+/// Values of all sizes, empty where there is none.
+fn cells(values: impl Iterator<Item = Option<f64>>) -> String {
+    values.map(|value| format!(" {} |", value.map(written).unwrap_or_default())).collect()
+}
+
+/// What was measured, with exponents of growth: all but memory, or memory alone.
+fn growth(what: &str, usual: &str, is_memory: bool) -> String {
+    let row = |row: Row| {
+        let unit = if row.unit == usual { String::new() } else { format!(", {}", row.unit) };
         let steps: Vec<String> = row.known().windows(2).map(exponent_of).collect();
         let fitted = if row.known().len() > 1 { exponent_of(&row.known()) } else { String::new() };
-        lines.push(format!("| {}{unit} |{cells} {} | {fitted} |", row.stage, steps.join(", ")));
-    }
-    lines.join("\n")
+        let cells = cells(row.points.iter().map(|point| point.1));
+        format!("| {}{unit} |{cells} {} | {fitted} |\n", row.stage, steps.join(", "))
+    };
+    let wanted = rows().into_iter().filter(|row| (row.unit == "MB") == is_memory);
+    head(what, " from size to size | fitted |") + &wanted.map(row).collect::<String>()
+}
+
+/// Rates of the stages, against those of the machine.
+fn bounds() -> String {
+    let [factor, entries, operations] = [FACTOR, "entries of the factor", "operations of the factorization"].map(row);
+    let [product, reading, shapes] = ["product of dense matrices", "reading of memory", SHAPES].map(row);
+    let sizes = || factor.known().into_iter().map(|point| point.0);
+    let line = |what: &str, value: &dyn Fn(f64) -> f64| format!("| {what} |{}\n", cells(sizes().map(value).map(Some)));
+    // Millions a millisecond are thousand millions a second; an entry has eight bytes and is read forward and backward.
+    let rate = |dof: f64| operations.at(dof) / factor.at(dof);
+    let traffic = |dof: f64| 16.0 * entries.at(dof) / shapes.at(dof);
+    let each = |stage: &'static str| move |dof: f64| 1e3 * row(stage).at(dof) / dof;
+    [
+        head("what bounds a stage", ""),
+        line("entries of the factor for every DOF", &|dof| 1e6 * entries.at(dof) / dof),
+        line("assembly and factorization, GFLOP/s", &rate),
+        line("the same, % of a product of dense matrices", &|dof| 100.0 * rate(dof) / product.at(dof)),
+        line("shapes of the structure: reading of the factor, GB/s", &traffic),
+        line("the same, % of reading memory from end to end", &|dof| 100.0 * traffic(dof) / reading.at(dof)),
+        line("element matrices, µs for every DOF", &each("element matrices (once)")),
+        line("ordering and pattern, µs for every DOF", &each("ordering and pattern (once)")),
+    ]
+    .concat()
+}
+
+fn table() -> String {
+    let blocks = [growth("stage, ms", "ms", false), growth("most memory held, MB", "MB", true), bounds()];
+    blocks.join("\n").trim_end().to_owned()
 }
 
 #[test]
@@ -106,13 +143,15 @@ fn the_table_of_costs_is_what_was_stored() {
 fn sentences_on_costs_are_what_was_stored() {
     let (analysis, modes) = ("analysis with all shares", "20 modes of the whole model (counted)");
     let (scipy, its_modes) = ("analysis by SciPy", "20 modes by SciPy (not counted)");
-    let (condensed, factor) = ("condensed model: these two and $K_D$", "assembly and factorization");
+    let (condensed, factor) = ("condensed model: these two and $K_D$", FACTOR);
     let fitted = |stage: &str| format!("{stage} $n^{{{}}}$", exponent_of(&row(stage).known()));
     let slower = |of: &str, to: &str| {
         let times = [1458.0, 10098.0, 100_116.0].map(|dof| format!("{:.1}", row(of).at(dof) / row(to).at(dof)));
         format!("{} times as long at 1,458 DOF, {} at 10,098 and {} at 100,116", times[0], times[1], times[2])
     };
     let share = |of: &str, dof: f64| format!("{:.0} %", 100.0 * row(of).at(dof) / row(analysis).at(dof));
+    let memory = rows().into_iter().find(|row| row.unit == "MB" && row.stage == analysis).expect("it was measured");
+    let most = memory.at(1_002_000.0);
     let mut sentences: Vec<String> =
         ["element matrices (once)", "ordering and pattern (once)", factor, analysis].map(fitted).to_vec();
     sentences.extend([
@@ -123,6 +162,10 @@ fn sentences_on_costs_are_what_was_stored() {
             share("modes: 10 of 108", 1458.0)
         ),
         format!("{} of an analysis at 100,116 DOF", share(factor, 100_116.0)),
+        format!("The operations grow with $n^{{{}}}$", exponent_of(&row("operations of the factorization").known())),
+        format!("{:.1} s with assembly and checks", 1e-3 * row(factor).at(1_002_000.0)),
+        format!("the analysis {:.1} s", 1e-3 * row(analysis).at(1_002_000.0)),
+        format!("{:.2} GB, which is {:.2} GiB", 1e-3 * most, 1e6 * most / f64::from(1 << 30)),
     ]);
     // What no machine has measured yet has no sentence.
     if row(modes).known().len() > 2 && row(its_modes).known().len() > 2 {
@@ -137,7 +180,8 @@ fn sentences_on_costs_are_what_was_stored() {
 #[test]
 fn the_figure_of_growth_has_the_exponents_of_what_was_stored() {
     let figure = figures().iter().find(|figure| figure.name == "growth").expect("drawn");
-    let drawn: Vec<Row> = rows().into_iter().filter(|row| figure.svg.contains(&row.stage)).collect();
+    let drawn: Vec<Row> =
+        rows().into_iter().filter(|row| row.unit == "ms" && figure.svg.contains(&row.stage)).collect();
     assert!(drawn.len() > 5 && drawn.iter().all(|row| !row.known().is_empty()));
     for row in &drawn {
         let (stage, known) = (&row.stage, row.known());

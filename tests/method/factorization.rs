@@ -43,6 +43,16 @@ fn fill_grows_as_nested_dissection_promises() {
     assert!((found - 2.3).abs() <= FILL_ORDER, "{found}: {points:?}");
 }
 
+/// The same paper: the multiplications grow as n³, to which small nets come from below, where row by row they would as n⁴. The one
+/// membrane of a net of one cell couples its four DOF, whose columns have four numbers and less.
+#[test]
+fn work_grows_as_nested_dissection_promises() {
+    assert_eq!(plan(&net(1)).factor_operations(), 30.0);
+    let points = [64_usize, 128].map(|n| (n as f64, plan(&net(n)).factor_operations()));
+    let found = log_log_slope(&points);
+    assert!((found - 3.0).abs() <= FILL_ORDER, "{found}: {points:?}");
+}
+
 #[test]
 fn a_plan_of_other_elements_is_refused() {
     let (small, large) = (net(3), net(4));

@@ -3,6 +3,7 @@
 use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
 use corfem::cases::Case;
+use corfem::method::assembly::ElementMatrix;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::model::{FiniteElementModel, Parameter, Share};
@@ -17,7 +18,7 @@ use corfem::studies::noisy_modes::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::Weights;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
 #[test]
@@ -88,6 +89,22 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
     }
     for (a, b) in found.shares.iter().zip(&expected.shares) {
+        assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
+    }
+    // The same box with its elements' stiffness as matrices.
+    let as_matrix = |parameter: &WholeParameter| {
+        let WholeShare::Elements(members) = &parameter.share else { panic!("the box's parameters are elements") };
+        let entries = members.iter().flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
+            let place = move |at: usize| (at / dof.len(), at % dof.len());
+            (0..dof.len() * dof.len()).map(place).map(move |(a, b)| (dof[a], dof[b], size * unit[(a, b)]))
+        });
+        let matrix = SparseMatrix::new("share", whole.dof_count(), whole.dof_count(), entries.collect());
+        WholeParameter { share: WholeShare::Stiffness(matrix.expect("a matrix")), ..parameter.clone() }
+    };
+    let (stiffness, mass) = whole.at(&vec![1.0; factors.len()]).expect("matrices");
+    let of_matrices = WholeModel::new(stiffness, mass, whole.parameters().iter().map(as_matrix).collect());
+    let of_matrices = of_matrices.expect("a model").analyze_condensed(&factors, &sensors, &test, None);
+    for (a, b) in of_matrices.expect("an analysis").shares.iter().zip(&found.shares) {
         assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
     // Its mass is at the sensors alone, so that nothing is condensed and the whole model has the same modes.
@@ -198,6 +215,19 @@ fn what_is_wrong_with_a_whole_model_is_named() {
     assert!(matches!(new(&held, &mass, Vec::new()), Err(Error::Empty { what: "parameters" })));
     let lopsided = SparseMatrix::new("stiffness", 3, 3, vec![(0, 1, 1.0)]).expect("a matrix");
     assert!(matches!(new(&held, &mass, parameter(lopsided)), Err(Error::NotSymmetric { row: 1, column: 0, .. })));
+    let element = |row: usize, unit: DMatrix<f64>, size: f64| {
+        let element = ElementMatrix { label: 7, dof: vec![0, row], unit, unit_mass: DVector::zeros(2) };
+        let share = WholeShare::Elements(vec![(element, size)]);
+        new(&held, &mass, vec![WholeParameter { name: "seven".to_owned(), share, range: None }])
+    };
+    let spring = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+    let leaning = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, 0.0, 1.0]);
+    assert!(element(2, spring.clone(), 1.0).is_ok());
+    assert!(matches!(element(3, spring.clone(), 1.0), Err(Error::TooMany { available: 3, requested: 4, .. })));
+    assert!(matches!(element(2, leaning, 1.0), Err(Error::NotSymmetric { what: "element stiffness", .. })));
+    assert!(matches!(element(2, DMatrix::identity(3, 3), 1.0), Err(Error::WrongShape { .. })));
+    let refused = element(2, spring, 0.0).unwrap_err().to_string();
+    assert!(refused.contains("element 7"), "{refused}");
     let model = new(&held, &mass, parameter(held.clone())).expect("a model");
     assert!(matches!(model.modes(&[0.0], 1), Err(Error::NotPositive { .. })));
     assert!(matches!(model.modes(&[1.0, 1.0], 1), Err(Error::WrongShape { .. })));

@@ -59,10 +59,8 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let elements = element_matrices(&structure)?;
     let count = structure.free_dof().len();
     let row_of: BTreeMap<usize, usize> = elements.iter().enumerate().map(|(row, e)| (e.label, row)).collect();
-    let stiffness_of = |rows: &[usize]| {
-        sum_of(count, rows.iter().flat_map(|&row| stiffness_entries(&elements[row], bulk.elements[row].size)))
-    };
-    let all: Vec<usize> = (0..elements.len()).collect();
+    let stiffness = (0..elements.len()).flat_map(|row| stiffness_entries(&elements[row], bulk.elements[row].size));
+    let stiffness = sum_of(count, stiffness)?;
     let moving = bulk.moving_masses(&structure, &elements)?;
     let mass =
         sum_of(count, moving.iter().flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass)))?;
@@ -83,7 +81,8 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
                 Scales::Stiffness => {
                     let found = (!masses.is_empty()).then(|| format!("stiffness in parameter {name}"));
                     job.refuse(found, "scales = \"mass\" for point masses")?;
-                    WholeShare::Stiffness(stiffness_of(&rows)?)
+                    let member = |&row: &usize| (elements[row].clone(), bulk.elements[row].size);
+                    WholeShare::Elements(rows.iter().map(member).collect())
                 }
                 Scales::Mass => {
                     let lumped = rows.iter().flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
@@ -105,7 +104,7 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
             members.push(labels);
         }
     }
-    let whole = WholeModel::new(stiffness_of(&all)?, mass, parameters)?;
+    let whole = WholeModel::new(stiffness, mass, parameters)?;
     let grids = bulk.grids.iter();
     let motions = grids.clone().flat_map(|grid| (0..3).map(move |direction| (grid.label, direction)));
     let motions = motions.map(|at| (at, motion_of(StructuralDof { grid: at.0, direction: at.1 })));

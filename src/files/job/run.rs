@@ -115,7 +115,9 @@ impl Prepared {
             for element in elements.iter_mut().filter(|element| members.binary_search(&element.label).is_ok()) {
                 let Element { size, material: Material { density, .. }, .. } = element;
                 match share {
-                    WholeShare::Stiffness(_) => (*size, *density) = (*size * factor, *density / factor),
+                    WholeShare::Stiffness(_) | WholeShare::Elements(_) => {
+                        (*size, *density) = (*size * factor, *density / factor)
+                    }
                     WholeShare::Mass(_) => *density *= factor,
                 }
             }

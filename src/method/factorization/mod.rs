@@ -89,18 +89,20 @@ impl FactorizedStiffness {
         }
         let scale = plan.scale(&mut entries, |entry| entry);
         let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
+        let start = start_vector(count);
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
-        let mut shifted = entries.clone();
         for shift in [0.0, SINGULAR_SHIFT] {
-            plan.pattern.col_ptr()[..count].iter().for_each(|&place| shifted[place] = entries[place] + shift);
-            let (values, true) = plan.factor(&shifted, true)? else { continue };
+            plan.pattern.col_ptr()[..count].iter().for_each(|&place| entries[place] += shift);
+            let (values, true) = plan.factor(&entries, true)? else { continue };
             let factor = Self { plan: Arc::clone(plan), scale: DVector::from_element(count, 1.0), values };
+            let times = |x: &DVector<f64>| plan.times(&entries, x);
+            // The first step toward the weakest motion and the check pass through the factor together.
+            let both = factor.solved(DMatrix::from_rows(&[start.transpose(), times(&start).transpose()]));
             // Of a stiffness that had to be shifted the free motion is wanted, which takes every iteration.
             let enough = if shift == 0.0 { CLEARLY_HELD * round_off } else { f64::INFINITY };
-            let (smallest, motion) = factor.weakest_motion(enough);
+            let (smallest, motion) = factor.weakest_motion(both.rows(0, 1).into_owned(), enough);
             if shift == 0.0 && smallest > round_off {
-                let times = |x: &DVector<f64>| plan.times(&entries, x);
-                check_solution("structural stiffness", times, |right| factor.solved(right), &start_vector(count))?;
+                check_solution("structural stiffness", times, |_| both.row(1).transpose(), &start)?;
                 return Ok(Self { scale, ..factor });
             }
             return singular(&|turn| (motion[turn] * scale[turn]).abs(), smallest - shift);
@@ -217,24 +219,21 @@ impl FactorizedStiffness {
         factor.into_iter().flat_map(|factor| (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at)))
     }
 
-    /// The solution of the scaled problem for one column, both in the order of elimination.
-    fn solved(&self, right: &DVector<f64>) -> DVector<f64> {
-        let mut column = right.clone();
-        self.forward(column.as_mut_slice(), &mut vec![true; right.len()]);
-        self.backward(column.as_mut_slice(), 1);
-        column
+    /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
+    fn solved(&self, mut rows: DMatrix<f64>) -> DMatrix<f64> {
+        let count = rows.nrows();
+        self.forward(rows.as_mut_slice(), &mut vec![true; self.scale.len()]);
+        self.backward(rows.as_mut_slice(), count);
+        rows
     }
 
-    /// Smallest eigenvalue and its vector of the scaled stiffness, by inverse iteration; no more than its first estimates where these
-    /// are above `enough`.
-    fn weakest_motion(&self, enough: f64) -> (f64, DVector<f64>) {
-        let (mut motion, mut smallest) = (start_vector(self.scale.len()), 1.0);
-        for _ in 0..INVERSE_ITERATIONS {
-            motion = self.solved(&motion);
-            smallest = 1.0 / motion.normalize_mut();
-            if smallest > enough {
-                break;
-            }
+    /// Smallest eigenvalue and its vector (a row) of the scaled stiffness, by inverse iteration from the solution for a unit vector; no
+    /// more than its first estimates where these are above `enough`.
+    fn weakest_motion(&self, mut motion: DMatrix<f64>, enough: f64) -> (f64, DMatrix<f64>) {
+        let (mut smallest, mut left) = (1.0 / motion.normalize_mut(), INVERSE_ITERATIONS - 1);
+        while left > 0 && smallest <= enough {
+            motion = self.solved(motion);
+            (smallest, left) = (1.0 / motion.normalize_mut(), left - 1);
         }
         (smallest, motion)
     }

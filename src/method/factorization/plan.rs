@@ -9,7 +9,7 @@ use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
@@ -140,6 +140,17 @@ impl FactorizationPlan {
     #[doc = include_str!("../../../paper/examples/factorization/plan_factor_entries.md")]
     pub fn factor_entries(&self) -> usize {
         self.symbolic.len_val()
+    }
+
+    /// How many multiplications and additions the factorization takes in its leading order: the squares of the lengths of the factor's
+    /// columns.
+    #[doc = include_str!("../../../paper/examples/factorization/plan_factor_operations.md")]
+    pub fn factor_operations(&self) -> f64 {
+        let SymbolicCholeskyRaw::Supernodal(blocks) = self.symbolic.raw() else { return 0.0 };
+        let widths = blocks.supernode_begin().iter().zip(blocks.supernode_end()).map(|(begin, end)| end - begin);
+        let blocks =
+            widths.zip(blocks.col_ptr_for_val().windows(2)).map(|(width, at)| (width, (at[1] - at[0]) / width));
+        blocks.flat_map(|(width, length)| (0..width).map(move |column| ((length - column) as f64).powi(2))).sum()
     }
 
     /// The lower triangle's entries of $\sum_e s_e K_e$.

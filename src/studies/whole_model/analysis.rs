@@ -1,9 +1,11 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
+use super::elements::stiffness_entries;
 use super::{Factor, SparseMatrix, lowest_modes};
-use crate::method::appendix_a::{Condensed, condense_deflections};
+use crate::method::appendix_a::{Condensed, condense_deflections, generalized_stiffness};
+use crate::method::assembly::{ElementMatrix, check_element};
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
+use crate::method::linear_algebra::{check_length, check_symmetric};
 use crate::method::model::{ModalModel, Pair, Range, Share};
 use crate::method::modes::{ModeSet, Modes};
 use crate::method::structure::positive;
@@ -15,6 +17,8 @@ use nalgebra::DMatrix;
 pub enum WholeShare {
     /// Of the stiffness, lbf/in.
     Stiffness(SparseMatrix),
+    /// The stiffness of elements of the given gages (in) and areas (in²).
+    Elements(Vec<(ElementMatrix, f64)>),
     /// Of the mass, lbf·s²/in.
     Mass(SparseMatrix),
 }
@@ -45,8 +49,9 @@ impl WholeModel {
     /// parameters' parts of them.
     ///
     /// # Errors
-    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::Empty`] without
-    /// parameters; [`Error::StartOutside`] for a range that excludes one.
+    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::TooMany`] for a row of
+    /// an element beyond them; [`Error::NotPositive`] for its size; [`Error::Empty`] without parameters; [`Error::StartOutside`] for
+    /// a range that excludes one.
     pub fn new(stiffness: SparseMatrix, mass: SparseMatrix, parameters: Vec<WholeParameter>) -> Result<Self, Error> {
         let count = stiffness.rows();
         let check = |what, matrix: &SparseMatrix| {
@@ -61,6 +66,11 @@ impl WholeModel {
         for WholeParameter { name, share, range } in &parameters {
             match share {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
+                WholeShare::Elements(members) => members.iter().try_for_each(|(element, size)| {
+                    check_element(element, count)?;
+                    check_symmetric("element stiffness", &element.unit)?;
+                    positive("size", || format!("element {}", element.label), *size)
+                })?,
                 WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
             }
             if let Some(Range { lower, upper }) = *range {
@@ -94,16 +104,22 @@ impl WholeModel {
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
-        let (mut stiffness, mut mass) = (vec![(1.0, &self.stiffness)], vec![(1.0, &self.mass)]);
+        let (mut stiffness, mut mass) = (self.stiffness.entries().to_vec(), self.mass.entries().to_vec());
         for (parameter, &factor) in self.parameters.iter().zip(factors) {
             positive("factor", || format!("parameter {}", parameter.name), factor)?;
+            let change = factor - 1.0;
             match &parameter.share {
-                _ if factor == 1.0 => {}
-                WholeShare::Stiffness(matrix) => stiffness.push((factor - 1.0, matrix)),
-                WholeShare::Mass(matrix) => mass.push((factor - 1.0, matrix)),
+                _ if change == 0.0 => {}
+                WholeShare::Stiffness(matrix) => stiffness.extend(matrix.times_number(change)),
+                WholeShare::Elements(members) => {
+                    let entries = members.iter().map(|(element, size)| stiffness_entries(element, change * size));
+                    stiffness.extend(entries.flatten());
+                }
+                WholeShare::Mass(matrix) => mass.extend(matrix.times_number(change)),
             }
         }
-        Ok((SparseMatrix::sum("stiffness", &stiffness)?, SparseMatrix::sum("mass", &mass)?))
+        let sum = |what, entries| SparseMatrix::new(what, self.dof_count(), self.dof_count(), entries);
+        Ok((sum("stiffness", stiffness)?, sum("mass", mass)?))
     }
 
     /// The `count` lowest vibrations at the given factors, and the rigid-body modes.
@@ -116,7 +132,8 @@ impl WholeModel {
     }
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
-    /// every parameter's share $V^t K_e V$ with the whole shapes. Rigid-body modes of a free structure stay out.
+    /// every parameter's share $V^t K_e V$ with the whole shapes, of elements by the function that also serves condensed shapes.
+    /// Rigid-body modes of a free structure stay out.
     ///
     /// `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
@@ -174,6 +191,10 @@ impl WholeModel {
         let share = |(parameter, &factor): (&WholeParameter, &f64)| {
             Ok(match &parameter.share {
                 WholeShare::Stiffness(matrix) => Share::Stiffness(factor * matrix.through(&transposed)?),
+                WholeShare::Elements(members) => {
+                    let present = members.iter().map(|(element, size)| (element, factor * size));
+                    Share::Stiffness(generalized_stiffness(&transposed, present))
+                }
                 WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&transposed)?),
             })
         };

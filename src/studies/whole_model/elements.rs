@@ -49,7 +49,7 @@ impl WholeModel {
         let parameters = parameters.map(|((parameter, rows), range)| {
             let (rows, part) = (rows.iter().copied(), |entries| sparse("matrix of a parameter", entries));
             let share = match parameter.scaled {
-                Scaled::Stiffness => WholeShare::Stiffness(part(rows.flat_map(stiffness).collect())?),
+                Scaled::Stiffness => WholeShare::Elements(rows.map(|row| (elements[row].clone(), size(row))).collect()),
                 Scaled::ElementMass => WholeShare::Mass(part(rows.flat_map(lumped).collect())?),
                 Scaled::PointMass => WholeShare::Mass(part(rows.flat_map(|dof| moving((dof, dof))).collect())?),
             };

@@ -46,8 +46,7 @@ impl Factor {
         terms: &[(f64, &SparseMatrix)],
     ) -> Result<Self, Error> {
         let failed = || Error::NoConvergence("sparse factorization");
-        let times = |number: f64| move |&(row, column, value): &(usize, usize, f64)| (row, column, number * value);
-        let sum = terms.iter().flat_map(|(number, matrix)| matrix.entries().iter().map(times(*number)));
+        let sum = terms.iter().flat_map(|(number, matrix)| matrix.times_number(*number));
         let mut entries = plan.entries_of(sum).ok_or_else(failed)?;
         // A positive definite matrix then has a unit diagonal.
         let scale = plan.scale(&mut entries, |entry| if entry == 0.0 { 1.0 } else { entry.abs() });

@@ -104,19 +104,9 @@ impl SparseMatrix {
         Ok(product)
     }
 
-    /// The sum of matrices of one size, each times its number.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] without terms; [`Error::WrongShape`] for terms of other sizes; [`Error::NotFinite`].
-    pub fn sum(what: &'static str, terms: &[(f64, &Self)]) -> Result<Self, Error> {
-        let &[(_, first), ..] = terms else { return Err(Error::Empty { what }) };
-        let mut entries = Vec::new();
-        for (factor, term) in terms {
-            check_length(what, term.rows, first.rows)?;
-            check_length(what, term.columns, first.columns)?;
-            entries.extend(term.entries.iter().map(|&(row, column, value)| (row, column, factor * value)));
-        }
-        Self::new(what, first.rows, first.columns, entries)
+    /// Its entries times a number.
+    pub(super) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.entries.iter().map(move |&(row, column, value)| (row, column, number * value))
     }
 
     /// $V^t A V$ of a symmetric matrix for the transposed shapes $V^t$ (m × rows), m × m: only the rows of $V$ where the matrix has
@@ -143,7 +133,8 @@ impl SparseMatrix {
     /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
-        let difference = Self::sum(what, &[(1.0, self), (-1.0, &self.transposed())])?;
+        let entries = self.times_number(1.0).chain(self.transposed().times_number(-1.0)).collect();
+        let difference = Self::new(what, self.rows, self.columns, entries)?;
         let largest = self.entries.iter().fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
         let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > SYMMETRY * largest;
         match difference.entries.iter().find(is_apart) {

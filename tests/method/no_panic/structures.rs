@@ -127,7 +127,8 @@ pub const STRUCTURES: &[Entry] = &[
     ("FactorizationPlan::new", |d| {
         let structure = d.structure()?;
         let (elements, ..) = d.elements()?;
-        FactorizationPlan::new(&structure, &elements).map(|plan| vec![plan.factor_entries() as f64])
+        FactorizationPlan::new(&structure, &elements)
+            .map(|plan| vec![plan.factor_entries() as f64, plan.factor_operations()])
     }),
     ("FactorizedStiffness::planned", |d| {
         let structure = d.structure()?;
