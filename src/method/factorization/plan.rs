@@ -216,19 +216,16 @@ impl FactorizationPlan {
     pub(crate) fn factor(&self, entries: &[f64], definite: bool) -> Result<(Vec<f64>, bool), Error> {
         let (symbolic, side, one) = (&self.symbolic, Side::Lower, Par::Seq);
         let mut values = vec![0.0; symbolic.len_val()];
-        let scratch = match definite {
-            true => symbolic.factorize_numeric_llt_scratch::<f64>(one, Spec::default()),
-            false => symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()),
-        };
+        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(one, Spec::default());
+        let scratch = scratch.or(symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()));
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::NoConvergence("sparse factorization"))?;
         let stack = MemStack::new(&mut memory);
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
         let (llt, ldlt) = (LltRegularization::default(), LdltRegularization::default());
-        let is_done = match definite {
-            true => symbolic.factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default()).is_ok(),
-            false => {
-                symbolic.factorize_numeric_ldlt(&mut values, matrix, side, ldlt, one, stack, Spec::default()).is_ok()
-            }
+        let is_done = if definite {
+            symbolic.factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default()).is_ok()
+        } else {
+            symbolic.factorize_numeric_ldlt(&mut values, matrix, side, ldlt, one, stack, Spec::default()).is_ok()
         };
         Ok((values, is_done))
     }

@@ -3,22 +3,21 @@
 //! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
+pub(super) use super::chart::{axes, chart, placed};
 pub(super) use super::colors::{BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on};
 pub(super) use crate::present::PresentError;
-use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::ValueFormatter;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 pub(super) use plotters::style::{RGBColor, WHITE};
 
 /// Units to a pixel.
-const UNITS: f64 = 10.0;
+pub(super) const UNITS: f64 = 10.0;
 /// Every figure's width, px.
 pub(super) const WIDTH: f64 = 760.0;
 /// Height of what its title fills above everything else, px.
-const HEAD: f64 = 30.0;
+pub(super) const HEAD: f64 = 30.0;
 /// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
@@ -223,42 +222,6 @@ pub(super) const PUBLISHED: Mark = Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(IN
 /// A number with the sign for minus.
 pub(super) fn signed(text: String) -> String {
     text.replace('-', "−")
-}
-
-/// A chart with room for its axes: left, right, top and bottom margins, px.
-pub(super) fn chart<'a, 'b>(area: &'a Area<'b>, margins: [f64; 4]) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
-    let [left, right, top, bottom] = margins.map(units);
-    let mut chart = ChartBuilder::on(area);
-    chart.margin_right(right).margin_top(top).x_label_area_size(bottom).y_label_area_size(left);
-    chart
-}
-
-pub(super) type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
-
-/// Axes in the style of all figures, to be drawn.
-pub(super) fn axes<'a, 'b, 'c, X, Y>(chart: &'c mut Chart<'a, 'b, X, Y>) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
-where
-    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
-    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
-{
-    let mut mesh = chart.configure_mesh();
-    mesh.bold_line_style(Pen::solid(PALE, 0.8).style())
-        .light_line_style(TRANSPARENT)
-        .axis_style(Pen::solid(INK, 1.0).style())
-        .label_style(MIDDLE.style())
-        .axis_desc_style(MIDDLE.style())
-        .set_all_tick_mark_size(units(4.0));
-    mesh
-}
-
-/// Where a point of a chart lies below the title.
-pub(super) fn placed(
-    chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
-    x: f64,
-    y: f64,
-) -> Place {
-    let (x, y) = chart.plotting_area().map_coordinate(&(x, y));
-    (f64::from(x) / UNITS, f64::from(y) / UNITS - HEAD)
 }
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.

@@ -7,6 +7,7 @@
 pub mod bars;
 pub mod box_elements;
 mod canvas;
+mod chart;
 mod colors;
 pub mod cases;
 pub mod comparisons;
