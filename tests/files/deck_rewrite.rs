@@ -155,6 +155,18 @@ fn two_on_a_card_are_rewritten_one_by_one() {
     assert_eq!(only_in(&long, deck).len(), 2);
 }
 
+/// What a property says beside size and material goes along, and no more: behind it on a card stands another.
+#[test]
+fn a_property_that_is_divided_keeps_its_other_fields() {
+    let deck = "GRID,1\nGRID,2\nGRID,3\nGRID,4\nCROD,1,10,1,2\nCROD,2,10,2,3\nPROD,10,1,.5,0.,.25,0.\nMAT1,1,1.,,.3\n\
+                CSHEAR,3,30,1,2,3,4\nCSHEAR,4,30,1,2,3,4\nCSHEAR,5,31,1,2,3,4\nPSHEAR,30,1,.1,0.,31,1,.2,0.\n";
+    let text = rewritten(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]);
+    let new = only_in(&text, deck);
+    assert!(new.contains(&"PROD    32      1       1.      0.      .25     0."), "{new:?}");
+    assert!(new.contains(&"PSHEAR  33      1       .2      0."), "{new:?}");
+    assert_eq!((new.len(), elements(text.as_bytes())), (4, with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)])));
+}
+
 #[test]
 fn what_no_deck_can_say_is_refused() {
     let mut wanted = elements(ORIGINAL.as_bytes());

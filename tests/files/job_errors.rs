@@ -82,9 +82,19 @@ fn a_job_names_its_model_once_and_whole() {
 #[test]
 fn a_parameter_names_what_the_deck_has() {
     check(&[
-        (A, "elements = [\"9-3\"]", "job.toml: expected a range of numbers such as \"10-19\", found 9-3"),
-        (A, "elements = [\"1-x\"]", "expected a range of numbers such as \"10-19\", found 1-x"),
-        (A, "elements = [\"1-99999999999\"]", "expected a range of numbers such as \"10-19\", found 1-99999999999"),
+        (
+            A,
+            "elements = [\"9-3\"]",
+            "job.toml: expected a range of numbers such as \"10-19\", in all at most 10000000, found",
+        ),
+        (
+            A,
+            "elements = [\"1-x\"]",
+            "expected a range of numbers such as \"10-19\", in all at most 10000000, found 1-x",
+        ),
+        (A, "elements = [\"2-10000002\"]", "in all at most 10000000, found 2-10000002"),
+        (A, "elements = [3, \"1-10000000\"]", "in all at most 10000000, found 1-10000000"),
+        (A, "elements = [\"9999990-9999999\"]", "expected elements of the deck in parameter a, found 9999990"),
         (A, "elements = [1, 9]", "expected elements of the deck in parameter a, found 9"),
         (A, "properties = [1, 7]", "expected properties and materials of the deck's elements in parameter a, found 7"),
         (A, "materials = [8]", "expected properties and materials of the deck's elements in parameter a, found 8"),

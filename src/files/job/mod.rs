@@ -225,18 +225,17 @@ impl Job {
     fn labels(&self, list: &[Labels]) -> Result<BTreeSet<usize>, FileError> {
         let mut all = Vec::new();
         for labels in list {
-            let text = match labels {
-                Labels::One(label) => {
-                    all.push(*label);
-                    continue;
-                }
-                Labels::Range(text) => text,
-            };
-            let number = |text: &str| text.trim().parse::<usize>().ok();
-            let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
             let room = MOST_LABELS.saturating_sub(all.len());
-            let ends = ends.filter(|(first, last)| first <= last && last - first < room);
-            let (first, last) = ends.ok_or_else(|| self.wrong("a range of numbers such as \"10-19\"", text))?;
+            let (first, last) = match labels {
+                Labels::One(label) => (*label, *label),
+                Labels::Range(text) => {
+                    let number = |text: &str| text.trim().parse::<usize>().ok();
+                    let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
+                    let ends = ends.filter(|(first, last)| first <= last && last - first < room);
+                    let expected = || format!("a range of numbers such as \"10-19\", in all at most {MOST_LABELS}");
+                    ends.ok_or_else(|| self.wrong(expected(), text))?
+                }
+            };
             all.extend(first..=last);
         }
         Ok(all.into_iter().collect())

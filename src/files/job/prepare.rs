@@ -214,7 +214,7 @@ fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result
 
 /// The pairs with the largest sum of squared closeness, every test mode with one.
 fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&cross.map(|closeness| 1.0 + closeness * closeness), 0.0)?;
+    let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
     let (available, requested) = cross.shape();
     let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
     let analysis_mode = analysis_mode.ok_or(Error::TooMany { what: "test modes", available, requested })?;

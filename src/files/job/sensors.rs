@@ -5,7 +5,7 @@ use crate::files::error::FileError;
 use crate::files::test_data::{DIRECTIONS, Sensor, TestData};
 use crate::studies::whole_model::SparseMatrix;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A sensor on the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +37,9 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
     let named = rules.leave_out.iter().chain(rules.place.iter().map(|place| &place.sensor));
     let unknown = named.into_iter().find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
     job.refuse(unknown, "names of sensors that the test has")?;
+    let mut seen = BTreeSet::new();
+    let again = rules.place.iter().map(|place| &place.sensor).find(|name| !seen.insert(*name));
+    job.refuse(again.map(|name| format!("{name} again")), "every sensor in one place")?;
     let mut placed = Vec::new();
     for (row, sensor) in data.sensors.iter().enumerate().filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name)) {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
