@@ -121,6 +121,7 @@ fn a_parameter_names_what_the_deck_has() {
         (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
         (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
         (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
+        ("\"b\"", "\"a\"", "job.toml: expected every name of a parameter once, found a again"),
     ]);
 }
 
@@ -205,18 +206,6 @@ fn sensors_are_those_of_the_test_at_what_moves() {
     assert!(error.ends_with("found none in the model"), "{error}");
     let unnamed = said(&with(rods(), "test.csv", "\n2,", "\n,"));
     assert!(unnamed.ends_with("expected a grid for sensor S2, found none in the test"), "{unnamed}");
-}
-
-#[test]
-fn a_minus_before_the_direction_turns_the_sensor() {
-    let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
-    let shapes = |files: &Files| {
-        let (_folder, path) = placed(files);
-        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).test.shapes
-    };
-    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", SENSORS, turned)));
-    assert_eq!(plain.row(0), -turned.row(0));
-    assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
 }
 
 #[test]

@@ -80,6 +80,25 @@ fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() 
     assert!((own - DMatrix::identity(5, 5)).amax() < ROUND_OFF, "the modes themselves are orthogonal with it");
 }
 
+/// A model is compared with the test modes as they were measured, of another scale and of no other sign.
+#[test]
+fn test_modes_keep_the_sense_in_which_they_were_measured() {
+    let prepared = prepared(&rods());
+    let model = prepared.analyze(&[1.0, 1.0]).expect("a model");
+    for (compared, measured) in model.test.shapes.column_iter().zip(prepared.test.shapes.column_iter()) {
+        assert!(compared.dot(&measured) > 0.0, "{compared} {measured}");
+    }
+}
+
+#[test]
+fn a_minus_before_the_direction_turns_the_sensor() {
+    let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
+    let shapes = |files: &Files| prepared(files).test.shapes;
+    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", "[sensors]", turned)));
+    assert_eq!(plain.row(0), -turned.row(0));
+    assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
+}
+
 /// Rows that are rotations are found as those that are translations.
 #[test]
 fn a_sensor_of_rotations_measures_a_rotation() {
@@ -112,12 +131,12 @@ fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
 }
 
 #[test]
-fn a_sensor_may_be_as_far_as_its_job_allows_and_has_one_place() {
+fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
     let nearest = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = 1.0");
     let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
     assert_eq!((far.placed[0].grid, far.placed[0].distance), (2, Some(1.0)));
     let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
     let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
     let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));
-    assert_eq!(twice, "job.toml: expected every sensor in one place, found S2 again");
+    assert_eq!(twice, "job.toml: expected every sensor of sensors.place once, found S2 again");
 }

@@ -128,6 +128,8 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
     let text = wide + &one("B", "1P,3E23.16", " 2.0000000000000000E+00");
     assert_eq!(read("m", text.as_bytes(), Some("B")).expect("a matrix").matrix.entries(), [(0, 0, 2.0)]);
     assert_eq!(read("m", text.as_bytes(), Some("A")).expect("a matrix").matrix.entries(), [(0, 0, 1.0)]);
+    let none = read("m", text.as_bytes(), Some("C")).expect_err("no such matrix").to_string();
+    assert!(none.ends_with("found A, B"), "{none}");
 }
 
 #[test]

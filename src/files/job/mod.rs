@@ -221,6 +221,13 @@ impl Job {
         found.map_or(Ok(()), |found| Err(self.wrong(expected, found.to_string())))
     }
 
+    /// Refuses what is named a second time.
+    fn once(&self, mut all: impl Iterator<Item = impl Copy + Ord + ToString>, what: &str) -> Result<(), FileError> {
+        let mut seen = BTreeSet::new();
+        let again = all.find(|one| !seen.insert(*one));
+        self.refuse(again.map(|one| one.to_string() + " again"), format!("every {what} once"))
+    }
+
     /// The numbers that a list names.
     fn labels(&self, list: &[Labels]) -> Result<BTreeSet<usize>, FileError> {
         let mut all = Vec::new();

@@ -14,7 +14,6 @@ use crate::studies::assignment::pair_optimally;
 use crate::studies::expansion::mass_by_modes;
 use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
-use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -76,9 +75,8 @@ impl Prepared {
         let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
         job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
-        let mut seen = HashSet::new();
-        let again = numbers.iter().find(|mode| !seen.insert(**mode));
-        job.refuse(again.map(|mode| format!("{mode} again")), "every mode of test.modes once")?;
+        job.once(numbers.iter(), "mode of test.modes")?;
+        job.once(source.whole.parameters().iter().map(|parameter| &parameter.name), "name of a parameter")?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
