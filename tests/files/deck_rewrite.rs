@@ -108,6 +108,21 @@ fn a_new_density_takes_a_new_material() {
     assert_eq!(only_in(&text, ORIGINAL).len(), 1, "no density, no new material");
 }
 
+/// Numbers in NASTRAN's own form go along as they stand: those of eight characters on a card of the small format.
+#[test]
+fn a_new_material_has_the_other_numbers_as_they_were_written() {
+    let with_modulus = |card: &str| ORIGINAL.replace("MAT1    1       1.05+7          .33     2.6-4", card);
+    let new = |card: &str| {
+        let deck = with_modulus(card);
+        let text = rewritten(&deck, &[(31, 1.0, 0.5)]);
+        assert_eq!(elements(text.as_bytes()), with(&deck, &[(31, 1.0, 0.5)]));
+        only_in(&text, &deck).into_iter().filter(|line| line.starts_with("MAT1")).collect::<Vec<_>>().concat()
+    };
+    assert_eq!(new("MAT1,1,1.0500+7,,.33,2.6-4"), "MAT1    3       1.0500+7        .33     1.3-4");
+    let long = new("MAT1*   1               1.0500001+7                     .33\n*       2.6-4");
+    assert_eq!(long, "MAT1*   3               1.0500001+7                     .33             *Z1");
+}
+
 #[test]
 fn nothing_to_change_gives_back_the_same_bytes() {
     for deck in

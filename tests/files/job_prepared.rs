@@ -44,6 +44,12 @@ fn measured_building(stories: usize, modes: usize) -> Files {
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
 }
 
+#[test]
+fn a_job_without_a_title_is_called_by_its_file() {
+    assert_eq!(prepared(&rods()).title, "job");
+    assert_eq!(prepared(&building()).title, "ten-story building");
+}
+
 /// Half as many again as test modes, four more at least, and no more than there are.
 #[test]
 fn more_modes_of_the_model_are_taken_than_the_test_has() {
