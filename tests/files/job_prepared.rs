@@ -141,6 +141,9 @@ fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
     let nearest = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = 1.0");
     let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
     assert_eq!((far.placed[0].grid, far.placed[0].distance), (2, Some(1.0)));
+    let no_number = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = nan");
+    let no_number = said(&no_number);
+    assert_eq!(no_number, "job.toml: expected sensor S2 within NaN of a grid, found grid 2 at 0.0000");
     let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
     let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
     let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));

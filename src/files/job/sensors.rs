@@ -66,7 +66,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);
-        let far = distance.filter(|distance| *distance > most).map(|distance| format!("grid {grid} at {distance:.4}"));
+        let far = distance.filter(|at| !(0.0..=most).contains(at)).map(|at| format!("grid {grid} at {at:.4}"));
         job.refuse(far, format!("sensor {} within {most} of a grid", sensor.name))?;
         placed.push(PlacedSensor { row, name: sensor.name.clone(), grid, direction, axis, sign, place, distance });
     }
