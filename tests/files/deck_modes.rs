@@ -168,7 +168,11 @@ fn parts_too_unlike_are_named() {
             )
         );
     }
-    assert!(modes(&chain([1e6, 9.9e15], [1.0; 2])).is_ok());
+    assert!(modes(&chain([1e6, 1e16], [1.0; 2])).is_ok());
+    // Of elements alike the first is named.
+    let both = chain([1e16, 1e5], [1.0; 2]) + "CONROD,3,1,2,1,1.\nCONROD,4,2,3,2,1.\n";
+    let error = modes(&both).expect_err("too unlike").to_string();
+    assert!(error.ends_with("found 1.000e15 in element 1 and 1.000e4 in element 2"), "{error}");
     let error = modes(&chain([1e6; 2], [1.0, 1e-16])).expect_err("a mode is lost");
     assert_eq!(
         error.to_string(),
@@ -195,6 +199,10 @@ fn numbers_beyond_the_range_are_refused() {
         let error = modes(&deck).expect_err("beyond the range").to_string();
         assert!(error.starts_with(message), "{error}");
     }
+    // Together 2e308, which is no number.
+    let pair = format!("{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-1.,2,1,1.\nCMASS2,7,1.+308,2,1\nCMASS2,8,1.+308,3,1");
+    let error = modes(&pair.replace("MAT1,1,1.+6", "MAT1,1,1.+13")).expect_err("beyond the range").to_string();
+    assert_eq!(error, "generalized mass of mode 1: expected a positive finite number, found inf");
 }
 
 #[test]

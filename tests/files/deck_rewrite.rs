@@ -108,6 +108,21 @@ fn a_new_density_takes_a_new_material() {
     assert_eq!(only_in(&text, ORIGINAL).len(), 1, "no density, no new material");
 }
 
+/// Numbers in NASTRAN's own form go along as they stand: those of eight characters on a card of the small format.
+#[test]
+fn a_new_material_has_the_other_numbers_as_they_were_written() {
+    let with_modulus = |card: &str| ORIGINAL.replace("MAT1    1       1.05+7          .33     2.6-4", card);
+    let new = |card: &str| {
+        let deck = with_modulus(card);
+        let text = rewritten(&deck, &[(31, 1.0, 0.5)]);
+        assert_eq!(elements(text.as_bytes()), with(&deck, &[(31, 1.0, 0.5)]));
+        only_in(&text, &deck).into_iter().filter(|line| line.starts_with("MAT1")).collect::<Vec<_>>().concat()
+    };
+    assert_eq!(new("MAT1,1,1.0500+7,,.33,2.6-4"), "MAT1    3       1.0500+7        .33     1.3-4");
+    let long = new("MAT1*   1               1.0500001+7                     .33\n*       2.6-4");
+    assert_eq!(long, "MAT1*   3               1.0500001+7                     .33             *Z1");
+}
+
 #[test]
 fn nothing_to_change_gives_back_the_same_bytes() {
     for deck in
@@ -153,6 +168,18 @@ fn two_on_a_card_are_rewritten_one_by_one() {
     let sizes: Vec<f64> = elements(long.as_bytes()).iter().map(|element| element.size).collect();
     assert_eq!(sizes, [0.100_000_000_1, 0.2, 0.5, 0.5]);
     assert_eq!(only_in(&long, deck).len(), 2);
+}
+
+/// What a property says beside size and material goes along, and no more: behind it on a card stands another.
+#[test]
+fn a_property_that_is_divided_keeps_its_other_fields() {
+    let deck = "GRID,1\nGRID,2\nGRID,3\nGRID,4\nCROD,1,10,1,2\nCROD,2,10,2,3\nPROD,10,1,.5,0.,.25,0.\nMAT1,1,1.,,.3\n\
+                CSHEAR,3,30,1,2,3,4\nCSHEAR,4,30,1,2,3,4\nCSHEAR,5,31,1,2,3,4\nPSHEAR,30,1,.1,0.,31,1,.2,0.\n";
+    let text = rewritten(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)]);
+    let new = only_in(&text, deck);
+    assert!(new.contains(&"PROD    32      1       1.      0.      .25     0."), "{new:?}");
+    assert!(new.contains(&"PSHEAR  33      1       .2      0."), "{new:?}");
+    assert_eq!((new.len(), elements(text.as_bytes())), (4, with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)])));
 }
 
 #[test]

@@ -82,9 +82,19 @@ fn a_job_names_its_model_once_and_whole() {
 #[test]
 fn a_parameter_names_what_the_deck_has() {
     check(&[
-        (A, "elements = [\"9-3\"]", "job.toml: expected a range of numbers such as \"10-19\", found 9-3"),
-        (A, "elements = [\"1-x\"]", "expected a range of numbers such as \"10-19\", found 1-x"),
-        (A, "elements = [\"1-99999999999\"]", "expected a range of numbers such as \"10-19\", found 1-99999999999"),
+        (
+            A,
+            "elements = [\"9-3\"]",
+            "job.toml: expected a range of numbers such as \"10-19\", in all at most 10000000, found",
+        ),
+        (
+            A,
+            "elements = [\"1-x\"]",
+            "expected a range of numbers such as \"10-19\", in all at most 10000000, found 1-x",
+        ),
+        (A, "elements = [\"2-10000002\"]", "in all at most 10000000, found 2-10000002"),
+        (A, "elements = [3, \"1-10000000\"]", "in all at most 10000000, found 1-10000000"),
+        (A, "elements = [\"9999990-9999999\"]", "expected elements of the deck in parameter a, found 9999990"),
         (A, "elements = [1, 9]", "expected elements of the deck in parameter a, found 9"),
         (A, "properties = [1, 7]", "expected properties and materials of the deck's elements in parameter a, found 7"),
         (A, "materials = [8]", "expected properties and materials of the deck's elements in parameter a, found 8"),
@@ -111,6 +121,7 @@ fn a_parameter_names_what_the_deck_has() {
         (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
         (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
         (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
+        ("\"b\"", "\"a\"", "job.toml: expected every name of a parameter once, found a again"),
     ]);
 }
 
@@ -195,18 +206,6 @@ fn sensors_are_those_of_the_test_at_what_moves() {
     assert!(error.ends_with("found none in the model"), "{error}");
     let unnamed = said(&with(rods(), "test.csv", "\n2,", "\n,"));
     assert!(unnamed.ends_with("expected a grid for sensor S2, found none in the test"), "{unnamed}");
-}
-
-#[test]
-fn a_minus_before_the_direction_turns_the_sensor() {
-    let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
-    let shapes = |files: &Files| {
-        let (_folder, path) = placed(files);
-        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).test.shapes
-    };
-    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", SENSORS, turned)));
-    assert_eq!(plain.row(0), -turned.row(0));
-    assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
 }
 
 #[test]

@@ -11,6 +11,10 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         let error = said(&with(building(), "rows.csv", "2,x,0.,0.,240", line));
         assert_eq!(error, format!("{wrong}{line}"));
     }
+    // As a spreadsheet may write it, with a remark.
+    let mark = with(building(), "rows.csv", "grid,direction", "\u{feff}\"grid\",direction");
+    let (_folder, path) = placed(&with(mark, "rows.csv", "2,x,", "\n# the second floor\n2,x,"));
+    assert_eq!(Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).source.motions.len(), 10);
     let short = said(&with(building(), "rows.csv", "2,x,0.,0.,240\n", ""));
     assert_eq!(short, "job.toml: expected 10 rows in model.rows, one a row of the stiffness, found 9");
     let twice = said(&with(building(), "rows.csv", "2,x,0.,0.,240", "1,x,0.,0.,240"));
@@ -56,6 +60,9 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     assert_eq!(mass.entries(), [(1, 1, 2.0), (2, 2, 3.0)], "grid 2 has none");
     let stranger = said(&named_matrices(&[(3, 1.0), (9, 1.0)]));
     assert_eq!(stranger, "job.toml: expected rows of the stiffness in model.pch#MAAX, found grid 9 component 1");
+    let columns = with(named_matrices(&[(4, 1.0)]), "model.pch", "KAAX,0,6", "KAAX,0,2");
+    let others = said(&with(columns, "model.pch", "DMIG,KAAX,4,1,,4,1", "DMIG,KAAX,5,1,,4,1"));
+    assert_eq!(others, "job.toml: expected rows and columns of the same names in model.pch#KAAX, found others");
     let unknown = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", "#KTWO"));
     assert!(unknown.contains("model.pch, line 1") && unknown.contains("found KAAX, KONE, MAAX"), "{unknown}");
     let ambiguous = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", ""));

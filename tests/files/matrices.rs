@@ -116,6 +116,22 @@ fn strings_with_nastrans_words_read() {
     assert!(read("m", zero.as_bytes(), Some("C")).expect("zeros").matrix.entries().is_empty());
 }
 
+/// Of a matrix that is not asked for nothing is read but where it ends, however wide its numbers are.
+#[test]
+fn a_matrix_before_the_one_asked_for_is_passed_over() {
+    let one = |name: &str, format: &str, number: &str| {
+        format!(
+            "       1       1       2       2{name:8}{format}\n       1       1       1\n{number}\n       2       1       1\n{number}\n"
+        )
+    };
+    let wide = one("A", "1P,2E40.16", &format!("{:>40}", "1.0000000000000000E+00"));
+    let text = wide + &one("B", "1P,3E23.16", " 2.0000000000000000E+00");
+    assert_eq!(read("m", text.as_bytes(), Some("B")).expect("a matrix").matrix.entries(), [(0, 0, 2.0)]);
+    assert_eq!(read("m", text.as_bytes(), Some("A")).expect("a matrix").matrix.entries(), [(0, 0, 1.0)]);
+    let none = read("m", text.as_bytes(), Some("C")).expect_err("no such matrix").to_string();
+    assert!(none.ends_with("found A, B"), "{none}");
+}
+
 #[test]
 fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
     let text = |more: &str| {
@@ -129,6 +145,12 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
         let second = format!("       2{row:8}{:8}\n{numbers}\n", 3 - row);
         assert_eq!(read("m", text(&second).as_bytes(), None).expect("a matrix").matrix.entries(), whole);
     }
+    let upper = text("       2       1       2\n 2.0000000000000000E+00 3.0000000000000000E+00\n");
+    let upper = upper.replace(
+        "       1       1       2\n 1.0000000000000000E+00 2.0000000000000000E+00\n",
+        "       1       1       1\n 1.0000000000000000E+00\n",
+    );
+    assert_eq!(read("m", upper.as_bytes(), None).expect("a matrix").matrix.entries(), whole);
 }
 
 #[test]
@@ -145,6 +167,11 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     assert_eq!(found.matrix.entries(), [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]);
     let error = read("m", text.as_bytes(), Some("C")).expect_err("complex").to_string();
     assert_eq!(error, "m, line 7: card DMIG, field 5: expected type 1 or 2, a real matrix, found 3");
+    // Three entries on a card, and a place for one that has none.
+    let text = "DMIG,K,0,2,2,0\nDMIG,K,1,1,,2,1,2.,,+A\n+A,,,,,3,1,3.,,+B\n+B,4,1,4.\n";
+    let found = read("m", text.as_bytes(), None).expect("a matrix");
+    assert_eq!(found.rows, Some(vec![(2, 1), (3, 1), (4, 1)]));
+    assert_eq!(found.matrix.entries(), [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]);
     // Fields of eight characters that touch.
     let text =
         "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";

@@ -24,8 +24,12 @@ fn matrix_market_is_refused_by_line() {
         "1: expected a general, symmetric or skew-symmetric matrix, found h",
     );
     refused(real, "4: expected the line of sizes, found the end of the file");
-    for sizes in ["2 2", "0 2 1", "2 x 1", "-2 2 1"] {
+    let array = real.replace("coordinate", "array");
+    for sizes in ["2 2", "0 2 1", "2 0 1", "2 x 1", "-2 2 1"] {
         refused(&format!("{real}{sizes}\n"), "4: expected rows, columns and, in the coordinate format");
+    }
+    for sizes in ["2 2 4", "0 2", "2 0"] {
+        refused(&format!("{array}{sizes}\n"), "4: expected rows, columns and, in the coordinate format");
     }
     refused(
         &format!("{real}2 2 2\n1 1 1.5\n"),
@@ -40,7 +44,9 @@ fn matrix_market_is_refused_by_line() {
         "5: expected a row and column in the part of the matrix that is stored, found 1 3 1.5",
     );
     refused(&format!("{real}2 2 1\n0 1 1.5\n"), "5: expected a row and column");
-    refused(&format!("{real}2 2 1\n1 1\n"), "5: expected a row, a column and a value, found 1 1");
+    for entry in ["1 1", "1.5", "1 1 1 1"] {
+        refused(&format!("{real}2 2 1\n{entry}\n"), &format!("5: expected a row, a column and a value, found {entry}"));
+    }
     for value in ["1.5.5", "nan", "inf", "1e999", "x"] {
         refused(&format!("{real}2 2 1\n1 1 {value}\n"), &format!("5: expected a real number, found {value}"));
     }
@@ -51,13 +57,14 @@ fn matrix_market_is_refused_by_line() {
         &format!("{}2 2 1\n1 1 1.\n", real.replace("general", "skew-symmetric")),
         "5: expected a row and column in the part",
     );
-    let array = real.replace("coordinate", "array");
     refused(
         &format!("{array}2 1\n1.\n"),
         "6: expected as many entries as the line of sizes says, found the end of the file after 1",
     );
     refused(&format!("{array}2 1\n1.\n2.\n3.\n"), "7: expected no more entries than places, found 3.");
-    refused(&format!("{array}2 1\n1. 2.\n"), "5: expected a value, found 1. 2.");
+    for entry in ["1. 2.", "1 1 1."] {
+        refused(&format!("{array}2 1\n{entry}\n"), &format!("5: expected a value, found {entry}"));
+    }
 }
 
 /// A header may promise what no memory holds: nothing is made ready for it.
@@ -88,6 +95,7 @@ fn output4_is_refused_by_line() {
     refused(&header.replace("2       2A", "3       2A"), "1: expected a matrix of form 1, 2, 6 or 9");
     refused(&header.replace("1P,3E23.16", "1P,3F23.16"), "1: expected a format such as 1P,5E16.9");
     refused(&header.replace("1P,3E23.16", "1P,3E0.16"), "1: expected a format such as 1P,5E16.9");
+    refused(&header.replace("A       1P,3E23.16", "SHAPE9"), "1: expected a format such as 1P,5E16.9, found 2");
     refused(&header.replacen("       2       2", "       2       0", 1), "1: expected a number of rows");
     refused(header, "2: expected integers of eight characters, found the end of the file");
     refused(

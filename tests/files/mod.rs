@@ -31,5 +31,8 @@ pub mod nastran95_program;
 
 pub mod job_errors;
 pub mod job_matrices;
+pub mod job_prepared;
+pub mod job_results;
 pub mod jobs;
 pub mod study;
+pub mod study_draws;

@@ -46,6 +46,15 @@ fn what_is_no_file_or_too_large_is_not_read() {
     }
 }
 
+/// A solver that puts a file where its folder was: what was printed cannot be looked for, which is not the same as not there.
+#[test]
+fn a_folder_that_is_gone_is_no_run_without_output() {
+    let error = solver(&fake("rm -rf \"$DIRCTY\"; touch \"$DIRCTY\"")).run("").expect_err("its folder is a file");
+    let FileError::File { path, action: "read", .. } = &error else { panic!("{error}") };
+    assert!(path.ends_with("printed"), "{error}");
+    std::fs::remove_file(path.parent().expect("a folder")).expect("removed");
+}
+
 #[test]
 fn words_of_the_solver_cannot_speak_to_the_terminal() {
     for script in ["printf ' FATAL \\033[31mred\\007\\n'", "printf '\\033[31mred\\007\\n'; exit 3"] {

@@ -5,7 +5,7 @@ use crate::common::tolerances::ROUND_OFF;
 use corfem::files::test_data::read;
 use nalgebra::Vector3;
 
-fn row(values: &[f64], width: usize) -> String {
+pub fn row(values: &[f64], width: usize) -> String {
     values.iter().map(|value| format!("{value:width$.5}")).collect::<String>() + "\n"
 }
 
@@ -21,11 +21,11 @@ fn system(number: usize, kind: usize, reference: usize, points: [[f64; 3]; 3]) -
 }
 
 /// A system of dataset 2420: unit vectors along its axes, and its origin.
-fn matrix(number: usize, kind: usize, rows: [[f64; 3]; 4]) -> String {
+pub fn matrix(number: usize, kind: usize, rows: [[f64; 3]; 4]) -> String {
     format!("{number:10}{kind:10}         8\nCS{number}\n") + &rows.map(|values| row(&values, 25)).concat()
 }
 
-const PART: &str = "         1\nPart\n";
+pub const PART: &str = "         1\nPart\n";
 
 #[test]
 fn sensors_measure_along_the_axes_of_their_nodes() {
@@ -73,6 +73,20 @@ fn sensors_measure_along_the_axes_of_their_nodes() {
     assert_eq!((data.sensors[0].place, data.sensors[0].axis), (Some(Vector3::new(1.0, 2.0, 3.0)), Some(y)));
 }
 
+/// What six digits leave beside a global axis is none of a sensor's, and a ten-thousandth is where that ends.
+#[test]
+fn axes_a_hair_from_the_global_ones_are_the_global_ones() {
+    let axis = |beside: f64| {
+        let rows = [[1.0, beside, 0.0], [-beside, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+        let text =
+            dataset("15", &node(12, [0, 3], [0.0; 3])) + &dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows)));
+        let shape = format!("{:10}\n", 12) + &row(&[1.0, 0.0, 0.0], 13);
+        parsed(&(text + &real_mode(&shape))).sensors[0].axis.expect("an axis")
+    };
+    assert_eq!(axis(9e-5), Vector3::x());
+    assert!((axis(1e-4) - Vector3::new(1.0, 1e-4, 0.0)).amax() < 1e-8);
+}
+
 #[test]
 fn coordinate_systems_that_are_none_are_refused() {
     let said =
@@ -82,13 +96,21 @@ fn coordinate_systems_that_are_none_are_refused() {
     assert!(origin.contains("line 6: expected a point beside the origin, found the origin"), "{origin}");
     let on_axis = said(points([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
     assert!(on_axis.contains("line 6: expected a point beside the x axis, found one on it"), "{on_axis}");
+    // Seen from its origin as a point a hundred times farther away is: at less than a ten-thousandth of a radian.
+    let near_axis = |far: f64| points([[0.0; 3], [1.0, 0.0, 0.0], [far, 0.0, 0.05]]);
+    assert!(said(near_axis(1000.0)).contains("line 6: expected a point beside the x axis, found one on it"));
+    parsed(&(near_axis(100.0) + &real_mode(TIP)));
     let unknown = said(dataset("18", &system(3, 0, 2, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])));
     assert!(
         unknown.contains("a reference that is zero or a Cartesian coordinate system of before, found 2"),
         "{unknown}"
     );
-    let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.1], [0.0, 0.0, 1.0], [0.0; 3]];
-    let skew = said(dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows))));
+    let skewed = |by: f64| {
+        let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, by], [0.0, 0.0, 1.0], [0.0; 3]];
+        dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows)))
+    };
+    parsed(&(skewed(1e-4) + &real_mode(TIP)));
+    let skew = said(skewed(1.1e-4));
     assert!(skew.contains("expected three unit vectors at right angles above it, found others"), "{skew}");
     let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
     let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));

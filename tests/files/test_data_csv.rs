@@ -40,7 +40,10 @@ fn the_documented_example_reads() {
 fn spreadsheets_may_separate_by_semicolons_or_tabs_and_write_decimal_commas() {
     let expected = wing(WING);
     // The comment's comma stays, and so does that within quotation marks.
-    let converted = |separator: &str| WING.replace(',', separator).replace(&format!("aileron{separator}"), "aileron,");
+    let converted = |separator: &str| {
+        let text = WING.replace(',', separator);
+        text.replace(&format!("aileron{separator}"), "aileron,").replace(&format!("May{separator}"), "May,")
+    };
     assert_eq!(wing(&converted(";")), expected);
     assert_eq!(wing(&converted("\t")), expected);
     assert_eq!(wing(&converted(";").replace('.', ",")), expected);
@@ -59,6 +62,11 @@ fn columns_may_stand_in_any_order() {
     assert_eq!(data.frequencies_hz, [8.5, 9.5]);
     assert_eq!(data.shapes, dmatrix![-2.0, -3.0]);
     assert_eq!(data.sensors[0].grid, Some(12));
+    let names =
+        wing("frequency_hz,8.5\ndirection,mode 1,name\nz,1,\"tip\"\nz,2,\"the \"\"root\"\"\"\nz,3,\"\"\"pod\"\"\"\n")
+            .sensors;
+    let names: Vec<&str> = names.iter().map(|sensor| sensor.name.as_str()).collect();
+    assert_eq!(names, ["tip", "the \"root\"", "\"pod\""], "quoted at the end of a line");
 }
 
 #[test]

@@ -40,6 +40,19 @@ fn columns_that_touch_and_fortran_exponents_are_read() {
     assert_eq!(data.shapes, dmatrix![-1.23456e-101; 2.0; 3.0]);
     assert_eq!(parsed(&real_mode(TIP).replace('\n', "\r\n")), parsed(&real_mode(TIP)));
     assert_eq!(parsed(&real_mode(TIP).replace("    -1\n", &format!("{:80}\n", "    -1"))), parsed(&real_mode(TIP)));
+    let apart = format!("\n\n{}\n\n\n{}\n", dataset("58", ""), real_mode(TIP));
+    assert_eq!(parsed(&apart), parsed(&(dataset("58", "") + &real_mode(TIP))), "empty lines between datasets");
+}
+
+/// The frequency is the root's magnitude over 2π; of a pair the root with a negative imaginary part is passed over.
+#[test]
+fn a_complex_root_is_read_unless_its_imaginary_part_is_negative() {
+    let root = |imaginary: f64| mode([1, 3, 2, 8, 2, 3], &format!("{:13.5}{imaginary:13.5}", -3.0), TIP);
+    let data = parsed(&(root(4.0) + &root(-4.0) + &root(0.0)));
+    for (found, magnitude) in data.frequencies_hz.iter().zip([5.0, 3.0]) {
+        assert!((found - magnitude / (2.0 * std::f64::consts::PI)).abs() < ROUND_OFF, "{found}");
+    }
+    assert_eq!((data.frequencies_hz.len(), data.shapes), (2, dmatrix![1.0, 1.0]));
 }
 
 #[test]

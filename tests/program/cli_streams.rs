@@ -214,3 +214,10 @@ fn control_characters_in_an_error_are_shown() {
     let said = text(&corfem(&["modes", "no\u{1b}[31m.dat"]).stderr);
     assert!(said.starts_with("corfem: no\\u{1b}[31m.dat: expected to read it"), "{said}");
 }
+
+#[test]
+fn letters_lines_and_tabs_of_an_error_are_shown_as_they_are() {
+    let words = "expected \"Fl\u{fc}gel\",\n\tfound 'C:\\x'";
+    assert_eq!(corfem::files::escaped(words), words);
+    assert_eq!(corfem::files::escaped("\u{1b}[2J\r\u{9b}"), "\\u{1b}[2J\\r\\u{9b}");
+}

@@ -8,7 +8,7 @@ use super::read::name;
 use super::write::Cards;
 use crate::files::error::FileError;
 use crate::method::error::Error;
-use crate::method::structure::{Element, Material};
+use crate::method::structure::Element;
 use std::collections::{BTreeMap, HashMap};
 
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
@@ -140,8 +140,7 @@ impl Changes<'_> {
 
     /// The density of the material of an element, as the reader gives it to elements.
     fn density(&self, Holder { card, material_field, .. }: &Holder) -> Result<f64, FileError> {
-        let Material { density, .. } = card.referred(*material_field, &self.known.materials, "MAT1")?.value;
-        Ok(if density > 0.0 { nearest_in_field(self.weight * density) } else { density })
+        Ok(nearest_in_field(self.weight * card.referred(*material_field, &self.known.materials, "MAT1")?.value.density))
     }
 
     /// The number of the material of an element for another density: of a new one, or its own if the density is the same.

@@ -2,6 +2,7 @@
 
 use super::model::{Geometry, ModelSource, range};
 use super::{Job, ParameterRule, Scales};
+use crate::files::deck::decoded;
 use crate::files::error::FileError;
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
@@ -55,21 +56,22 @@ fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
     (grid, component.saturating_sub(1))
 }
 
-/// A matrix of a file; behind a `#` in its name stands which of several.
+/// A matrix of a file, its columns those of its rows; behind a `#` in its name stands which of several.
 fn matrix(job: &Job, file: &Path) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let (file, wanted) = text.rsplit_once('#').map_or((&*text, None), |(file, name)| (file, Some(name)));
     let file = job.beside(Path::new(file));
     let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
-    matrices::read(&file.display().to_string(), &bytes, wanted)
+    let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
+    let others = (found.columns != found.rows).then_some("others");
+    job.refuse(others, format!("rows and columns of the same names in {text}"))?;
+    Ok(found)
 }
 
 /// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
 fn on_rows(job: &Job, file: &Path, row_of: &BTreeMap<(usize, usize), usize>) -> Result<SparseMatrix, FileError> {
-    let LabeledMatrix { rows, columns, matrix, .. } = matrix(job, file)?;
+    let LabeledMatrix { rows, matrix, .. } = matrix(job, file)?;
     let Some(labels) = &rows else { return Ok(matrix) };
-    let others = (columns != rows).then_some("others");
-    job.refuse(others, format!("rows and columns of the same names in {}", file.display()))?;
     let stranger = labels.iter().find(|label| !row_of.contains_key(&degree_of_freedom(label)));
     let stranger = stranger.map(|(grid, component)| format!("grid {grid} component {component}"));
     job.refuse(stranger, format!("rows of the stiffness in {}", file.display()))?;
@@ -85,7 +87,7 @@ type Rows = (Vec<Label>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn rows(file: &Path) -> Result<Rows, FileError> {
-    let text = std::fs::read_to_string(file).map_err(FileError::of_file(file, "read"))?;
+    let text = decoded(&std::fs::read(file).map_err(FileError::of_file(file, "read"))?).into_owned();
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {

@@ -221,22 +221,28 @@ impl Job {
         found.map_or(Ok(()), |found| Err(self.wrong(expected, found.to_string())))
     }
 
+    /// Refuses what is named a second time.
+    fn once(&self, mut all: impl Iterator<Item = impl Copy + Ord + ToString>, what: &str) -> Result<(), FileError> {
+        let mut seen = BTreeSet::new();
+        let again = all.find(|one| !seen.insert(*one));
+        self.refuse(again.map(|one| one.to_string() + " again"), format!("every {what} once"))
+    }
+
     /// The numbers that a list names.
     fn labels(&self, list: &[Labels]) -> Result<BTreeSet<usize>, FileError> {
         let mut all = Vec::new();
         for labels in list {
-            let text = match labels {
-                Labels::One(label) => {
-                    all.push(*label);
-                    continue;
-                }
-                Labels::Range(text) => text,
-            };
-            let number = |text: &str| text.trim().parse::<usize>().ok();
-            let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
             let room = MOST_LABELS.saturating_sub(all.len());
-            let ends = ends.filter(|(first, last)| first <= last && last - first < room);
-            let (first, last) = ends.ok_or_else(|| self.wrong("a range of numbers such as \"10-19\"", text))?;
+            let (first, last) = match labels {
+                Labels::One(label) => (*label, *label),
+                Labels::Range(text) => {
+                    let number = |text: &str| text.trim().parse::<usize>().ok();
+                    let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
+                    let ends = ends.filter(|(first, last)| first <= last && last - first < room);
+                    let expected = || format!("a range of numbers such as \"10-19\", in all at most {MOST_LABELS}");
+                    ends.ok_or_else(|| self.wrong(expected(), text))?
+                }
+            };
             all.extend(first..=last);
         }
         Ok(all.into_iter().collect())

@@ -14,7 +14,6 @@ use crate::studies::assignment::pair_optimally;
 use crate::studies::expansion::mass_by_modes;
 use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
-use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -76,9 +75,8 @@ impl Prepared {
         let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
         job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
-        let mut seen = HashSet::new();
-        let again = numbers.iter().find(|mode| !seen.insert(**mode));
-        job.refuse(again.map(|mode| format!("{mode} again")), "every mode of test.modes once")?;
+        job.once(numbers.iter(), "mode of test.modes")?;
+        job.once(source.whole.parameters().iter().map(|parameter| &parameter.name), "name of a parameter")?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
@@ -214,7 +212,7 @@ fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result
 
 /// The pairs with the largest sum of squared closeness, every test mode with one.
 fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&cross.map(|closeness| 1.0 + closeness * closeness), 0.0)?;
+    let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
     let (available, requested) = cross.shape();
     let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
     let analysis_mode = analysis_mode.ok_or(Error::TooMany { what: "test modes", available, requested })?;

@@ -207,9 +207,9 @@ pub(super) fn run_from(
         History::GaussNewton(run) => {
             let is_within = meets(&last.exact.errors, settings);
             let outcome = match run.as_ref().map(|(run, _)| (run.stop, run.iterations.is_empty())) {
-                Some((_, true)) if !is_within => Outcome::Nothing,
-                None | Some((WeightedStop::Trials, _)) if !is_within => Outcome::Cap,
                 _ if is_within => Outcome::Tolerance,
+                Some((_, true)) => Outcome::Nothing,
+                None | Some((WeightedStop::Trials, _)) => Outcome::Cap,
                 _ => Outcome::LocalMinimum,
             };
             let errors = mode_errors(&last.exact.modes, &last.exact.pairing, &last.test)?;

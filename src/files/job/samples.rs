@@ -82,8 +82,9 @@ impl Samples {
                 return wrong("a sample of this job, seed and choice of what varies");
             }
             let is_number = |cell: &&str| cell.parse::<f64>().is_ok_and(f64::is_finite);
-            if cells[1] != FAILED && !cells[3..count + 5].iter().all(is_number) {
-                return wrong("error sum, analyses and factors as numbers");
+            let is_run = ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
+            if cells[1] != FAILED && !is_run {
+                return wrong("true or false, and error sum, analyses and factors as numbers");
             }
             let digest = digest(text.trim_end().as_bytes(), 0);
             if samples.places.insert(sample, (at, digest)).is_some_and(|(_, before)| before != digest) {

@@ -37,6 +37,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
     let named = rules.leave_out.iter().chain(rules.place.iter().map(|place| &place.sensor));
     let unknown = named.into_iter().find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
     job.refuse(unknown, "names of sensors that the test has")?;
+    job.once(rules.place.iter().map(|place| &place.sensor), "sensor of sensors.place")?;
     let mut placed = Vec::new();
     for (row, sensor) in data.sensors.iter().enumerate().filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name)) {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
@@ -65,13 +66,12 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);
-        let far = distance.filter(|distance| *distance > most).map(|distance| format!("grid {grid} at {distance:.4}"));
+        let far = distance.filter(|at| !(0.0..=most).contains(at)).map(|at| format!("grid {grid} at {at:.4}"));
         job.refuse(far, format!("sensor {} within {most} of a grid", sensor.name))?;
         placed.push(PlacedSensor { row, name: sensor.name.clone(), grid, direction, axis, sign, place, distance });
     }
     let mut first: BTreeMap<(usize, usize), &str> = BTreeMap::new();
-    for sensor in &placed {
-        let PlacedSensor { name, grid, direction, .. } = sensor;
+    for PlacedSensor { name, grid, direction, .. } in &placed {
         let other = first.insert((*grid, *direction), name);
         let both = other.map(|other| format!("{other} and {name} at grid {grid} {}", DIRECTIONS[*direction]));
         job.refuse(both, "one sensor a degree of freedom")?;
@@ -104,11 +104,8 @@ fn nearest(job: &Job, sensor: &Sensor, source: &ModelSource) -> Result<usize, Fi
     let missing = |what| job.wrong(format!("a place of sensor {} and of the model's grids", sensor.name), what);
     let at = sensor.place.ok_or_else(|| missing("none in the test"))?;
     let axis = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction % 3, 1.0));
-    let moving = source
-        .geometry
-        .places
-        .iter()
-        .filter(|(grid, _)| motion(source, **grid, sensor.direction, axis).next().is_some());
+    let places = source.geometry.places.iter();
+    let moving = places.filter(|(grid, _)| motion(source, **grid, sensor.direction, axis).next().is_some());
     let nearest = moving.min_by(|a, b| (a.1 - at).norm().total_cmp(&(b.1 - at).norm()));
     nearest.map(|(grid, _)| *grid).ok_or_else(|| missing("none in the model"))
 }

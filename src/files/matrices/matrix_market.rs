@@ -36,10 +36,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         return Err(wrong(at, "as many rows as columns of a symmetric matrix", sizes));
     }
     // The first row of a column that the file holds.
-    let first_row = |column: usize| match mirror {
-        None => 0,
-        Some(factor) => column + usize::from(factor < 0.0),
-    };
+    let first_row = |column: usize| mirror.map_or(0, |factor| column + usize::from(factor == -1.0));
     let mut places = (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
     let (mut entries, mut read) = (Vec::new(), 0);
     for (number, line) in lines {

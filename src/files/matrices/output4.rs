@@ -76,7 +76,7 @@ impl Lines<'_> {
         let (columns, form, kind) = (self.integer(*at, 0)?, self.integer(*at, 2)?, self.integer(*at, 3)?);
         let rows: Option<i64> = header.get(INTEGER..2 * INTEGER).and_then(|text| text.trim().parse().ok());
         let rows = rows.filter(|rows| *rows != 0).ok_or_else(|| self.wrong(*at, "a number of rows"))?;
-        let is_large = rows < 0 || rows >= ROWS_IN_HEADER as i64;
+        let is_large = !(0..ROWS_IN_HEADER as i64).contains(&rows);
         let rows = rows.unsigned_abs() as usize;
         let has_form = [1, 2, 6, 9].contains(&form) && (form != 6 || rows == columns);
         self.require(has_form, *at, "a matrix of form 1, 2, 6 or 9, square if it is 6")?;

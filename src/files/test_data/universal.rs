@@ -203,7 +203,7 @@ impl Found {
             let node = block.integers("the number of a node", 1)?[0];
             let mut values = Vec::with_capacity(parts * count);
             while values.len() < parts * count {
-                let widths = &VALUES[..(parts * count - values.len()).min(VALUES.len())];
+                let widths = &VALUES[..(parts * count).min(VALUES.len())];
                 values.extend(block.reals("values of a mode, six to a line", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {

@@ -1,0 +1,151 @@
+//! What a job is prepared to: how many modes of the model, which mass at the sensors, and what the sensors measure.
+
+use super::job_errors::{placed, said, with};
+use super::test_data_axes::{PART, matrix, row};
+use super::test_data_universal::{dataset, real_mode};
+use crate::common::jobs::{Files, building, rods};
+use crate::common::test_files::write_csv;
+use crate::common::tolerances::ROUND_OFF;
+use crate::common::whole_models::shear_building;
+use corfem::files::job::Prepared;
+use corfem::files::matrices::write_matrix_market;
+use corfem::files::test_data::{Sensor, TestData};
+use nalgebra::{DMatrix, dmatrix};
+
+fn prepared(files: &Files) -> Prepared {
+    let (_folder, path) = placed(files);
+    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A building whose stories are scaled as one, with its lowest modes measured at every floor.
+fn measured_building(stories: usize, modes: usize) -> Files {
+    let model = shear_building(&vec![1e5; stories], 60.0, None);
+    let ones = vec![1.0; stories];
+    let found = model.modes(&ones, modes).expect("modes").vibrations;
+    let sensors = (1..=stories).map(|floor| Sensor {
+        name: floor.to_string(),
+        grid: Some(floor),
+        direction: 0,
+        axis: None,
+        place: None,
+    });
+    let frequencies_hz = found.frequencies_hz();
+    let data = TestData { frequencies_hz, sensors: sensors.collect(), shapes: found.shapes, ..TestData::default() };
+    let (stiffness, mass) = model.at(&ones).expect("matrices");
+    let job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
+               [[parameter]]\nname = \"all\"\nmatrix = \"stiffness.mtx\"\n";
+    let files = [
+        ("job.toml", job.to_owned()),
+        ("stiffness.mtx", write_matrix_market(&stiffness)),
+        ("mass.mtx", write_matrix_market(&mass)),
+        ("rows.csv", (1..=stories).map(|floor| format!("{floor},x\n")).collect()),
+        ("test.csv", write_csv(&data)),
+    ];
+    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+#[test]
+fn a_job_without_a_title_is_called_by_its_file() {
+    assert_eq!(prepared(&rods()).title, "job");
+    assert_eq!(prepared(&building()).title, "ten-story building");
+}
+
+/// Half as many again as test modes, four more at least, and no more than there are.
+#[test]
+fn more_modes_of_the_model_are_taken_than_the_test_has() {
+    for (stories, modes, expected) in [(16, 10, 15), (16, 5, 9), (6, 5, 6)] {
+        assert_eq!(prepared(&measured_building(stories, modes)).analysis_modes, expected, "{modes} of {stories}");
+    }
+}
+
+/// A mass that hangs free on a spring from nothing has a rigid-body motion alone.
+#[test]
+fn a_model_without_a_vibration_has_no_modes_to_take() {
+    let mut files = measured_building(2, 2);
+    files[1].1 = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1e4\n2 1 -1e4\n2 2 1e4\n".to_owned();
+    files[2].1 = "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 60\n".to_owned();
+    assert_eq!(said(&files), "modes of finite frequency: expected at most 0, found 2");
+}
+
+/// The condensed mass of five floors does for the lowest mode, and for all five it does not.
+#[test]
+fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() {
+    let of_modes = |list: &str| {
+        let prepared =
+            prepared(&with(building(), "job.toml", "file = \"test.csv\"", &format!("file = \"test.csv\"\n{list}")));
+        let model = prepared.analyze(&[1.0; 10]).expect("a model");
+        let (_, condensed) = prepared.source.whole.condensed(&[1.0; 10], &prepared.sensors).expect("condensed");
+        (prepared.mass_at_sensors(&model).expect("a mass"), condensed, model.exact.modes.shapes.clone())
+    };
+    let (mass, condensed, _) = of_modes("modes = [1]");
+    assert_eq!(mass, condensed);
+    let (mass, condensed, shapes) = of_modes("");
+    assert_ne!(mass, condensed);
+    let lowest = shapes.columns(0, 5).into_owned();
+    let own = lowest.tr_mul(&(&mass * &lowest));
+    assert!((own - DMatrix::identity(5, 5)).amax() < ROUND_OFF, "the modes themselves are orthogonal with it");
+}
+
+/// A model is compared with the test modes as they were measured, of another scale and of no other sign.
+#[test]
+fn test_modes_keep_the_sense_in_which_they_were_measured() {
+    let prepared = prepared(&rods());
+    let model = prepared.analyze(&[1.0, 1.0]).expect("a model");
+    for (compared, measured) in model.test.shapes.column_iter().zip(prepared.test.shapes.column_iter()) {
+        assert!(compared.dot(&measured) > 0.0, "{compared} {measured}");
+    }
+}
+
+#[test]
+fn a_minus_before_the_direction_turns_the_sensor() {
+    let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
+    let shapes = |files: &Files| prepared(files).test.shapes;
+    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", "[sensors]", turned)));
+    assert_eq!(plain.row(0), -turned.row(0));
+    assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
+}
+
+/// Rows that are rotations are found as those that are translations.
+#[test]
+fn a_sensor_of_rotations_measures_a_rotation() {
+    let turned = building().into_iter().map(|(name, text)| match &name[..] {
+        "rows.csv" => (name, text.replace(",x,0", ",rx,0")),
+        "test.csv" => (name, text.replace(",x,+", ",rx,+")),
+        _ => (name, text),
+    });
+    let (plain, turned) = (prepared(&building()), prepared(&turned.collect()));
+    assert!(turned.placed.iter().all(|sensor| sensor.direction == 3));
+    assert_eq!(plain.sensors, turned.sensors);
+}
+
+/// Axes of the test that are oblique to the model's: a sensor sees the part of each motion that is along its own.
+#[test]
+fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
+    let axes = matrix(3, 0, [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
+    let node = format!("{:10}{:10}{:10}{:10}", 1, 0, 3, 11) + &row(&[0.0; 3], 13);
+    let mode = |values: [f64; 3]| real_mode(&(format!("{:10}\n", 1) + &row(&values, 13)));
+    let test = dataset("15", &node)
+        + &dataset("2420", &(PART.to_owned() + &axes))
+        + &mode([0.6, -0.8, 0.0])
+        + &mode([0.8, 0.6, 0.0]);
+    let mut files = measured_building(2, 2);
+    let diagonal = |a: f64, b: f64| format!("%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {a}\n2 2 {b}\n");
+    (files[1].1, files[2].1) = (diagonal(1e4, 2e4), diagonal(1.0, 1.0));
+    (files[3].1, files[4].1) = ("1,x\n1,y\n".to_owned(), test);
+    let sensors = prepared(&files).sensors.dense();
+    assert!((sensors - dmatrix![0.6, 0.8; -0.8, 0.6]).amax() < ROUND_OFF);
+}
+
+#[test]
+fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
+    let nearest = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = 1.0");
+    let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
+    assert_eq!((far.placed[0].grid, far.placed[0].distance), (2, Some(1.0)));
+    let no_number = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = nan");
+    let no_number = said(&no_number);
+    assert_eq!(no_number, "job.toml: expected sensor S2 within NaN of a grid, found grid 2 at 0.0000");
+    let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
+    let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
+    let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));
+    assert_eq!(twice, "job.toml: expected every sensor of sensors.place once, found S2 again");
+}
