@@ -220,6 +220,11 @@ fn test_modes_are_there_and_named_once() {
         (COMPARE, "[compare]\nanalysis_modes = 0", "expected"),
         (COMPARE, "[compare]\nanalysis_modes = 4", "expected at most"),
         (COMPARE, "[compare]\nstarts = 0", "starts: expected at least one, found none"),
+        (
+            "method = \"gauss_newton\"",
+            "starts = 2",
+            "expected one of compare.starts where the method is \"paper\", found 2",
+        ),
         (COMPARE, "[compare]\nfloor = 1.5", "with a modal assurance of 1.5 or more for one test mode at least"),
     ]);
 }

@@ -77,6 +77,8 @@ impl Prepared {
         job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
         job.once(numbers.iter(), "mode of test.modes")?;
         job.once(source.whole.parameters().iter().map(|parameter| &parameter.name), "name of a parameter")?;
+        let several = job.compare.starts.filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
+        job.refuse(several, "one of compare.starts where the method is \"paper\"")?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
