@@ -39,7 +39,7 @@ pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>
     };
     let full_rank = |count| decomposed(count).map(|svd| svd.singular_values.min() >= RANK * svd.singular_values.max());
     if !full_rank(mode_count)? {
-        let index = (1..mode_count).find(|&index| !full_rank(index + 1).unwrap_or(true)).unwrap_or(mode_count - 1);
+        let index = (1..mode_count).find(|&index| !full_rank(index + 1).unwrap_or(true)).unwrap_or_default();
         return Err(Error::Dependent { what, index });
     }
     let shares = decomposed(mode_count)?.solve(test, 0.0).map_err(|_| Error::NoConvergence(what))?;

@@ -1,5 +1,6 @@
 //! Whole models of springs and masses as sparse matrices.
 
+use corfem::closed_forms::analytical::ChainEnds;
 use corfem::method::model::Range;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 
@@ -10,6 +11,17 @@ pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseM
         None => vec![(a, a, k)],
     });
     SparseMatrix::new("stiffness", count, count, entries.collect()).expect("springs")
+}
+
+/// Equal springs in a row between points.
+pub fn chain_of_springs(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
+    let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
+    match ends {
+        ChainEnds::FreeFree => {}
+        ChainEnds::FixedFree => all.push((0, None, spring)),
+        ChainEnds::FixedFixed => all.extend([(0, None, spring), (count - 1, None, spring)]),
+    }
+    springs(count, &all)
 }
 
 /// A diagonal mass.

@@ -2,13 +2,17 @@
 
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
+use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::appendix_b::{MovementLimits, Supports, examine};
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::studies::preflight::coarse_condensation;
-use corfem::studies::whole_model::{LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
+use corfem::studies::whole_model::{
+    FINITE, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel, WholeParameter, WholeShare,
+};
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -132,6 +136,47 @@ fn a_perfect_test_is_not_blamed_for_condensation() {
     let second = perfect.shapes.column(1).into_owned();
     wrong.shapes.column_mut(4).axpy(2.0, &second, 1.0);
     assert!(examine(&wrong, &mass, Supports::Held, &allowing).expect("examined").kept.len() < 5);
+}
+
+/// A model whose one parameter is all its stiffness.
+fn of_matrices(stiffness: SparseMatrix, values: &[f64]) -> WholeModel {
+    let share = WholeShare::Stiffness(stiffness.clone());
+    let all = WholeParameter { name: "all".to_owned(), share, range: None };
+    WholeModel::new(stiffness, masses(values), vec![all]).expect("a model")
+}
+
+#[test]
+fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
+    for (spring, mass) in [(1.0, 1.0), (1e20, 1e20), (1e-20, 1e-20)] {
+        // Three masses between two walls, measured at the middle one, which rests in the second mode.
+        let model = of_matrices(chain_of_springs(ChainEnds::FixedFixed, 3, spring), &[mass; 3]);
+        let sensors = sensors_at(&[1], 3);
+        let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
+        for count in [1, 2] {
+            let found = model.seen_modes(&[1.0], &sensors, count).expect("modes");
+            for (found, expected) in found.omega_squared.iter().zip([roots[0], roots[2]]) {
+                assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF, "{found} {expected}");
+            }
+            assert_eq!(found.len(), count);
+        }
+        let refused = model.seen_modes(&[1.0], &sensors, 3);
+        assert!(
+            matches!(refused, Err(Error::TooMany { what: "modes that move a sensor", available: 2, requested: 3 })),
+            "{refused:?}"
+        );
+        // Of two that are not joined the lower one does not move the other's sensor at all.
+        let alone = of_matrices(springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]), &[mass; 2]);
+        let found = alone.seen_modes(&[1.0], &sensors_at(&[1], 2), 1).expect("a mode");
+        assert!((found.omega_squared[0] / (4.0 * spring / mass) - 1.0).abs() < MATRIX_ROUND_OFF);
+    }
+}
+
+#[test]
+fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
+    // One mass, and a point without that hangs on it.
+    let model = of_matrices(chain_of_springs(ChainEnds::FreeFree, 2, 1.0), &[1.0, 0.0]);
+    let refused = model.seen_modes(&[1.0], &sensors_at(&[0], 2), 1);
+    assert!(matches!(refused, Err(Error::TooMany { what: FINITE, available: 0, requested: 1 })), "{refused:?}");
 }
 
 #[test]

@@ -65,6 +65,17 @@ fn sensors_that_cannot_tell_the_modes_apart_are_refused() {
 }
 
 #[test]
+fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
+    // Of two unit columns at a small angle the singular values are the root of two, and the angle over it.
+    let at = |angle: f64| {
+        let two = dmatrix![1.0, 1.0; 0.0, angle];
+        expand(&two, &two, &dmatrix![1.0; 0.0])
+    };
+    assert!(matches!(at(1.9e-9), Err(Error::Dependent { index: 1, .. })));
+    assert!(at(2.1e-9).is_ok());
+}
+
+#[test]
 fn what_does_not_fit_is_refused() {
     let (two, three) = (DMatrix::<f64>::identity(2, 2), DMatrix::<f64>::identity(3, 3));
     assert!(matches!(expand(&three, &two, &two), Err(Error::WrongShape { .. })));

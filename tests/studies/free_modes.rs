@@ -3,12 +3,14 @@
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
+use corfem::closed_forms::spring_chain::spring_stiffness;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::free_modes::{count_below, counted_modes};
 use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
 
 impl Draws {
     /// A well-conditioned square matrix: a rotation times factors from a half to two.
@@ -91,6 +93,32 @@ fn a_free_spring_chain_has_the_closed_form() {
         for (below, bound) in [(0, -1.0), (1, 0.5 * expected[0]), (count, 2.0 * expected[count - 2])] {
             assert_eq!(count_below(&stiffness, &mass, bound).expect("a count"), below);
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// Other units of every degree of freedom are a congruence.
+    #[test]
+    fn a_count_does_not_depend_on_units(decades in prop::collection::vec(-9..=9_i32, 6), below in 0..=6_usize) {
+        let roots = chain_eigenvalues(ChainEnds::FixedFree, 6, 1.0, 1.0);
+        let bound = match below {
+            0 => 0.5 * roots[0],
+            6 => 2.0 * roots[5],
+            _ => 0.5 * (roots[below - 1] + roots[below]),
+        };
+        let stiffness: DMatrix<f64> = (0..6).map(|spring| spring_stiffness(6, spring, 1.0)).sum();
+        let units = DMatrix::from_diagonal(&DVector::from_iterator(6, decades.iter().map(|&ten| 10_f64.powi(ten))));
+        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound).expect("a count"), below);
+    }
+}
+
+#[test]
+fn a_motion_without_stiffness_and_mass_is_in_no_count() {
+    let [stiffness, mass] = [3.0, 1.0].map(|one| DMatrix::from_diagonal(&DVector::from_vec(vec![one, 0.0])));
+    for (below, bound) in [(0, 2.0), (1, 4.0)] {
+        assert_eq!(count_below(&stiffness, &mass, bound).expect("a count"), below);
     }
 }
 

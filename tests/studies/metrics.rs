@@ -106,6 +106,17 @@ fn with_the_whole_mass_pseudo_orthogonality_of_modes_is_cross_orthogonality() {
 }
 
 #[test]
+fn shapes_whose_squares_leave_the_range_of_numbers_are_compared_all_the_same() {
+    let (analysis, test) = (dmatrix![1.0, 0.3; 0.5, -2.0], dmatrix![0.8, 1.0; 0.7, -0.5]);
+    let mass = dmatrix![2.0, 0.1; 0.1, 1.0];
+    let usual = pseudo_orthogonality(&analysis, &test, &mass).expect("it fits");
+    for scale in [1e200, 1e-200] {
+        let scaled = pseudo_orthogonality(&(scale * &analysis), &(&test / scale), &mass).expect("it fits");
+        assert!((scaled - &usual).amax() < ROUND_OFF);
+    }
+}
+
+#[test]
 fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     let modes = uniform_held_modes(6, 1000.0, 0.01).expect("a chain");
     let mut test = modes.shapes.columns(0, 4).into_owned();

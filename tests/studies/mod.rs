@@ -20,12 +20,17 @@ pub mod noisy_modes;
 
 pub mod preflight;
 pub mod preflight_modes;
+pub mod preflight_orders;
 pub mod preflight_rates;
 
 pub mod whole_model;
 pub mod whole_model_modes;
+pub mod whole_model_pencils;
 pub mod weighted;
 pub mod weighted_coverage;
+pub mod weighted_steps;
+
+pub mod localization;
 
 pub mod eigensolutions;
 pub mod linearization;

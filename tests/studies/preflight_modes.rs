@@ -8,6 +8,7 @@ use corfem::method::outer_loop::Settings;
 use corfem::studies::preflight::{
     Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, Specimen, preflight,
 };
+use corfem::studies::whole_model::CondensationError;
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
@@ -43,6 +44,7 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
         let (ratio, words) = same(&wrong);
         assert!(ratio > 1.1 && !words.contains("twice"));
         wrong.test.omega_squared[4] = specimen.test.omega_squared[1];
+        assert!(words.starts_with("Test modes 2 and 5 are nearly the same shape, modal assurance 1.000"), "{words}");
         let (ratio, words) = same(&wrong);
         assert!((ratio - 1.0).abs() < ROUND_OFF && words.contains("measured twice?"), "{words}");
         // A shape between two others.
@@ -146,6 +148,21 @@ fn findings_are_said_with_places_from_one() {
     let said = last.findings(&last.test).unwrap().iter().map(Finding::to_string).collect::<Vec<_>>().join("\n");
     assert!(said.starts_with("Test mode 5 and analysis mode 5 have a cross-orthogonality of 0.7"), "{said}");
     assert!(said.ends_with("Parameters without bounds: 1 to 15."), "{said}");
+    let error = CondensationError { whole_hz: 12.5, frequency: 0.0314, shape: 0.2 };
+    let exchanged = FrequenciesExchanged { modes: [0, 4], before: 0.123, after: 0.045 };
+    for (finding, words) in [
+        (
+            Finding::CoarseCondensation { mode: 1, error },
+            "Condensation to the measured points raises mode 2 by 3.1 %, from 12.5000 Hz: measure more points, or leave the \
+            mode out.",
+        ),
+        (
+            Finding::FrequenciesExchanged(exchanged),
+            "Frequencies of test modes 1 and 5 exchanged? It would lower the mean deviation of the ratios from 12.3 to 4.5 %.",
+        ),
+    ] {
+        assert_eq!(finding.to_string(), words);
+    }
     for (change, words) in [
         (Change::Exchanged([0, 4]), "sensors 1 and 5 exchanged"),
         (Change::Reordered(vec![2, 0, 1]), "points in another order (3, 1, 2)"),

@@ -2,22 +2,12 @@
 
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
-use crate::common::whole_models::{masses, springs};
+use crate::common::whole_models::{chain_of_springs as chain, masses, springs};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
 use corfem::studies::free_modes::counted_modes;
 use corfem::studies::whole_model::{Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes};
 use nalgebra::{DMatrix, DVector};
-
-fn chain(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
-    let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
-    match ends {
-        ChainEnds::FreeFree => {}
-        ChainEnds::FixedFree => all.push((0, None, spring)),
-        ChainEnds::FixedFixed => all.extend([(0, None, spring), (count - 1, None, spring)]),
-    }
-    springs(count, &all)
-}
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {

@@ -61,11 +61,11 @@ pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
     exchange(order.clone(), agreement).unwrap_or((order, 0.0))
 }
 
-/// Shapes scaled to unit largest component.
+/// Shapes, none of which is zero, scaled to unit largest component.
 fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
-        shape /= if largest > 0.0 { largest } else { 1.0 };
+        shape /= largest;
     }
     shapes
 }

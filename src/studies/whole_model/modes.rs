@@ -56,7 +56,7 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
     let mut wanted = count + BEYOND;
     loop {
         let (_, shapes, is_all) = subspace(&factor, mass, wanted, FOUND)?;
-        let omega_squared = squared_frequencies(stiffness, mass, &shapes)?;
+        let omega_squared = squared_frequencies(stiffness, &shapes)?;
         let rigid = omega_squared.iter().take_while(|value| **value < RIGID * shift).count();
         if shapes.ncols() == wanted && wanted < count + rigid + BEYOND {
             wanted = count + rigid + BEYOND;
@@ -151,8 +151,9 @@ fn orthonormal(mass: &SparseMatrix, basis: &DMatrix<f64>, mut block: DMatrix<f64
         let gram = symmetric_part(&block.tr_mul(&mass.times(&block)?));
         // The first time each column is brought to unit size alone.
         let gram = if round == 0 { DMatrix::from_diagonal(&gram.diagonal()) } else { gram };
-        let least = if round == 0 { 0.0 } else { 1e-20 };
         let (values, vectors) = symmetric_eigen("block", &gram)?;
+        // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
+        let least = if round == 0 { 0.0 } else { (1e-14 * values[values.len() - 1]).max(1e-20) };
         let independent: Vec<usize> = (0..values.len()).filter(|&column| values[column] > least).collect();
         if independent.is_empty() {
             return Ok(DMatrix::zeros(mass.rows(), 0));
@@ -170,15 +171,10 @@ fn beside(left: DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     both
 }
 
-/// Rayleigh's quotient of every shape, which a shift has taken no digits from.
-fn squared_frequencies(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    shapes: &DMatrix<f64>,
-) -> Result<DVector<f64>, Error> {
-    let (forces, momenta) = (stiffness.times(shapes)?, mass.times(shapes)?);
-    let square = |mode: usize, of: &DMatrix<f64>| shapes.column(mode).dot(&of.column(mode));
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| (square(mode, &forces) / square(mode, &momenta)).max(0.0)))
+/// Rayleigh's quotient of every shape of unit generalized mass, which a shift has taken no digits from.
+fn squared_frequencies(stiffness: &SparseMatrix, shapes: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
+    let forces = stiffness.times(shapes)?;
+    Ok(DVector::from_fn(shapes.ncols(), |mode, _| shapes.column(mode).dot(&forces.column(mode)).max(0.0)))
 }
 
 /// Refuses squared frequencies (rad²/s², ascending, rigid-body modes among them) that are not all the lowest ones of a pencil: one
