@@ -199,12 +199,16 @@ fn check_number(factor: At, omega_squared: &DVector<f64>, needed: usize, is_all:
     let last = omega_squared.len();
     let gap = |place: &usize| omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place];
     let found = (needed..last).find(gap).unwrap_or(last);
-    let bound = match found {
-        _ if found < last => 0.5 * (omega_squared[found - 1] + omega_squared[found]),
-        _ if is_all => 2.0 * omega_squared[last - 1],
+    let next = match found {
+        _ if found < last => omega_squared[found],
+        _ if is_all => 3.0 * omega_squared[last - 1],
         // Neighbors so close that none of them can be left out: the bound stands just above the last.
-        _ => (1.0 + APART) * omega_squared[last - 1],
+        _ => (1.0 + 2.0 * APART) * omega_squared[last - 1],
     };
-    let counted = factor("pencil at a bound on its frequencies", -bound)?.negative_count();
+    let bound = |part: f64| omega_squared[found - 1] + part * (next - omega_squared[found - 1]);
+    let factor_at = |bound: f64| factor("pencil at a bound on its frequencies", -bound).map(|factor| (bound, factor));
+    // Nothing is exchanged in this factorization: at one place a part of the structure may vibrate by itself, and no other at another.
+    let (bound, factor) = factor_at(bound(0.5)).or_else(|_| factor_at(bound(0.4)))?;
+    let counted = factor.negative_count();
     if counted == found { Ok(()) } else { Err(Error::Miscounted { bound, counted, found }) }
 }
