@@ -26,6 +26,7 @@ fn main() {
             _ => names.push(argument),
         }
     }
+    assert!(scipy.is_none() || folder.is_some(), "--scipy wants --write too: what it reads is written there");
     if names.is_empty() {
         names = MESHES[..2].iter().map(|(name, _)| (*name).to_owned()).collect();
     }

@@ -66,7 +66,8 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
     check_elements(elements, sizes, dof_count)?;
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
-    for (row, column, value) in entries(elements, sizes) {
+    for (row, column, value) in elements.iter().zip(sizes).flat_map(|(element, &size)| stiffness_entries(element, size))
+    {
         stiffness[(row, column)] += value;
     }
     finite("structural stiffness", stiffness)
@@ -88,10 +89,9 @@ pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) 
     finite_list("lumped mass", lumped.data.into()).map(DVector::from_vec)
 }
 
-/// Row, column and value of every entry of every $s_e K_e$.
-fn entries(elements: &[ElementMatrix], sizes: &[f64]) -> impl Iterator<Item = (usize, usize, f64)> {
-    elements.iter().zip(sizes).flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
-        let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
-        (0..dof.len()).flat_map(column)
-    })
+/// Row, column and value of every entry of $s_e K_e$.
+pub(crate) fn stiffness_entries(element: &ElementMatrix, size: f64) -> impl Iterator<Item = (usize, usize, f64)> {
+    let ElementMatrix { dof, unit, .. } = element;
+    let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
+    (0..dof.len()).flat_map(column)
 }

@@ -12,7 +12,8 @@ use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use nalgebra::{DMatrix, dmatrix};
 
-fn prepared(files: &Files) -> Prepared {
+/// A job that has no mistake, ready to run.
+pub fn prepared(files: &Files) -> Prepared {
     let (_folder, path) = placed(files);
     Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -1,10 +1,11 @@
 //! What a run of a job comes to: its verdict, what is told on the way, the best so far, bounds from any start, and the deck.
 
 use super::job_errors::{placed, with};
+use super::job_prepared::prepared;
 use crate::common::jobs::{Files, rods};
 use crate::common::tolerances::{PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
-use corfem::files::job::{Finished, History, Prepared, Study, Vary, run};
+use corfem::files::job::{Finished, History, Study, Vary, run};
 use corfem::method::verdict::Outcome;
 use corfem::studies::weighted::residuals::residuals;
 use std::cell::Cell;
@@ -13,11 +14,6 @@ const A: &str = "elements = [1]";
 const B: &str = "elements = [\"2-3\"]";
 /// Rods 2 and 3 one by one: what the test was made of can be found.
 const EACH: &str = "elements = [\"2-3\"]\neach = true";
-
-fn prepared(files: &Files) -> Prepared {
-    let (_folder, path) = placed(files);
-    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn ran(files: &Files) -> Finished {
     run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))

@@ -1,9 +1,8 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
-use super::elements::stiffness_entries;
 use super::{Factor, SparseMatrix, lowest_modes};
 use crate::method::appendix_a::{Condensed, condense_deflections, generalized_stiffness};
-use crate::method::assembly::{ElementMatrix, check_element};
+use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_length, check_symmetric};
 use crate::method::model::{ModalModel, Pair, Range, Share};

@@ -1,18 +1,11 @@
 //! Whole models made of elements.
 
 use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use crate::method::assembly::ElementMatrix;
+use crate::method::assembly::{ElementMatrix, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, Scaled};
 
-/// The entries (row, column, value) of an element's stiffness for its size.
-pub(crate) fn stiffness_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
-    let count = element.dof.len();
-    let places = (0..count).flat_map(|b| (0..count).map(move |a| (a, b)));
-    places.map(|(a, b)| (element.dof[a], element.dof[b], size * element.unit[(a, b)])).collect()
-}
-
-/// Those of its lumped mass.
+/// The entries (row, column, value) of an element's lumped mass for its size.
 pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
     element.dof.iter().zip(&element.unit_mass).map(|(&row, unit)| (row, row, size * unit)).collect()
 }
