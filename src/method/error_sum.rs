@@ -74,8 +74,9 @@ pub struct ModeError {
 /// The errors of every test mode, whose squares (5) and (6) add up.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::TooMany`] for modes other than those paired; [`Error::NotFinite`] for frequencies so far
-/// apart, or shapes so small, that their squares are no number.
+/// [`Error::WrongShape`], [`Error::TooMany`] for modes other than those paired; [`Error::NotPositive`] for an analysis mode that
+/// moves at none of the DOF compared; [`Error::NotFinite`] for frequencies so far apart, or shapes so small, that their squares are
+/// no number.
 #[doc = include_str!("../../paper/examples/error_sum/mode_errors.md")]
 pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Vec<ModeError>, Error> {
     check_shape("test mode shapes", &test.shapes, analysis.shapes.nrows(), test.len())?;
@@ -89,7 +90,16 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
         ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
     };
     let errors: Vec<ModeError> = pairing.analysis_mode.iter().enumerate().map(of_mode).collect();
-    check_error_sum(errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum()).map(|()| errors)
+    let sum = errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum();
+    let is_still = |mode: &&usize| analysis.shapes.column(**mode).amax() == 0.0;
+    check_error_sum(sum).map_err(|error| match pairing.analysis_mode.iter().find(is_still) {
+        Some(mode) => {
+            let owner = format!("analysis mode {mode} (from zero)");
+            Error::NotPositive { what: "largest component where it is compared", owner, value: 0.0 }
+        }
+        None => error,
+    })?;
+    Ok(errors)
 }
 
 /// Refuses an error sum that is no finite number.

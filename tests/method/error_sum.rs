@@ -4,6 +4,7 @@ use crate::common::pairings::rearrangement;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
 use corfem::cases::published::PublishedTable;
+use corfem::method::error::Error;
 use corfem::method::error_sum::{Errors, errors};
 use corfem::method::modes::ModeSet;
 use corfem::method::pairing::{Pairing, cross_orthogonality, pair_modes};
@@ -113,6 +114,23 @@ fn errors_by_hand() {
     assert!((found.frequency - 0.02_f64.sqrt()).abs() <= ROUND_OFF);
     assert!((found.shape - (37.0 / 288.0_f64).sqrt()).abs() <= ROUND_OFF);
     assert_eq!(found.mode_count, 2);
+}
+
+#[test]
+fn a_mode_that_moves_where_nothing_is_measured_is_named() {
+    let analysis = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 0.0; 1.0, 0.0] };
+    let test = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 1.0; 1.0, -1.0] };
+    let error = errors(&analysis, &in_order(2), &test).unwrap_err().to_string();
+    let message = "largest component where it is compared of analysis mode 1 (from zero): expected a positive finite number, \
+        found 0";
+    assert_eq!(error, message);
+}
+
+#[test]
+fn squares_too_large_for_a_number_are_refused_as_such() {
+    let modes = |scale| ModeSet { omega_squared: dvector![scale], shapes: dmatrix![1.0] };
+    let error = errors(&modes(1e300), &in_order(1), &modes(1e-20)).unwrap_err();
+    assert!(matches!(error, Error::NotFinite { what: "error sum", .. }), "{error}");
 }
 
 #[test]
