@@ -1,4 +1,5 @@
 //! The load distribution $T$, by its coefficients that are not zero.
+//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::check_finite;

@@ -103,6 +103,30 @@ fn every_chapter_has_its_parts() {
     }
 }
 
+/// What every chapter is not about: it serves all modules alike.
+const OF_NO_CHAPTER: [&str; 2] = ["error", "linear_algebra"];
+
+#[test]
+fn every_public_module_of_the_method_points_to_its_chapter() {
+    let source = |path: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(path);
+        fs::read_to_string(&file).unwrap_or_else(|_| panic!("{path} does not read"))
+    };
+    let (list, tour) = (source("method/mod.rs"), source("tour.rs"));
+    let modules: Vec<&str> = list.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
+    assert!(OF_NO_CHAPTER.iter().all(|module| modules.contains(module)), "{modules:?}");
+    for module in modules.into_iter().filter(|module| !OF_NO_CHAPTER.contains(module)) {
+        let folder = format!("method/{module}/mod.rs");
+        let is_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(&folder).exists();
+        let text = source(&if is_folder { folder } else { format!("method/{module}.rs") });
+        let pointer = text.lines().find_map(|line| line.strip_prefix("//! Tour: [chapter ")?.strip_suffix(")."));
+        let (number, path) = pointer.and_then(|pointer| pointer.split_once("](crate::tour::")).unwrap_or_default();
+        let chapter = format!("chapter_{number:0>2}_");
+        let is_there = path.starts_with(&chapter) && tour.contains(&format!("pub mod {path} {{"));
+        assert!(is_there, "method::{module} points to no chapter: {pointer:?}");
+    }
+}
+
 #[test]
 fn the_check_finds_a_number_that_is_said_alone() {
     assert_eq!(only_said("It is 1.25.\n\n```rust\nlet x = 1.5; // 1.25\n```\n"), ["1.25"]);

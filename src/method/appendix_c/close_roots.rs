@@ -1,4 +1,5 @@
 //! Close and repeated roots: small blocks of close modes solved exactly, the rest by Recursive 1.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
 //! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With

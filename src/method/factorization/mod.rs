@@ -1,4 +1,5 @@
 //! Factorization of the structural stiffness: planned once, made anew for every set of sizes, solved many times.
+//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 mod plan;
 

@@ -1,4 +1,5 @@
 //! Appendix C in full: changes of stiffness and of $G$ together, left and right shapes, real or complex.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! With $k = U^t K V$ diagonal (C.10), $\beta = U^t \Delta K V$ and $\alpha = U^t \Delta G V$, the changed mode $j$ is
 //! $V p_j$ with root $\gamma_j = \lambda_j + \Delta\lambda_j$ and
