@@ -259,3 +259,5 @@ pub const SHOWN_UNITS: f64 = 0.6;
 /// Gradients where cases begin by two formulas, relative to the largest: modes of condition 1e5 or so, differences of whose squared
 /// frequencies divide.
 pub const EXPECTED_GRADIENT: f64 = 1e-8;
+/// Units of a drawing by which a rounded place may be off: one, of a tenth of a pixel, for two roundings of a half.
+pub const DRAWN_UNIT: f64 = 1.001;

@@ -55,3 +55,52 @@ proptest! {
         }
     }
 }
+
+/// A frame of these places, of which the first ones have sensors along an axis.
+fn of_places(nodes: Vec<Vector3<f64>>, sensors: &[Vector3<f64>], panels: Vec<Vec<usize>>) -> Frame {
+    let known = sensors.iter().enumerate().map(|(row, &along)| (row, vec![(row, along)])).collect();
+    Frame { grids: vec![None; nodes.len()], lines: Vec::new(), nodes, panels, known }
+}
+
+#[test]
+fn a_place_near_a_sensor_moves_as_it_does_and_one_twice_as_far_has_a_sixteenth_of_its_weight() {
+    let at = |x: f64| Vector3::new(x, 0.0, 0.0);
+    let frame = of_places(vec![at(3.0), at(6.0), at(4.0), at(3.0 + 1e-6)], &[Vector3::z(), Vector3::z()], Vec::new());
+    let moved = frame.moved(&[2.0, -1.0], None);
+    // At one and at two lengths from one and minus one half: 16 to 1.
+    assert!((moved[2].z - (16.0 - 0.5) / 17.0).abs() < NODE_LINE);
+    assert!((moved[3].z - 1.0).abs() < NODE_LINE);
+    let unknown = of_places(vec![at(0.0), at(1.0)], &[], Vec::new());
+    assert_eq!(unknown.moved(&[1.0], None), [Vector3::zeros(); 2]);
+}
+
+#[test]
+fn a_grid_moves_as_the_whole_model_says_but_along_its_sensor_as_measured() {
+    let at = |x: f64| Vector3::new(x, 0.0, 0.0);
+    let mut frame = of_places(vec![at(0.0), at(1.0), at(2.0)], &[Vector3::z()], Vec::new());
+    frame.grids = vec![Some(1), Some(0), None];
+    let grids = [Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, 6.0, 8.0)];
+    let moved = frame.moved(&[-4.0], Some(&grids));
+    assert_eq!(moved[0], Vector3::new(1.0, 1.5, -1.0));
+    assert_eq!(moved[1], Vector3::new(0.25, 0.5, 0.75));
+    assert_eq!(moved[2], -Vector3::z(), "as the sensor, which is the only one");
+}
+
+/// However the corners are numbered, and on either side.
+#[test]
+fn a_node_line_runs_from_a_corner_at_rest_to_the_edge_across() {
+    let corners = [Vector3::new(0.0, 0.0, 0.0), Vector3::new(2.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0)];
+    for first in 0..3 {
+        for sign in [1.0, -1.0] {
+            // Zero at the origin; the edge across from it has its zero at a third of its length.
+            let heights = [0.0, sign, -2.0 * sign].map(|height| Vector3::new(0.0, 0.0, height));
+            let panel: Vec<Vec<usize>> = vec![(0..3).map(|row| (first + row) % 3).collect()];
+            let frame = of_places(corners.to_vec(), &[], panel);
+            let lines = frame.node_lines(&Vector3::z(), &heights);
+            let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
+            let zero: Vector3<f64> = Vector3::new(4.0, 2.0, 0.0) / 3.0;
+            assert!((long - zero.norm()).abs() < NODE_LINE, "{lines:?}");
+            assert!(lines.as_flattened().iter().all(|end| end.cross(&zero).norm() < NODE_LINE), "{lines:?}");
+        }
+    }
+}

@@ -58,7 +58,6 @@ fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn fill(series: usize, count: usize) -> RGBColor {
     match series {
         0 => WHITE,
-        _ if count == 2 => BLUE,
         _ => between(between(WHITE, SKY, 0.5), BLUE, series as f64 / (count - 1) as f64),
     }
 }

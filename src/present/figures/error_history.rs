@@ -78,7 +78,7 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let decades = (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
     let all: Vec<(u8, f64)> = decades.flatten().collect();
     let low = all.iter().rposition(|(_, tick)| *tick < 0.9 * least).unwrap_or(0);
-    let high = all.iter().position(|(_, tick)| *tick > 1.1 * most).unwrap_or(all.len() - 1).max(low + 1);
+    let high = all.iter().position(|(_, tick)| *tick > 1.1 * most).unwrap_or(low);
     let (low, high) = (all[low].1, all[high].1);
     let few = (high / low).log10() < FEW_DECADES;
     let shown = all.into_iter().filter(|(part, tick)| (low..=high).contains(tick) && (few || *part == 1));

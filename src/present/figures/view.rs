@@ -72,12 +72,11 @@ impl View {
         }
     }
 
-    /// The view scaled to show the given points as large as there is room, in its middle.
+    /// A view of no scale yet, scaled to show the given points as large as there is room, in its middle.
     pub fn fitted(self, points: &[Vector3<f64>], [left, top, width, height]: Room) -> Self {
-        let unit = Self { origin: (0.0, 0.0), scale: 1.0, ..self };
         let bounds = |coordinate: fn(Place) -> f64| {
             let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            let values = points.iter().map(|&point| coordinate(unit.place(point)));
+            let values = points.iter().map(|&point| coordinate(self.place(point)));
             values.fold(ends, |(low, high), value| (value.min(low), value.max(high)))
         };
         let ((x_low, x_high), (y_low, y_high)) = (bounds(|place| place.0), bounds(|place| place.1));
