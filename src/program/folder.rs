@@ -26,8 +26,7 @@ const NEW: &str = "new";
 pub fn check_folder(folder: &Path) -> std::result::Result<(), PresentError> {
     let check = || match fs::metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(ErrorKind::InvalidInput, "standard output is no folder")),
-        Ok(found) if found.is_dir() => probe(folder),
-        Ok(_) => Err(ErrorKind::NotADirectory.into()),
+        Ok(_) => probe(folder),
         Err(_) => probe(folder.parent().unwrap_or(folder)),
     };
     Ok(check().map_err(FileError::of_file(folder, "write"))?)

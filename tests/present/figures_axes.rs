@@ -3,7 +3,7 @@
 use crate::common::drawings::written;
 use crate::present::figures::results;
 use corfem::cases::Case;
-use corfem::present::figures::cover_gages::{cover_gages, draw};
+use corfem::present::figures::cover_gages::{Cover, cover_gages, draw};
 use corfem::present::figures::error_history::{self, PassHistory, error_history};
 use corfem::present::figures::factors::{Factor, Factors};
 use corfem::present::subject::Subject;
@@ -16,11 +16,15 @@ fn words(svg: &str) -> Vec<String> {
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {
     let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
-    let words = words(&draw(&cover_gages(&cases)).expect("drawn"));
+    let words = self::words(&draw(&cover_gages(&cases)).expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
     assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
     assert!(words.iter().any(|word| word == "0.010"));
     assert!(!words.iter().any(|word| word == "0.0100" || word == "0.000"));
+    let mut covers = cover_gages(&cases[..1]);
+    covers[1].1.iter_mut().for_each(|cover: &mut Cover| cover.gage = 0.001);
+    let thin = self::words(&draw(&covers).expect("drawn"));
+    assert_eq!(thin.iter().filter(|word| *word == "0.001").count(), 6, "three decimals are enough");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Figures of small made-up data, as stored: what the cases' own figures have no example of.
 
+use crate::common::drawings::written;
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::files::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
@@ -92,6 +93,7 @@ fn histories_with_long_and_short_passes() {
     // From beyond one end of the axis to beyond the other; and no iterations at all.
     let far = [pass(0, 4, [200.0, 1e-3], Some(1e-12), true), pass(4, 2, [1e-3, 1e-12], Some(1e-6), true)];
     assert_golden("drawing_errors_far", &draw(&far), DRAWN);
+    assert_golden("drawing_errors_short", &draw(&[pass(0, 1, [0.2, 0.1], None, true)]), DRAWN);
     assert!(draw(&[]).contains("SRSS error"));
 }
 
@@ -139,5 +141,9 @@ fn two_series_of_small_bars_side_by_side() {
         up: "error".into(),
         marked: "printed".into(),
     };
-    assert_golden("drawing_bars", &figure.draw("bars", "Bars").expect("drawn"), DRAWN);
+    let drawn = figure.draw("bars", "Bars").expect("drawn");
+    let steps = written(&drawn).into_iter().filter(|word| word.bounds[2] < 66.0 && word.text.starts_with("0."));
+    let steps: Vec<String> = steps.map(|word| word.text).collect();
+    assert_eq!(steps[..4], ["0.000", "0.010", "0.020", "0.030"], "as many decimals as they need");
+    assert_golden("drawing_bars", &drawn, DRAWN);
 }

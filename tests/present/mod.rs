@@ -1,6 +1,7 @@
 //! Tables, figures, page.
 
 pub mod cost_tables;
+pub mod deck_tables;
 pub mod delta_wing_report;
 pub mod figures;
 pub mod figures_axes;
@@ -11,6 +12,7 @@ pub mod figures_legible;
 pub mod figures_made_up;
 pub mod figures_structure;
 pub mod histogram;
+pub mod job_subject;
 pub mod frame;
 pub mod matrix_tables;
 pub mod noisy_tables;

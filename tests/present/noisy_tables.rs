@@ -55,6 +55,11 @@ fn notes_say_why_nothing_is_balanced_and_whether_appendix_b_helps() {
     let notes = tables[0].notes.join(" ");
     let better = study().runs[1..].iter().filter(|run| run.screened.gage_rms < run.raw.gage_rms).count();
     assert!(notes.contains("Balancing does not apply") && notes.contains(&format!("screened ones with {better}.")));
+    // One that is as good is not better.
+    let mut alike = study().clone();
+    alike.runs.iter_mut().for_each(|run| run.screened.gage_rms = run.raw.gage_rms);
+    alike.runs[1].screened.gage_rms *= 0.9;
+    assert!(noisy_tables(&alike)[0].notes.join(" ").contains("screened ones with 1."));
     assert!(notes.contains("1.0 % of its shape's largest component"));
     let mut free = study().clone();
     free.support_ratio = None;

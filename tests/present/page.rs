@@ -168,6 +168,13 @@ fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
     assert!(html.contains("<h3>Passes and tolerances</h3>"));
     assert!(!html.contains("Where the results differ from the published ones, and why</h1>"));
     assert!(!html.contains("How it was found"), "of the box's story only the assumptions");
+    assert!(!html.contains("<h3>Where the results differ"), "its title is the section's");
+    // What looks wrong before the first step, of every case.
+    let preflight = html.split("<table id=\"preflight_findings\">").nth(1).expect("the table");
+    let rows = preflight.split("</table>").next().expect("its end");
+    for case in 1..=4 {
+        assert!(rows.contains(&format!("<th scope=\"row\">Case {case}")), "{rows}");
+    }
 }
 
 #[test]

@@ -91,6 +91,17 @@ A note.
 }
 
 #[test]
+fn a_table_as_wide_as_the_page_stays_whole_and_a_wider_one_goes_on_below() {
+    let table = |wide: usize| {
+        let cell = |wide: usize| [Cell::text("x".repeat(wide))];
+        let table = Table::new("t", "A title", "Mode").labels(["label of 15 ..."]);
+        text(&[table.column("a", "", cell(40)).column("b", "", cell(wide))])
+    };
+    assert_eq!(table(WIDTH - 15 - 2 - 40 - 2).matches("Mode").count(), 1);
+    assert_eq!(table(WIDTH - 15 - 2 - 40 - 1).matches("Mode").count(), 2);
+}
+
+#[test]
 fn markdown_has_it_in_parentheses() {
     let expected = "\
 Computed numbers, the published ones behind them in parentheses.

@@ -155,6 +155,7 @@ fn tables_hold_every_mode_and_factor_and_fit_a_page() {
     for subject in [&*WING, &chain("rod", &[0.9, 1.1, 0.95, 1.0], along)] {
         let mut tables = subject_tables(subject);
         tables.extend(derivative_table(subject));
+        assert_eq!(tables[3].rows.len(), subject.parameters.len());
         for line in text(&tables).lines() {
             assert!(line.chars().count() <= WIDTH, "{line}");
         }

@@ -134,6 +134,31 @@ fn a_file_of_the_system_itself_is_written_over() {
 }
 
 /// The calls of a run that wait for the disk or change a name, in order.
+/// A file that another is mounted on cannot be replaced by a new one of its name.
+#[test]
+fn a_file_that_is_mounted_is_written_over() {
+    let place = Place::new(0o644);
+    set(&place.held, 0o755);
+    let other = place.held.join("other");
+    fs::write(&other, "old").expect("written");
+    let shell = "mount --bind \"$2\" \"$1\" && \"$3\" cases 4 -q -o \"$1\"";
+    let words = [&place.file, &other, &place.root.path().join("corfem")];
+    let run = |shell: &str| {
+        Command::new("unshare")
+            .args(["--user", "--map-root-user", "--mount", "sh", "-c", shell, "sh"])
+            .args(words)
+            .output()
+    };
+    if !run("mount --bind \"$2\" \"$1\"").is_ok_and(|done| done.status.success()) {
+        println!("NOT RUN: a file that is mounted. It needs unshare and the right to mount.");
+        return;
+    }
+    let done = run(shell).expect("it starts");
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    assert_eq!(fs::read(&other).expect("it reads"), report());
+    assert!(fs::read_to_string(&place.file).expect("it reads").starts_with("old old"), "what lies under it stays");
+}
+
 fn calls(arguments: &[&str], folder: &Path) -> Option<Vec<String>> {
     let log = folder.join("log");
     let mut command = Command::new("strace");

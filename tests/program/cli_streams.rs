@@ -135,6 +135,18 @@ fn a_path_that_cannot_be_written_is_refused_before_the_work() {
         let said = text(&refused.stderr);
         assert!(said.starts_with(&format!("corfem: {}: expected to write it", path(name))), "no progress: {said}");
     }
+    // A link that leads to itself leads nowhere.
+    std::os::unix::fs::symlink("circle", folder.path().join("circle")).expect("linked");
+    assert_eq!(corfem(&["cases", "4", "-o", &path("circle")]).status.code(), Some(2));
+    fs::remove_file(path("circle")).expect("removed");
+    fs::write(path("file"), "mine").expect("written");
+    for name in ["file", "file/new"] {
+        let refused = corfem(&["figures", "-o", &path(name)]);
+        let said = text(&refused.stderr);
+        assert!(refused.status.code() == Some(2) && said.contains("Not a directory"), "{said}");
+    }
+    assert_eq!(fs::read_to_string(path("file")).expect("it reads"), "mine");
+    fs::remove_file(path("file")).expect("removed");
     for command in ["figures", "report"] {
         for name in ["-".to_owned(), path("no/such"), "/dev/null".to_owned()] {
             let refused = corfem(&[command, "-o", &name]);

@@ -121,6 +121,8 @@ fn a_folder_gets_every_matrix_as_the_document_has_it() {
     let output = corfem(&["dump", "2", "--folder", &path.display().to_string()]);
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stdout.is_empty());
+    assert_eq!(String::from_utf8_lossy(&output.stderr), format!("{} files in {}\n", 3 + 3 * 19, path.display()));
+    assert!(corfem(&["dump", "2", "--folder", &path.display().to_string(), "--quiet"]).stderr.is_empty());
     // T, V_G and the document; K_D, M, V, B and fifteen shares of the start and of both passes.
     assert_eq!(fs::read_dir(&path).expect("a folder").count(), 3 + 3 * 19);
     let dump: Value = serde_json::from_slice(&fs::read(path.join("dump.json")).expect("a file")).expect("JSON");

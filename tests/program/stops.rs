@@ -134,6 +134,31 @@ fn a_signal_leaves_a_whole_set_and_nothing_beside_it() {
     }
 }
 
+/// What a run leaves that is stopped between its links: one over nothing, and one over an old file.
+#[test]
+fn what_a_stopped_run_leaves_is_settled_by_the_next() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let link = |target: &str, name: &str| std::os::unix::fs::symlink(target, at(name)).expect("linked");
+    let leave = || {
+        std::fs::create_dir_all(at(".corfem-set/old")).expect("made");
+        link("old", ".corfem-set/current");
+        std::fs::write(at(".corfem-set/old/kept.svg"), OLD).expect("written");
+        link(".corfem-set/current/kept.svg", "kept.svg");
+        link(".corfem-set/current/new.svg", "new.svg");
+    };
+    leave();
+    assert!(start(&[], folder.path()).wait().expect("an end").success());
+    assert!(!at("new.svg").is_symlink() && !at("kept.svg").is_symlink() && !at(STAGE).exists());
+    assert_eq!(std::fs::read_to_string(at("kept.svg")).expect("it reads"), OLD);
+    // What cannot be put back is left as it is: no file can take a folder's place.
+    std::fs::remove_file(at("kept.svg")).expect("removed");
+    leave();
+    std::fs::create_dir(at(".corfem-set/old/new.svg")).expect("made");
+    assert_eq!(start(&[], folder.path()).wait().expect("an end").code(), Some(2));
+    assert!(at("new.svg").is_symlink() && at(".corfem-set/old/new.svg").is_dir());
+}
+
 #[test]
 fn a_kill_at_every_change_of_the_folder_leaves_the_old_set_or_the_new_one() {
     let has_strace =
