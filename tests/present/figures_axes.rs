@@ -69,7 +69,7 @@ fn factor_axis_leaves_room_for_the_numbers() {
         bounds: None,
         remark: None,
     };
-    for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0)] {
+    for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0), ([-0.99, 5.0], -2.0)] {
         let rows = values.map(factor).to_vec();
         let across = "factor".to_owned();
         let drawn = Factors { rows, limits: Some(limits), across, decimals: 3, published: "" };

@@ -25,6 +25,11 @@ pub fn summary(spreads: Vec<(&str, Option<Spread>)>) -> Summary {
     Summary { spreads, within: 0, outside: 0, failed: Vec::new() }
 }
 
+/// The words of a drawing, whose numbers a golden compares to their last digit only.
+fn words(svg: &str) -> Vec<String> {
+    written(svg).into_iter().map(|word| word.text).collect()
+}
+
 #[test]
 fn histograms_of_few_samples() {
     let summary = summary(vec![
@@ -34,7 +39,11 @@ fn histograms_of_few_samples() {
         ("far apart", Some(spread([-12.0, 30.0], [-11.0, 2.0, 29.0], &[9, 3, 1]))),
         ("close", Some(spread([0.999, 1.0], [0.9991, 0.9995, 0.9999], &[2, 2]))),
     ]);
-    assert_golden("drawing_histogram", &histogram::draw("histogram", "Samples", &summary).expect("drawn"), DRAWN);
+    let drawn = histogram::draw("histogram", "Samples", &summary).expect("drawn");
+    // As many decimals as tell the ends apart: of a thousandth four, of forty none.
+    assert!(words(&drawn).iter().any(|word| word.starts_with("0.999") && word.len() == 6), "{:?}", words(&drawn));
+    assert!(words(&drawn).iter().any(|word| word == "20") && !words(&drawn).iter().any(|word| word == "20.0"));
+    assert_golden("drawing_histogram", &drawn, DRAWN);
 }
 
 fn factor(name: &str, value: f64) -> Factor {
@@ -52,7 +61,7 @@ fn factors_with_bounds_deviations_and_remarks() {
         Factor { published: Some(0.7), ..factor(&long[..40], f64::NAN) },
         Factor { deviation: Some(0.3), published: Some(0.5), ..factor("as it was", 1.0) },
         Factor { deviation: Some(0.01), published: Some(0.3), remark: Some("at bound"), ..factor(long, 0.9) },
-        Factor { deviation: Some(0.4), published: Some(0.9), ..factor("unsure", 0.8) },
+        Factor { deviation: Some(0.75), published: Some(0.9), ..factor("unsure", 0.8) },
     ];
     let figure = |rows, limits| Factors { rows, limits, across: "factor".into(), decimals: 2, published: "right" };
     assert_golden("drawing_factors", &figure(rows.clone(), None).draw("factors", "Factors").expect("drawn"), DRAWN);
@@ -90,6 +99,10 @@ fn histories_with_long_and_short_passes() {
     ];
     let draw = |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).expect("drawn");
     assert_golden("drawing_errors", &draw(&passes), DRAWN);
+    let said = words(&draw(&passes));
+    for name in ["pass 1 (tolerance 12.0 %)", "pass 2", "3", "pass 4"] {
+        assert!(said.iter().any(|word| word == name), "{name}: {said:?}");
+    }
     // From beyond one end of the axis to beyond the other; and no iterations at all.
     let far = [pass(0, 4, [200.0, 1e-3], Some(1e-12), true), pass(4, 2, [1e-3, 1e-12], Some(1e-6), true)];
     assert_golden("drawing_errors_far", &draw(&far), DRAWN);

@@ -51,6 +51,12 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
     subject.supports = vec![at(2.0, 1.0, 0.0)];
     subject.grids = vec![(11, at(2.0, 1.0, 0.0)), (12, at(2.0, 0.0, 0.0)), (13, at(1.5, 0.5, 0.0))];
     assert_golden("drawing_structure", &drawn(&subject), DRAWN);
+    // A line has less than 96 letters: beside a name of 82 there is no room for the words before it.
+    let unknown = |long: usize| {
+        let sensors = vec![("s".to_owned(), Some(at(0.0, 0.0, 0.0))), ("n".repeat(long), None)];
+        words(&drawn(&with_sensors(sensors, vec![panel(2.0, 1.0)]))).contains(&"place unknown:".to_owned())
+    };
+    assert!(unknown(82) && !unknown(81));
     // Where there are more than any ring about them has room for, a name stands where the first would.
     let many = (0..110).map(|row| (format!("s{row}"), Some(at(1.0 + 1e-6 * f64::from(row), 0.5, 0.0)))).collect();
     assert_golden("drawing_structure_full", &drawn(&with_sensors(many, vec![panel(2.0, 1.0)])), DRAWN);
@@ -113,6 +119,14 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     assert_golden("drawing_modes_in_plane", &in_plane.draw("modes", "Modes").expect("drawn"), DRAWN);
     let in_depth = modes(frame(deep, lines()), |row| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin()));
     assert_golden("drawing_modes_in_depth", &in_depth.draw("modes", "Modes").expect("drawn"), DRAWN);
+    // Out of a plane that is flat but for round-off no depth is exaggerated.
+    let bent = [at(0.0, 0.0, 0.0), at(1e3, 0.0, 1e-5), at(1e3, 5e2, 0.0), at(0.0, 5e2, 0.0)];
+    let even = bent.map(|place| at(place.x, place.y, 0.0));
+    let [bent, even] = [bent, even].map(|nodes| {
+        let modes = modes(frame(nodes, lines()), |row| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin()));
+        modes.draw("modes", "Modes").expect("drawn")
+    });
+    assert!(DRAWN.agree(&bent, &even));
     let marks = modes(frame(deep, Vec::new()), |row| at(0.0, 0.0, (row as f64).sin()));
     assert_golden("drawing_modes_as_marks", &marks.draw("modes", "Modes").expect("drawn"), DRAWN);
 }

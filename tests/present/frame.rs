@@ -70,6 +70,9 @@ fn a_place_near_a_sensor_moves_as_it_does_and_one_twice_as_far_has_a_sixteenth_o
     // At one and at two lengths from one and minus one half: 16 to 1.
     assert!((moved[2].z - (16.0 - 0.5) / 17.0).abs() < NODE_LINE);
     assert!((moved[3].z - 1.0).abs() < NODE_LINE);
+    // The farthest that a place can be, too.
+    let far = of_places(vec![at(1.0), at(3.0), at(0.0)], &[Vector3::z(), Vector3::z()], Vec::new());
+    assert!((far.moved(&[2.0, -1.0], None)[2].z - (81.0 - 0.5) / 82.0).abs() < NODE_LINE);
     let unknown = of_places(vec![at(0.0), at(1.0)], &[], Vec::new());
     assert_eq!(unknown.moved(&[1.0], None), [Vector3::zeros(); 2]);
 }
@@ -102,5 +105,21 @@ fn a_node_line_runs_from_a_corner_at_rest_to_the_edge_across() {
             assert!((long - zero.norm()).abs() < NODE_LINE, "{lines:?}");
             assert!(lines.as_flattened().iter().all(|end| end.cross(&zero).norm() < NODE_LINE), "{lines:?}");
         }
+    }
+}
+
+#[test]
+fn a_line_that_measures_along_itself_is_drawn_across_and_zero_has_one_sign() {
+    for (axis, across) in [(0, Vector3::z()), (1, Vector3::z()), (2, Vector3::x())] {
+        let line = Vector3::ith(axis, 1.0);
+        let along = chain("rod", &[1.0; 3], |row| (row as f64 * line, line));
+        let directions = |frame: &Frame| frame.known.values().flatten().map(|sensor| sensor.1).collect::<Vec<_>>();
+        assert_eq!(directions(&Frame::of(&along)), [across; 3]);
+        let mut subject = along.clone();
+        subject.sensors[1].direction = Vector3::ith((axis + 1) % 3, 1.0);
+        let directions = directions(&Frame::of(&subject));
+        assert_eq!(directions, [line, subject.sensors[1].direction, line], "one of them measures across already");
+        subject.sensors[0].place = Some(Vector3::repeat(-0.0));
+        assert_eq!(Frame::of(&subject).nodes.len(), 3);
     }
 }

@@ -78,6 +78,18 @@ fn a_dash_and_names_of_standard_output_are_standard_output() {
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "no file is called -");
 }
 
+/// A socket cannot be opened by a name: what is written to that name goes to the open one.
+#[test]
+fn a_socket_as_standard_output_is_written_to_by_its_name() {
+    let (mut ours, theirs) = std::os::unix::net::UnixStream::pair().expect("a pair");
+    let mut command = program(&[&SHORT[..], &["-o", "/dev/stdout"]].concat());
+    let mut child = command.stdout(std::os::fd::OwnedFd::from(theirs)).spawn().expect("it starts");
+    drop(command);
+    let mut read = Vec::new();
+    std::io::Read::read_to_end(&mut ours, &mut read).expect("it reads");
+    assert_eq!((child.wait().expect("an end").code(), read), (Some(0), report()));
+}
+
 #[test]
 fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
     assert_eq!(to_file(Path::new("/dev/null")).status.code(), Some(0));

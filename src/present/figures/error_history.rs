@@ -92,7 +92,7 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
         .disable_x_mesh()
-        .x_labels((last + 2).min(MOST_LABELS))
+        .x_labels((last + 1).min(MOST_LABELS))
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_label_formatter(&|y| format!("{y}"))
         .x_desc(if passes.iter().any(|pass| pass.is_inner) {
