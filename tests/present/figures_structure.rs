@@ -94,6 +94,19 @@ fn a_structure_without_grids_has_none_in_its_legend() {
     assert_eq!(words(&drawn(&subject))[1..4], ["sensor", "held", "grid"]);
 }
 
+#[test]
+fn names_at_the_corners_stay_on_the_page_and_off_the_legend() {
+    let corners = panel(2.0, 1.0);
+    let near = |row: usize| corners[row % 4] + at(1e-3 * (row / 4) as f64, 0.0, 0.0);
+    let sensors = (0..40).map(|row| (format!("edge {row:03}"), Some(near(row)))).collect();
+    let svg = drawn(&with_sensors(sensors, vec![corners.clone()]));
+    let names: Vec<Written> = written(&svg).into_iter().filter(|word| word.text.starts_with("edge")).collect();
+    assert_eq!(names.len(), 40);
+    for Written { bounds: [left, top, right, bottom], text } in names {
+        assert!(left > 4.0 && right < 756.0 && top > 60.0 && bottom < 450.0, "{text}: {left} {top} {right} {bottom}");
+    }
+}
+
 /// Modes of four places, each moving as its number and its state say.
 fn modes(frame: Frame, motion: fn(usize) -> Vector3<f64>) -> Modes {
     let moved = |mode: usize, state: usize| (0..4).map(|node| 0.3 * motion(mode + state + 2 * node)).collect();
