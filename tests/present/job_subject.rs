@@ -38,6 +38,11 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
     let first = prepared.analyze(&[1.0; 2]).expect("analyzed");
     assert_eq!(subject.derivatives, Some(Derivatives::of(&first).expect("taken")));
     assert_eq!((subject.converged, subject.best, subject.stages.len()), (false, None, 0));
+    // Without elements the lines of the test are drawn, but for one with an end that stands nowhere.
+    let mut lined = prepared.clone();
+    std::sync::Arc::make_mut(&mut lined.source).geometry.elements.clear();
+    lined.data.lines = vec![[1, 2], [2, 99]];
+    assert_eq!(Subject::of_job(&lined, None).expect("a subject").frame, [vec![at(0.0), at(10.0)]]);
     let mut turned = prepared.clone();
     turned.placed[0].direction = 3;
     let subject = Subject::of_job(&turned, None).expect("a subject");

@@ -134,6 +134,15 @@ fn a_file_of_the_system_itself_is_written_over() {
 }
 
 /// The calls of a run that wait for the disk or change a name, in order.
+#[test]
+fn a_file_that_may_not_be_written_is_refused_where_it_could_be_replaced() {
+    let place = Place::new(0o444);
+    set(&place.held, 0o777);
+    assert_eq!(place.run(&place.file).status.code(), Some(2));
+    assert!(fs::read_to_string(&place.file).expect("it reads").starts_with("old old"));
+    assert_eq!(names(&place.held), 1);
+}
+
 /// A file that another is mounted on cannot be replaced by a new one of its name.
 #[test]
 fn a_file_that_is_mounted_is_written_over() {
