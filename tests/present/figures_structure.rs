@@ -83,6 +83,11 @@ fn a_plane_is_drawn_as_it_is_and_says_where_its_axes_go() {
     assert_eq!(solid(500.0), axes);
     assert_eq!(solid(100.0), format!("{axes}; depth drawn 3 times"));
     assert_eq!(solid(0.01), format!("{axes}; depth drawn 7 times"));
+    let small =
+        panel(0.01, 0.01).into_iter().enumerate().map(|(row, place)| place + at(0.0, 0.0, 4.5e-5 * (row / 2) as f64));
+    let small: Vec<_> = small.collect();
+    let said = words(&drawn(&with_sensors(vec![("s".to_owned(), Some(small[0]))], vec![small])));
+    assert_eq!(said[2], format!("{axes}; depth drawn 7 times"), "a structure of any unit");
 }
 
 #[test]

@@ -137,14 +137,17 @@ fn a_signal_leaves_a_whole_set_and_nothing_beside_it() {
 /// As `nohup` starts a program.
 #[test]
 fn a_signal_that_it_was_started_to_ignore_does_not_end_it() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut child = start(&["sh", "-c", "trap '' HUP; exec \"$@\"", "sh"], folder.path());
-    while !folder.path().join(STAGE).exists() && child.try_wait().expect("a state").is_none() {
-        std::hint::spin_loop();
+    for (signal, name) in SIGNALS {
+        let folder = tempfile::tempdir().expect("a folder");
+        let ignoring = format!("trap '' {name}; exec \"$@\"");
+        let mut child = start(&["sh", "-c", &ignoring, "sh"], folder.path());
+        while !folder.path().join(STAGE).exists() && child.try_wait().expect("a state").is_none() {
+            std::hint::spin_loop();
+        }
+        send(&child, signal);
+        assert!(child.wait().expect("an end").success(), "{name}");
+        assert_eq!(found(folder.path()), Set::New);
     }
-    send(&child, Signal::HUP);
-    assert!(child.wait().expect("an end").success());
-    assert_eq!(found(folder.path()), Set::New);
 }
 
 /// What a run leaves that is stopped between its links: one over nothing, and one over an old file.
