@@ -210,6 +210,6 @@ fn tables_9_to_12_as_numbers() {
         assert_golden(&table.name, &csv(std::slice::from_ref(table)), numbers);
     }
     assert_golden("truncation", &csv(truncation), numbers);
-    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let rounded = Numbers::AS_WRITTEN;
     assert_golden("fewer_modes_text", &text(&tables), rounded);
 }

@@ -53,7 +53,7 @@ fn every_table_as_numbers() {
 
 #[test]
 fn report_as_text_and_markdown() {
-    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let rounded = Numbers::AS_WRITTEN;
     let tables = tables();
     assert_golden("report_text", &text(&tables), rounded);
     assert_golden("report_markdown", &markdown(&tables), rounded);

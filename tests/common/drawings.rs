@@ -19,6 +19,11 @@ pub fn written(svg: &str) -> Vec<Written> {
     svg.split("<text ").skip(1).map(one).collect()
 }
 
+/// The same without their places.
+pub fn words(svg: &str) -> Vec<String> {
+    written(svg).into_iter().map(|word| word.text).collect()
+}
+
 fn one(element: &str) -> Written {
     const UNITS: f64 = 10.0;
     let (tag, rest) = element.split_once('>').expect("a tag");
@@ -60,6 +65,7 @@ fn word<'a>(tag: &'a str, name: &str) -> &'a str {
     tag[at..].split('"').next().expect("a value")
 }
 
-fn attribute(tag: &str, name: &str) -> f64 {
+/// A number that a tag has by name.
+pub fn attribute(tag: &str, name: &str) -> f64 {
     word(tag, name).parse().expect("a number")
 }

@@ -16,6 +16,9 @@ pub struct Numbers {
 }
 
 impl Numbers {
+    /// Those a reader sees, a tenth of a pixel of a drawing among them: each to the last digit written.
+    pub const AS_WRITTEN: Self = Self { relative: 0.0, absolute: 0.0, last_digit: true };
+
     /// Whether two texts agree.
     pub fn agree(&self, one: &str, other: &str) -> bool {
         let (one, other) = (tokens(one), tokens(other));

@@ -28,7 +28,7 @@ fn chapters() -> BTreeMap<String, (PathBuf, String)> {
 #[test]
 fn figures_in_the_tour_are_what_the_program_computes() {
     // Places to a tenth of a pixel: another machine's last digit may round them the other way.
-    let places = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let places = Numbers::AS_WRITTEN;
     let figures = figures();
     for (number, (path, text)) in chapters() {
         let svg = figures.get(&*number).unwrap_or_else(|| panic!("chapter {number} has no figure"));
@@ -103,7 +103,7 @@ fn every_chapter_has_its_parts() {
     }
 }
 
-/// What every chapter is not about: it serves all modules alike.
+/// What serves all modules alike, and is the subject of no chapter.
 const OF_NO_CHAPTER: [&str; 2] = ["error", "linear_algebra"];
 
 #[test]

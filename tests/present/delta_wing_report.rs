@@ -41,7 +41,7 @@ fn wing_as_tables() {
         ]
     );
     let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
-    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let rounded = Numbers::AS_WRITTEN;
     assert_golden("delta_wing", &csv(&tables), numbers);
     assert_golden("delta_wing_text", &text(&tables), rounded);
 }

@@ -1,6 +1,6 @@
 //! Axes and numbers of the figures on other data than the four cases': what holds them, and how they are written.
 
-use crate::common::drawings::written;
+use crate::common::drawings::words;
 use crate::present::figures::results;
 use corfem::cases::Case;
 use corfem::present::figures::cover_gages::{Cover, cover_gages, draw};
@@ -8,22 +8,17 @@ use corfem::present::figures::error_history::{self, PassHistory, error_history};
 use corfem::present::figures::factors::{Factor, Factors};
 use corfem::present::subject::Subject;
 
-/// The words of a drawing, in its order.
-fn words(svg: &str) -> Vec<String> {
-    written(svg).into_iter().map(|word| word.text).collect()
-}
-
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {
     let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
-    let words = self::words(&draw(&cover_gages(&cases)).expect("drawn"));
+    let said = words(&draw(&cover_gages(&cases)).expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
-    assert_eq!(words.iter().filter(|word| *word == "0.0001").count(), 1);
-    assert!(words.iter().any(|word| word == "0.010"));
-    assert!(!words.iter().any(|word| word == "0.0100" || word == "0.000"));
+    assert_eq!(said.iter().filter(|word| *word == "0.0001").count(), 1);
+    assert!(said.iter().any(|word| word == "0.010"));
+    assert!(!said.iter().any(|word| word == "0.0100" || word == "0.000"));
     let mut covers = cover_gages(&cases[..1]);
     covers[1].1.iter_mut().for_each(|cover: &mut Cover| cover.gage = 0.001);
-    let thin = self::words(&draw(&covers).expect("drawn"));
+    let thin = words(&draw(&covers).expect("drawn"));
     assert_eq!(thin.iter().filter(|word| *word == "0.001").count(), 6, "three decimals are enough");
 }
 
@@ -32,9 +27,9 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
     let result = &results()[0];
     let history = error_history(&Subject::of_case(result).expect("a subject"));
     let ticks = |history: &[PassHistory]| -> Vec<f64> {
-        let words = words(&error_history::draw("errors", "errors", history).expect("drawn"));
+        let said = words(&error_history::draw("errors", "errors", history).expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
-        let numbers = words.iter().filter_map(|word| word.parse::<f64>().ok());
+        let numbers = said.iter().filter_map(|word| word.parse::<f64>().ok());
         numbers.filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number)).collect()
     };
     let moments = |history: &[PassHistory]| -> Vec<f64> {
@@ -73,10 +68,10 @@ fn factor_axis_leaves_room_for_the_numbers() {
         let rows = values.map(factor).to_vec();
         let across = "factor".to_owned();
         let drawn = Factors { rows, limits: Some(limits), across, decimals: 3, published: "" };
-        let words = words(&drawn.draw("factors", "factors").expect("drawn"));
-        let labels = words.iter().filter(|word| !word.contains('.') || word.len() < 5);
+        let said = words(&drawn.draw("factors", "factors").expect("drawn"));
+        let labels = said.iter().filter(|word| !word.contains('.') || word.len() < 5);
         let labels = labels.filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
-        assert_eq!(labels.fold(0.0, f64::min), lowest, "{words:?}");
+        assert_eq!(labels.fold(0.0, f64::min), lowest, "{said:?}");
     }
 }
 

@@ -1,6 +1,7 @@
-//! Figures of small made-up data, as stored: what the cases' own figures have no example of.
+//! Figures of small made-up data, as stored: what the cases' own figures have no example of. A golden compares numbers to their last
+//! digit only, so that words that have to be exact are looked for by themselves.
 
-use crate::common::drawings::written;
+use crate::common::drawings::{words, written};
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::files::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
@@ -12,9 +13,6 @@ use corfem::present::figures::histogram;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use nalgebra::DMatrix;
 
-/// Text exactly, numbers to their last digit, a tenth of a pixel.
-const DRAWN: Numbers = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
-
 /// A spread between two ends; what the figure does not draw is left at zero.
 pub fn spread(ends: [f64; 2], quantiles: [f64; 3], bars: &[usize]) -> Spread {
     Spread { mean: 0.0, deviation: 0.0, quantiles, ends, bars: bars.to_vec() }
@@ -23,11 +21,6 @@ pub fn spread(ends: [f64; 2], quantiles: [f64; 3], bars: &[usize]) -> Spread {
 pub fn summary(spreads: Vec<(&str, Option<Spread>)>) -> Summary {
     let spreads = spreads.into_iter().map(|(name, spread)| (name.to_owned(), spread)).collect();
     Summary { spreads, within: 0, outside: 0, failed: Vec::new() }
-}
-
-/// The words of a drawing, whose numbers a golden compares to their last digit only.
-fn words(svg: &str) -> Vec<String> {
-    written(svg).into_iter().map(|word| word.text).collect()
 }
 
 #[test]
@@ -43,7 +36,7 @@ fn histograms_of_few_samples() {
     // As many decimals as tell the ends apart: of a thousandth four, of forty none.
     assert!(words(&drawn).iter().any(|word| word.starts_with("0.999") && word.len() == 6), "{:?}", words(&drawn));
     assert!(words(&drawn).iter().any(|word| word == "20") && !words(&drawn).iter().any(|word| word == "20.0"));
-    assert_golden("drawing_histogram", &drawn, DRAWN);
+    assert_golden("drawing_histogram", &drawn, Numbers::AS_WRITTEN);
 }
 
 fn factor(name: &str, value: f64) -> Factor {
@@ -64,11 +57,15 @@ fn factors_with_bounds_deviations_and_remarks() {
         Factor { deviation: Some(0.75), published: Some(0.9), ..factor("unsure", 0.8) },
     ];
     let figure = |rows, limits| Factors { rows, limits, across: "factor".into(), decimals: 2, published: "right" };
-    assert_golden("drawing_factors", &figure(rows.clone(), None).draw("factors", "Factors").expect("drawn"), DRAWN);
+    assert_golden(
+        "drawing_factors",
+        &figure(rows.clone(), None).draw("factors", "Factors").expect("drawn"),
+        Numbers::AS_WRITTEN,
+    );
     let drawn = figure(rows[..6].to_vec(), range(0.6, 1.4)).draw("factors", "Factors").expect("drawn");
-    assert_golden("drawing_factors_limited", &drawn, DRAWN);
+    assert_golden("drawing_factors_limited", &drawn, Numbers::AS_WRITTEN);
     let alike = figure(vec![factor("one", 1.0), factor("other", 1.004)], None).draw("factors", "Factors");
-    assert_golden("drawing_factors_alike", &alike.expect("drawn"), DRAWN);
+    assert_golden("drawing_factors_alike", &alike.expect("drawn"), Numbers::AS_WRITTEN);
 }
 
 /// A pass of as many iterations, its errors falling from one to another.
@@ -98,15 +95,15 @@ fn histories_with_long_and_short_passes() {
         pass(30, 1, [0.01, 0.008], None, false),
     ];
     let draw = |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).expect("drawn");
-    assert_golden("drawing_errors", &draw(&passes), DRAWN);
+    assert_golden("drawing_errors", &draw(&passes), Numbers::AS_WRITTEN);
     let said = words(&draw(&passes));
     for name in ["pass 1 (tolerance 12.0 %)", "pass 2", "3", "pass 4"] {
         assert!(said.iter().any(|word| word == name), "{name}: {said:?}");
     }
     // From beyond one end of the axis to beyond the other; and no iterations at all.
     let far = [pass(0, 4, [200.0, 1e-3], Some(1e-12), true), pass(4, 2, [1e-3, 1e-12], Some(1e-6), true)];
-    assert_golden("drawing_errors_far", &draw(&far), DRAWN);
-    assert_golden("drawing_errors_short", &draw(&[pass(0, 1, [0.2, 0.1], None, true)]), DRAWN);
+    assert_golden("drawing_errors_far", &draw(&far), Numbers::AS_WRITTEN);
+    assert_golden("drawing_errors_short", &draw(&[pass(0, 1, [0.2, 0.1], None, true)]), Numbers::AS_WRITTEN);
     assert!(draw(&[]).contains("SRSS error"));
 }
 
@@ -133,7 +130,7 @@ fn matrices_with_cells_too_small_for_their_numbers() {
         map("An odd one", (3, 3), (1.0, 1), wave),
     ];
     let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."]).expect("drawn");
-    assert_golden("drawing_matrices", &drawn, DRAWN);
+    assert_golden("drawing_matrices", &drawn, Numbers::AS_WRITTEN);
 }
 
 #[test]
@@ -158,5 +155,5 @@ fn two_series_of_small_bars_side_by_side() {
     let steps = written(&drawn).into_iter().filter(|word| word.bounds[2] < 66.0 && word.text.starts_with("0."));
     let steps: Vec<String> = steps.map(|word| word.text).collect();
     assert_eq!(steps[..4], ["0.000", "0.010", "0.020", "0.030"], "as many decimals as they need");
-    assert_golden("drawing_bars", &drawn, DRAWN);
+    assert_golden("drawing_bars", &drawn, Numbers::AS_WRITTEN);
 }

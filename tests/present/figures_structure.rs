@@ -1,7 +1,7 @@
 //! The structure with its names, and how modes are drawn on it: crowded, in any plane, and without lines.
 
 use super::subject::chain;
-use crate::common::drawings::{Written, written};
+use crate::common::drawings::{Written, words, written};
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::present::figures::frame::Frame;
 use corfem::present::figures::mode_shapes::{DrawnMode, Modes};
@@ -10,9 +10,6 @@ use corfem::present::subject::{SensorPoint, Subject};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-
-/// Text exactly, numbers to their last digit, a tenth of a pixel.
-const DRAWN: Numbers = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
 
 fn at(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)
@@ -27,10 +24,6 @@ fn with_sensors(sensors: Vec<(String, Option<Vector3<f64>>)>, frame: Vec<Vec<Vec
 
 fn drawn(subject: &Subject) -> String {
     draw_structure("structure", "Structure", subject).expect("drawn")
-}
-
-fn words(svg: &str) -> Vec<String> {
-    written(svg).into_iter().map(|word| word.text).collect()
 }
 
 fn panel(wide: f64, long: f64) -> Vec<Vector3<f64>> {
@@ -50,7 +43,7 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
     let mut subject = with_sensors(sensors, vec![panel(2.0, 1.0)]);
     subject.supports = vec![at(2.0, 1.0, 0.0)];
     subject.grids = vec![(11, at(2.0, 1.0, 0.0)), (12, at(2.0, 0.0, 0.0)), (13, at(1.5, 0.5, 0.0))];
-    assert_golden("drawing_structure", &drawn(&subject), DRAWN);
+    assert_golden("drawing_structure", &drawn(&subject), Numbers::AS_WRITTEN);
     // A line has less than 96 letters: beside a name of 82 there is no room for the words before it.
     let unknown = |long: usize| {
         let sensors = vec![("s".to_owned(), Some(at(0.0, 0.0, 0.0))), ("n".repeat(long), None)];
@@ -59,7 +52,7 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
     assert!(unknown(82) && !unknown(81));
     // Where there are more than any ring about them has room for, a name stands where the first would.
     let many = (0..110).map(|row| (format!("s{row}"), Some(at(1.0 + 1e-6 * f64::from(row), 0.5, 0.0)))).collect();
-    assert_golden("drawing_structure_full", &drawn(&with_sensors(many, vec![panel(2.0, 1.0)])), DRAWN);
+    assert_golden("drawing_structure_full", &drawn(&with_sensors(many, vec![panel(2.0, 1.0)])), Numbers::AS_WRITTEN);
 }
 
 #[test]
@@ -134,9 +127,9 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     let flat = [at(0.0, 0.0, 0.0), at(4.0, 0.0, 0.0), at(4.0, 2.0, 0.0), at(0.0, 2.0, 0.0)];
     let deep = [at(0.0, 0.0, 0.0), at(4.0, 0.0, 0.2), at(4.0, 2.0, 0.4), at(0.0, 2.0, 0.0)];
     let in_plane = modes(frame(flat, lines()), |row| at((row as f64).sin(), (row as f64).cos(), 0.0));
-    assert_golden("drawing_modes_in_plane", &in_plane.draw("modes", "Modes").expect("drawn"), DRAWN);
+    assert_golden("drawing_modes_in_plane", &in_plane.draw("modes", "Modes").expect("drawn"), Numbers::AS_WRITTEN);
     let in_depth = modes(frame(deep, lines()), |row| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin()));
-    assert_golden("drawing_modes_in_depth", &in_depth.draw("modes", "Modes").expect("drawn"), DRAWN);
+    assert_golden("drawing_modes_in_depth", &in_depth.draw("modes", "Modes").expect("drawn"), Numbers::AS_WRITTEN);
     // Out of a plane that is flat but for round-off no depth is exaggerated.
     let bent = [at(0.0, 0.0, 0.0), at(1e3, 0.0, 1e-5), at(1e3, 5e2, 0.0), at(0.0, 5e2, 0.0)];
     let even = bent.map(|place| at(place.x, place.y, 0.0));
@@ -144,9 +137,9 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
         let modes = modes(frame(nodes, lines()), |row| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin()));
         modes.draw("modes", "Modes").expect("drawn")
     });
-    assert!(DRAWN.agree(&bent, &even));
+    assert!(Numbers::AS_WRITTEN.agree(&bent, &even));
     let marks = modes(frame(deep, Vec::new()), |row| at(0.0, 0.0, (row as f64).sin()));
-    assert_golden("drawing_modes_as_marks", &marks.draw("modes", "Modes").expect("drawn"), DRAWN);
+    assert_golden("drawing_modes_as_marks", &marks.draw("modes", "Modes").expect("drawn"), Numbers::AS_WRITTEN);
 }
 
 proptest! {

@@ -1,5 +1,6 @@
 //! Bars of a histogram: as high as their counts, side by side over the numbers they stand for.
 
+use crate::common::drawings::attribute;
 use crate::common::tolerances::DRAWN_UNIT;
 use crate::present::figures_made_up::{spread, summary};
 use corfem::present::figures::histogram::draw;
@@ -7,12 +8,8 @@ use proptest::prelude::*;
 
 /// Left, top, width and height of every bar, in the units of the drawing: what is filled, without the page itself.
 fn bars(svg: &str) -> Vec<[f64; 4]> {
-    let number = |tag: &str, name: &str| -> f64 {
-        let value = tag.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
-        value.expect("an attribute").parse().expect("a number")
-    };
     let filled = svg.split("<rect").skip(2);
-    filled.map(|tag| ["x", "y", "width", "height"].map(|name| number(tag, name))).collect()
+    filled.map(|tag| ["x", "y", "width", "height"].map(|name| attribute(tag, name))).collect()
 }
 
 /// Places across of the lines at the quantiles, by their color.

@@ -11,7 +11,7 @@ use corfem::studies::matrix_comparison::compare_matrices;
 #[test]
 fn comparison_as_numbers() {
     let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
-    let rounded = Numbers { relative: 0.0, absolute: 0.0, last_digit: true };
+    let rounded = Numbers::AS_WRITTEN;
     for case in 1..=3 {
         let tables = matrix_tables(&Case::new(case).unwrap(), &compared(case));
         let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();

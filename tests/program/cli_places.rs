@@ -133,7 +133,6 @@ fn a_file_of_the_system_itself_is_written_over() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
 }
 
-/// The calls of a run that wait for the disk or change a name, in order.
 #[test]
 fn a_file_that_may_not_be_written_is_refused_where_it_could_be_replaced() {
     let place = Place::new(0o444);
@@ -168,6 +167,7 @@ fn a_file_that_is_mounted_is_written_over() {
     assert!(fs::read_to_string(&place.file).expect("it reads").starts_with("old old"), "what lies under it stays");
 }
 
+/// The calls of a run that wait for the disk or change a name, in order.
 fn calls(arguments: &[&str], folder: &Path) -> Option<Vec<String>> {
     let log = folder.join("log");
     let mut command = Command::new("strace");
