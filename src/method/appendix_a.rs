@@ -4,7 +4,7 @@
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
-use crate::method::linear_algebra::{add_squares, check_shape, cholesky, finite, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{add_squares, cholesky, finite, solve_lower};
 use crate::method::load_distribution::LoadDistribution;
 use nalgebra::DMatrix;
 
@@ -64,16 +64,6 @@ pub(crate) fn transposed_deflections(
     loads: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     structural.solve_transposed(&load_distribution.times(loads))
-}
-
-/// The same as [`condense`] from the deflections $K_S^{-1} T$, whatever solved for them.
-///
-/// # Errors
-/// Those of [`condense`].
-pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
-    check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
-    let stiffness = dynamic_stiffness(&symmetric_part(&t.tr_mul(&deflections)))?;
-    Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }
 
 /// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
