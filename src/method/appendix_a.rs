@@ -6,7 +6,7 @@ use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{add_squares, cholesky, finite, solve_lower};
 use crate::method::load_distribution::LoadDistribution;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
@@ -100,7 +100,7 @@ pub(crate) fn generalized_stiffness<'a>(
             if column.iter().any(|entry| entry.abs() > smallest) {
                 let mut force = vec![0.0; count];
                 through(column, size, &mut force);
-                add_upper(&mut sum, 1.0, &force, &shapes[dof * count..][..count]);
+                sum.syger(1.0, &DVector::from_vec(force), &transposed_shapes.column(dof), 1.0);
             }
         }
         if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
@@ -109,7 +109,7 @@ pub(crate) fn generalized_stiffness<'a>(
         }
     }
     add_squares(&mut sum, &amplitudes);
-    sum.fill_lower_triangle_with_upper_triangle();
+    sum.fill_upper_triangle_with_lower_triangle();
     sum
 }
 
@@ -136,17 +136,9 @@ pub(crate) fn generalized_mass<'a>(
     for (ElementMatrix { dof, unit_mass, .. }, size) in members {
         for (&dof, unit) in dof.iter().zip(unit_mass).filter(|(_, unit)| **unit != 0.0) {
             let motion = transposed_shapes.column(dof);
-            add_upper(&mut sum, size * unit, motion.as_slice(), motion.as_slice());
+            sum.syger(size * unit, &motion, &motion, 1.0);
         }
     }
-    sum.fill_lower_triangle_with_upper_triangle();
+    sum.fill_upper_triangle_with_lower_triangle();
     sum
-}
-
-/// Adds the upper triangle of $s f v^t$.
-fn add_upper(sum: &mut DMatrix<f64>, scale: f64, force: &[f64], motion: &[f64]) {
-    for (j, (column, motion)) in sum.as_mut_slice().chunks_mut(force.len().max(1)).zip(motion).enumerate() {
-        let motion = scale * motion;
-        column[..=j].iter_mut().zip(force).for_each(|(entry, force)| *entry += force * motion);
-    }
 }

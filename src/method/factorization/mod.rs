@@ -165,7 +165,7 @@ impl FactorizedStiffness {
         {
             add_squares(&mut sum, rows);
         }
-        sum.fill_lower_triangle_with_upper_triangle();
+        sum.fill_upper_triangle_with_lower_triangle();
         finite("dynamic flexibility", sum)
     }
 

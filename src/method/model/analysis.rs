@@ -73,19 +73,13 @@ impl FiniteElementModel {
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+    fn shares<'a>(&'a self, condensed: &'a CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
         let transposed = condensed.transposed_shapes(shapes)?;
-        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
-            let member = |row: usize| &self.element_matrices[row];
+        let of_parameter = |(parameter, rows): (&Parameter, &'a Vec<usize>)| {
+            let members = |sizes: &'a [f64]| rows.iter().map(|&row| (&self.element_matrices[row], sizes[row]));
             match parameter.scaled {
-                Scaled::Stiffness => {
-                    let members = rows.iter().map(|&row| (member(row), condensed.sizes[row]));
-                    Share::Stiffness(generalized_stiffness(&transposed, members))
-                }
-                Scaled::ElementMass => {
-                    let members = rows.iter().map(|&row| (member(row), condensed.mass_sizes[row]));
-                    Share::Mass(generalized_mass(&transposed, members))
-                }
+                Scaled::Stiffness => Share::Stiffness(generalized_stiffness(&transposed, members(&condensed.sizes))),
+                Scaled::ElementMass => Share::Mass(generalized_mass(&transposed, members(&condensed.mass_sizes))),
                 // A parameter has at least one member.
                 Scaled::PointMass => {
                     let of = |&row: &usize| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
