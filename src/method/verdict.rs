@@ -24,7 +24,7 @@ pub enum Outcome {
     Nothing,
 }
 
-/// What a correlation came to. It judges the best factors, [`super::outer_loop::Correlation::best_factors`].
+/// What a correlation came to. It judges the best factors, [`best_factors`](super::outer_loop::Correlation::best_factors).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Why it ended.

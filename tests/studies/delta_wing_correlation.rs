@@ -121,7 +121,7 @@ fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
     assert!(plain.converged);
     assert!(plain.passes.len() > solved.correlation.passes.len());
     assert_eq!(plain.passes[0].inner.stop, Stop::LocalMinimum);
-    for (recovered, factor) in solved.groups.iter().zip(plain.best_factors()) {
+    for (recovered, factor) in solved.groups.iter().zip(plain.best_factors) {
         if recovered.share > SEEN_SHARE {
             let error = factor / recovered.true_factor() - 1.0;
             assert!(error.abs() < 2.0 * RECOVERED_GAGE, "{error:.4}");

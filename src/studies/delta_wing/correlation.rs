@@ -205,7 +205,7 @@ pub fn correlate_wing_with<E: From<Error>>(
         |factors: &[f64]| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) };
     let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
     let correlation = correlate(analyze, &model.factor_ranges()?, settings, progress)?;
-    let factors = correlation.best_factors();
+    let factors = correlation.best_factors.clone();
     let found = GROUPS.iter().zip(factors).zip(shares);
     let groups =
         found.map(|((group, factor), share)| Recovered { group: *group, factor, share: share.diagonal().max() });

@@ -108,7 +108,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
         let steps = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
         Ok([
             known.compared("none", [0, 1], &ones),
-            known.compared("paper", [steps, paper.passes.len() + 1], &paper.best_factors()),
+            known.compared("paper", [steps, paper.passes.len() + 1], &paper.best_factors),
             known.compared("gauss_newton", [found.iterations.len(), found.analyses], &found.factors),
         ])
     };
