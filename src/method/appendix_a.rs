@@ -39,7 +39,7 @@ pub struct Condensed {
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let loads = LoadDistribution::of(load_distribution)?;
     let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-    Ok(Condensed { transformation: transposed_deflections(structural, &loads, &stiffness)?.transpose(), stiffness })
+    Ok(Condensed { transformation: structural.solve_transposed(&loads.times(&stiffness))?.transpose(), stiffness })
 }
 
 /// The dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
@@ -51,19 +51,6 @@ pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f6
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let inverse_factor = solve_lower(&lower, DMatrix::identity(flexibility.nrows(), flexibility.nrows()));
     finite("dynamic stiffness", inverse_factor.tr_mul(&inverse_factor))
-}
-
-/// Structural deflections $K_S^{-1} T Q_D$ of dynamic loads $Q_D$ (d × m, lbf), transposed (m × free SDOF, in); of
-/// $Q_D = K_D V$ they are $B^t V$.
-///
-/// # Errors
-/// Those of [`FactorizedStiffness::solve`].
-pub(crate) fn transposed_deflections(
-    structural: &FactorizedStiffness,
-    load_distribution: &LoadDistribution,
-    loads: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
-    structural.solve_transposed(&load_distribution.times(loads))
 }
 
 /// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where

@@ -140,9 +140,8 @@ pub(crate) fn correlate_while<E: From<Error>>(
     let ones = vec![1.0; total_ranges.len()];
     let checks = passes.iter().enumerate().map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
     let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
-    let better = |a: (bool, f64), b: (bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_lt();
-    let (best, check, factors) = checks
-        .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
+    let (best, check, factors) =
+        checks.fold((None, &initial, &ones), |best, next| if place(next.1) < place(best.1) { next } else { best });
     let converged = meets(&check.errors, settings);
     let errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());

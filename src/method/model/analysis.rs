@@ -1,7 +1,7 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
 use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Share};
-use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness, transposed_deflections};
+use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness};
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{check_shape, finite};
@@ -39,7 +39,7 @@ impl CondensedModel {
     }
 
     fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        transposed_deflections(&self.structural, &self.loads, &(&self.stiffness * shapes))
+        self.structural.solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
     }
 }
 
@@ -61,7 +61,7 @@ impl FiniteElementModel {
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = point_mass.clone();
         if elements.iter().any(|element| element.unit_mass.amax() > 0.0) {
-            let b = transposed_deflections(&structural, &loads, &stiffness)?;
+            let b = structural.solve_transposed(&loads.times(&stiffness))?;
             mass += generalized_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
         }
         let mass = finite("dynamic mass", mass)?;
