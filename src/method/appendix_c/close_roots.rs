@@ -2,18 +2,18 @@
 //! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
-//! form a block. With $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric) every order takes row $i$ of mode $j$
-//! outside of its block from Recursive 1 (C.22), and the block's modes, columns of $P$, from the symmetric pencil within
-//! their span:
+//! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With
+//! $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n, symmetric), row $i$ outside the block and its own rows read
 //!
-//! $$ p_{ij} = -\frac{\sum_{s \ne i}(A_{is}\gamma_j - G_{is}) p_{sj}}{A_{ii}\gamma_j - G_{ii}}, \qquad
-//!    P^t (A\gamma - G) P q = 0 . $$
+//! $$ P_i (A_{ii}\Gamma - G_{ii} I) = -\sum_{s \ne i}(A_{is}\Gamma - G_{is} I) P_s, \qquad
+//!    A_{CC}\Gamma = G_{CC} - \sum_{s \notin C}(A_{Cs}P_s\Gamma - G_{Cs}P_s), $$
 //!
-//! With blocks of one mode that is Recursive 1 itself.
+//! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
+//! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use super::general::{ModalChange, Pencil, explicit_roots, settle};
+use super::general::{ModalChange, Pencil, QUIET_ORDERS};
 use super::recursive::check_order;
-use super::{Perturbed, Settled};
+use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_part};
 use crate::method::modes::{apply_sign_rule, solve};
@@ -68,59 +68,108 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     check_symmetric("generalized mass change", &change.alpha)?;
     cholesky("changed generalized mass", &pencil.1, 0.0)?;
     let size = change.roots.len();
-    let unchanged = DMatrix::identity(size, size);
-    let apart = Perturbed { roots: explicit_roots(&pencil, &unchanged)?, shapes: unchanged };
-    apart.check_roots()?;
-    // A block is named by its lowest mode. Each round joins two blocks at least, so there are fewer rounds than modes.
-    let (mut block_of, mut alone): (Vec<usize>, _) = ((0..size).collect(), apart.clone());
-    while join_close(&mut block_of, &alone.roots, separation) {
-        alone = solved_in(&blocks(&block_of), &pencil, apart.clone())?;
+    let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
+    let identity = DMatrix::identity(size, size);
+    let mut alone = solve_in(&blocks, &pencil, &identity)?;
+    // Each round joins two blocks at least, so there are fewer rounds than modes.
+    while join_close(&mut blocks, &alone.roots, separation) {
+        alone = solve_in(&blocks, &pencil, &identity)?;
     }
     // The modes of the blocks alone are the basis of the recursion: in it A and G are diagonal within every block.
     let in_basis = |matrix: &DMatrix<f64>| alone.shapes.tr_mul(&(matrix * &alone.shapes));
-    let (blocks, in_blocks) = (blocks(&block_of), (in_basis(&pencil.0), in_basis(&pencil.1)));
-    let are_together = |i: usize, j: usize| block_of[i] == block_of[j];
-    let mut settled = settle(&in_blocks, are_together, |now| solved_in(&blocks, &in_blocks, now), tolerance, orders)?;
-    settled.perturbed.check_roots()?;
-    let mut shapes = alone.shapes * settled.perturbed.shapes;
-    for mut shape in shapes.column_iter_mut() {
-        shape /= shape.dot(&(&pencil.1 * &shape)).sqrt();
+    let pencil = (in_basis(&pencil.0), in_basis(&pencil.1));
+    let mut settled = recursion(&blocks, &pencil, settings)?;
+    let mut solved = solve_in(&blocks, &pencil, &settled.perturbed.shapes)?;
+    for block in blocks.iter().filter(|block| block.len() == 1) {
+        solved.roots[block[0]] = settled.perturbed.roots[block[0]];
     }
-    check_finite("perturbed generalized shapes", &shapes)?;
-    apply_sign_rule(&mut shapes);
-    settled.perturbed.shapes = shapes;
+    solved.check_roots()?;
+    solved.shapes = alone.shapes * solved.shapes;
+    check_finite("perturbed generalized shapes", &solved.shapes)?;
+    apply_sign_rule(&mut solved.shapes);
+    settled.perturbed = solved;
+    blocks.retain(|block| block.len() > 1);
     Ok(SolvedInBlocks { settled: settled.check(tolerance, orders)?, blocks })
+}
+
+/// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and $P$ outside blocks with the identity within.
+fn recursion(
+    blocks: &[Vec<usize>],
+    (stiffness, mass): &Pencil<f64>,
+    settings: CloseRootsSettings,
+) -> Result<Settled, Error> {
+    let size = mass.nrows();
+    let together = |i: usize, j: usize| blocks.iter().any(|block| block.contains(&i) && block.contains(&j));
+    let coupling =
+        |matrix: &DMatrix<f64>| matrix.map_with_location(|i, j, entry| if together(i, j) { 0.0 } else { entry });
+    let (stiffness_coupling, mass_coupling) = (coupling(stiffness), coupling(mass));
+    // Γ of all blocks in one matrix, zero outside of blocks.
+    let mut gamma = DMatrix::from_diagonal(&mass.diagonal().component_div(&stiffness.diagonal()));
+    let mut shapes = DMatrix::identity(size, size);
+    let (mut order, mut last_change, mut quiet_orders) = (0, 1.0, 0);
+    while order < settings.orders && quiet_orders < QUIET_ORDERS {
+        let sums = &stiffness_coupling * &shapes * &gamma - &mass_coupling * &shapes;
+        let next = DMatrix::from_fn(size, size, |i, j| match together(i, j) {
+            true if i == j => (mass[(i, i)] - sums[(i, i)]) / stiffness[(i, i)],
+            true => -sums[(i, j)] / stiffness[(i, i)],
+            false => 0.0,
+        });
+        check_finite("perturbed roots", &next)?;
+        let mut change = 0.0_f64;
+        for block in blocks {
+            let within = |matrix: &DMatrix<f64>| matrix.select_rows(block).select_columns(block);
+            let roots = within(&gamma);
+            for i in (0..size).filter(|i| !block.contains(i)) {
+                let own = stiffness[(i, i)] * &roots;
+                let own_mass = DMatrix::from_diagonal_element(block.len(), block.len(), mass[(i, i)]);
+                let inverse = (&own - own_mass).try_inverse();
+                let separation = inverse.as_ref().map_or(0.0, |inverse| 1.0 / (own.amax() * inverse.amax()));
+                let Some(inverse) = inverse.filter(|_| separation > SMALLEST_SEPARATION) else {
+                    return Err(Error::CoalescingModes { first: i, second: block[0], separation });
+                };
+                let row = -sums.select_rows([&i]).select_columns(block) * inverse;
+                block.iter().zip(row.iter()).for_each(|(&mode, &entry)| shapes[(i, mode)] = entry);
+            }
+            change = change.max((within(&next) - &roots).amax() / roots.amax());
+        }
+        gamma = next;
+        order += 1;
+        // The first order makes the shapes and leaves the roots alone: its sums hold nothing of them yet.
+        if order > 1 {
+            last_change = change;
+            quiet_orders = if change < settings.tolerance { quiet_orders + 1 } else { 0 };
+        }
+    }
+    Ok(Settled { perturbed: Perturbed { roots: gamma.diagonal(), shapes }, order, last_change })
 }
 
 /// Joins blocks that hold neighboring roots closer than `separation` of the larger; whether there were any.
 ///
 /// Neighbors are enough: when two roots are close, every root between them is close to the larger.
-fn join_close(block_of: &mut [usize], roots: &DVector<f64>, separation: f64) -> bool {
-    let before = block_of.to_vec();
+fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f64) -> bool {
+    let before = blocks.len();
     let mut ascending: Vec<usize> = (0..roots.len()).collect();
     ascending.sort_by(|&a, &b| roots[a].total_cmp(&roots[b]));
     for neighbors in ascending.windows(2) {
         let (smaller, larger) = (neighbors[0], neighbors[1]);
         if roots[larger] - roots[smaller] < separation * roots[larger] {
-            let (one, other) = (block_of[smaller], block_of[larger]);
-            let of_either = block_of.iter_mut().filter(|block| [one, other].contains(block));
-            of_either.for_each(|block| *block = one.min(other));
+            let is_joined = |block: &Vec<usize>| block.contains(&smaller) || block.contains(&larger);
+            let (joined, apart): (Vec<_>, Vec<_>) = blocks.drain(..).partition(is_joined);
+            *blocks = apart;
+            blocks.push(joined.concat());
         }
     }
-    block_of != before
+    blocks.iter_mut().for_each(|block| block.sort_unstable());
+    blocks.sort_unstable();
+    blocks.len() < before
 }
 
-/// The blocks of two or more modes, each ascending.
-fn blocks(block_of: &[usize]) -> Vec<Vec<usize>> {
-    let modes = |block| (0..block_of.len()).filter(move |&mode| block_of[mode] == block).collect();
-    (0..block_of.len()).map(modes).filter(|block: &Vec<usize>| block.len() > 1).collect()
-}
-
-/// Roots and modes of every block's own symmetric pencil within the span of its shapes: combinations of those, ascending in
-/// frequency and of unit generalized mass.
-fn solved_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, mut now: Perturbed) -> Result<Perturbed, Error> {
+/// Roots and modes of every block's own symmetric pencil within the span of its columns of `shapes`: combinations of
+/// those columns, ascending in frequency and of unit generalized mass.
+fn solve_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, shapes: &DMatrix<f64>) -> Result<Perturbed, Error> {
+    let mut solved = Perturbed { roots: DVector::zeros(shapes.ncols()), shapes: shapes.clone() };
     for block in blocks {
-        let span = now.shapes.select_columns(block);
+        let span = shapes.select_columns(block);
         let within = |matrix: &DMatrix<f64>| symmetric_part(&span.tr_mul(&(matrix * &span)));
         let modes = solve(&within(stiffness), &within(mass), block.len()).map_err(|error| match error {
             Error::NotAVibration { mode, value } => Error::LostRoot { mode: block[mode], value: value.recip() },
@@ -130,9 +179,9 @@ fn solved_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, mut now: Pe
             other => other,
         })?;
         for (column, &mode) in block.iter().enumerate() {
-            now.roots[mode] = modes.omega_squared[column].recip();
-            now.shapes.set_column(mode, &(&span * modes.shapes.column(column)));
+            solved.roots[mode] = modes.omega_squared[column].recip();
+            solved.shapes.set_column(mode, &(&span * modes.shapes.column(column)));
         }
     }
-    Ok(now)
+    Ok(solved)
 }

@@ -24,7 +24,7 @@ use crate::method::linear_algebra::check_finite;
 use nalgebra::{DMatrix, DVector};
 
 /// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
-const QUIET_ORDERS: usize = 2;
+pub(super) const QUIET_ORDERS: usize = 2;
 
 /// The changed pencil in modal coordinates, $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n).
 pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
@@ -56,7 +56,7 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 /// As [`first_order`], and [`Error::Setting`] for order zero.
 #[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1.md")]
 pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
-    Ok(settle(&change.pencil()?, |i, j| i == j, Ok, 0.0, order)?.perturbed)
+    Ok(settle(change, 0.0, order)?.perturbed)
 }
 
 /// [`recursive_1`] until two orders in a row change no root by more than `tolerance` (relative), at most to order
@@ -72,30 +72,23 @@ pub fn recursive_1_converged<T: Number>(
     tolerance: f64,
     orders: usize,
 ) -> Result<Settled<T>, Error> {
-    settle(&change.pencil()?, |i, j| i == j, Ok, tolerance, orders)?.check(tolerance, orders)
+    settle(change, tolerance, orders)?.check(tolerance, orders)
 }
 
-/// Recursive 1 of modes in blocks, a mode alone or several that `are_together` and are made by `in_blocks` at every order.
-pub(super) fn settle<T: Number>(
-    pencil: &Pencil<T>,
-    are_together: impl Fn(usize, usize) -> bool,
-    in_blocks: impl Fn(Perturbed<T>) -> Result<Perturbed<T>, Error>,
-    tolerance: f64,
-    orders: usize,
-) -> Result<Settled<T>, Error> {
+fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> Result<Settled<T>, Error> {
     check_order(orders)?;
-    let between = |matrix: &DMatrix<T>| {
-        matrix.map_with_location(|i, j, entry| if are_together(i, j) { T::zero() } else { entry })
-    };
-    let coupling = (between(&pencil.0), between(&pencil.1));
-    let next = |now| in_blocks(next_order(pencil, &coupling, &are_together, now)?);
+    let pencil = change.pencil()?;
+    let mut coupling = pencil.clone();
+    coupling.0.fill_diagonal(T::zero());
+    coupling.1.fill_diagonal(T::zero());
     // Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
     let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
-    let mut now = next(Perturbed { roots: explicit_roots(pencil, &shapes)?, shapes })?;
+    let order_zero = Perturbed { roots: explicit_roots(&pencil, &shapes)?, shapes };
+    let mut now = next_order(&pencil, &coupling, order_zero)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
     while order < orders && quiet_orders < QUIET_ORDERS {
         let before = now.roots.clone();
-        now = next(now)?;
+        now = next_order(&pencil, &coupling, now)?;
         order += 1;
         // Round-off in the largest root is no change of a root that is smaller still.
         let floor = f64::EPSILON * before.map(T::modulus).max();
@@ -106,18 +99,17 @@ pub(super) fn settle<T: Number>(
     Ok(Settled { perturbed: now, order, last_change })
 }
 
-/// One order of Recursive 1: the root of every mode, and its shape's rows outside of its block.
+/// One order of Recursive 1.
 fn next_order<T: Number>(
     (stiffness, g): &Pencil<T>,
     coupling: &Pencil<T>,
-    are_together: &impl Fn(usize, usize) -> bool,
     mut now: Perturbed<T>,
 ) -> Result<Perturbed<T>, Error> {
     let (stiffness_sums, g_sums) = (&coupling.0 * &now.shapes, &coupling.1 * &now.shapes);
     for j in 0..g.nrows() {
         let gamma = now.roots[j];
         let sum = |i: usize| stiffness_sums[(i, j)] * gamma - g_sums[(i, j)];
-        for i in (0..g.nrows()).filter(|&i| !are_together(i, j)) {
+        for i in (0..g.nrows()).filter(|&i| i != j) {
             let own = stiffness[(i, i)] * gamma;
             let difference = own - g[(i, i)];
             let separation = difference.modulus() / own.modulus();
@@ -164,7 +156,7 @@ pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Erro
 }
 
 /// Roots from given shapes, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
-pub(super) fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
+fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
     let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;
     Ok(roots)
