@@ -2,11 +2,11 @@
 
 pub mod assignment;
 pub mod complex_modes;
-pub mod coverage;
 pub mod delta_wing;
 pub mod eigensolutions;
 pub mod expansion;
 pub mod free_modes;
+pub mod known;
 pub mod linearization;
 pub mod localization;
 pub mod matrix_comparison;

@@ -14,7 +14,6 @@ pub mod readings;
 pub mod stages;
 pub mod subject;
 pub mod unlimited;
-pub mod weighted;
 
 use super::table::Digits;
 use crate::cases::fit::rms;

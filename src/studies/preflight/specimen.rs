@@ -9,7 +9,7 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::{ModeSet, solve};
 use crate::method::outer_loop::Settings;
 use crate::studies::delta_wing::correlation;
-use crate::studies::weighted::comparison::Known;
+use crate::studies::known::Known;
 use crate::studies::whole_model::WholeModel;
 use nalgebra::{DMatrix, DVector};
 
