@@ -71,8 +71,6 @@ enum Command {
     Readings(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
-    /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
-    Noise(OutputArguments),
     /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and say how its factors scatter
@@ -121,7 +119,6 @@ pub fn run() -> ExitCode {
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet).map(|()| true),
         Some(Command::Readings(arguments)) => studies::readings(&arguments, quiet).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
-        Some(Command::Noise(arguments)) => studies::noise(&arguments, quiet).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),

@@ -1,4 +1,4 @@
-//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `cost` and `delta-wing`.
+//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `check`, `cost` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::progress::during;
@@ -15,7 +15,6 @@ use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
 use corfem::studies::eigensolutions;
 use corfem::studies::linearization::{Exact, both_structures};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
-use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
 use corfem::studies::preflight::Specimen;
 use corfem::studies::preflight::rates::{self, all_rates};
 use serde_json::json;
@@ -110,13 +109,6 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
     arguments.output.write(&tables, || json::document(json!({ "comparison": comparison })))
-}
-
-/// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
-pub fn noise(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
-    let case = Case::new(NOISY_CASE)?;
-    let study = during(quiet, "noisy tests", || noisy_modes(&case, Noise::USUAL, SEEDS))?;
-    output.write(&tables::noisy_modes::noisy_tables(&study), || json::document(json!({ "study": study })))
 }
 
 /// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes

@@ -12,7 +12,7 @@ pub mod localization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod metrics;
-pub mod noisy_modes;
+pub mod noise;
 pub mod preflight;
 pub mod weighted;
 pub mod whole_modes;

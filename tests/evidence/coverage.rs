@@ -5,7 +5,7 @@ use corfem::cases::error::CaseError;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::present::table::{Cell, Table, percents};
 use corfem::studies::known::Known;
-use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::Weights;
 use std::ops::RangeInclusive;

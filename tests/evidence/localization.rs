@@ -8,7 +8,7 @@ use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::residuals::Weights;
 use std::ops::RangeInclusive;
 

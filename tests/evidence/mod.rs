@@ -3,10 +3,11 @@
 
 pub mod coverage;
 pub mod localization;
+pub mod noisy_modes;
 pub mod rules;
 
 use corfem::present::table::Digits;
-use corfem::studies::noisy_modes::Noise;
+use corfem::studies::noise::Noise;
 
 const PERCENT: Digits = Digits::Fixed(1);
 const RMS_PERCENT: Digits = Digits::Fixed(2);

@@ -9,7 +9,7 @@ use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::studies::delta_wing::{DeltaWing, correlation};
-use corfem::studies::noisy_modes::{Noise, split_mix_64, with_noise};
+use corfem::studies::noise::{Noise, split_mix_64, with_noise};
 use corfem::studies::preflight::{
     Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, Specimen, preflight,
 };

@@ -9,7 +9,7 @@ use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::studies::known::Known;
-use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };

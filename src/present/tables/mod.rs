@@ -7,7 +7,6 @@ pub mod delta_wing;
 pub mod fewer_modes;
 pub mod job;
 pub mod matrices;
-pub mod noisy_modes;
 pub mod preflight;
 pub mod published;
 pub mod readings;
@@ -19,7 +18,7 @@ use super::table::Digits;
 use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
-use crate::studies::noisy_modes::Noise;
+use crate::studies::noise::Noise;
 
 const HERTZ: Digits = Digits::Significant(4);
 const INCHES: Digits = Digits::Fixed(5);

@@ -2,7 +2,7 @@
 
 use super::noise_words;
 use crate::present::table::{Cell, Table};
-use crate::studies::noisy_modes::Noise;
+use crate::studies::noise::Noise;
 use crate::studies::preflight::rates::{Rate, Rates};
 use crate::studies::preflight::{Finding, MISTAKES, Mistake};
 

@@ -5,7 +5,7 @@ use super::frequencies::FACTORS;
 use super::shapes::{Change, Mended, inverse, reordered};
 use super::specimen::Specimen;
 use crate::method::error::Error;
-use crate::studies::noisy_modes::{Noise, split_mix_64, with_noise};
+use crate::studies::noise::{Noise, split_mix_64, with_noise};
 use serde::Serialize;
 
 /// A mistake made on purpose; what it hits is drawn.

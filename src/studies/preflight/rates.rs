@@ -6,7 +6,7 @@ use super::specimen::Specimen;
 use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::method::error::Error;
-use crate::studies::noisy_modes::{Noise, with_noise};
+use crate::studies::noise::{Noise, with_noise};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
