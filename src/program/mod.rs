@@ -77,7 +77,7 @@ enum Command {
     Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
-    /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
+    /// Look at a job before the first step; without one, at the paper's cases and the delta wing
     Check(CheckArguments),
     /// Count the eigensolutions that the method takes and saves, and compare its steps with linear Taylor steps
     Cost(CostArguments),

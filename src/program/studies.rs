@@ -16,7 +16,6 @@ use corfem::studies::eigensolutions;
 use corfem::studies::linearization::{Exact, both_structures};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::preflight::Specimen;
-use corfem::studies::preflight::rates::{self, all_rates};
 use serde_json::json;
 
 #[derive(Debug, Args)]
@@ -111,9 +110,8 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     arguments.output.write(&tables, || json::document(json!({ "comparison": comparison })))
 }
 
-/// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
-/// are.
-pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
+/// Looks at the paper's cases and the delta wing before the first step, and writes what is found.
+pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
     let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
     specimens.push(Specimen::delta_wing()?);
     let mut found = Vec::new();
@@ -121,10 +119,7 @@ pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> 
         let findings = specimen.findings(&specimen.test)?;
         found.push((specimen.name, findings));
     }
-    let rates = during(quiet, "mistakes made and looked for", || all_rates(rates::SEEDS))?;
-    let mut tables = vec![tables::preflight::findings_table(&found)];
-    tables.extend(tables::preflight::rate_tables(&rates));
-    output.write(&tables, || json::preflight(&found, &rates))
+    output.write(&[tables::preflight::findings_table(&found)], || json::preflight(&found))
 }
 
 /// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.

@@ -4,6 +4,8 @@
 pub mod coverage;
 pub mod localization;
 pub mod noisy_modes;
+pub mod plant;
+pub mod rates;
 pub mod rules;
 
 use corfem::present::table::Digits;

@@ -11,21 +11,18 @@ fn corfem(arguments: &[&str]) -> String {
 }
 
 #[test]
-fn check_says_what_it_finds_and_how_often_it_would() {
+fn check_says_what_it_finds() {
     let corfem = |format: &str| corfem(&["check", "--format", format]);
     let report = corfem("text");
     let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(report.starts_with("Before the first step"), "{report:.200}");
     assert!(words.contains("Test mode 7 and analysis mode 6 have a cross-orthogonality of 0.667 only."));
-    assert!(report.contains("one sensor reversed"));
     let json: Value = serde_json::from_str(&corfem("json")).expect("JSON");
     let structures = json["structures"].as_array().expect("a list");
     let names: Vec<&str> = structures.iter().map(|found| found["name"].as_str().expect("a name")).collect();
     assert_eq!(names, ["Case 1", "Case 2", "Case 3", "Case 4", "Delta wing"]);
     assert_eq!(structures[2]["findings"], Value::Array(Vec::new()));
     assert_eq!(structures[3]["findings"][1]["low_pair"]["test"], 6);
-    assert_eq!(json["rates"].as_array().map(Vec::len), Some(4));
-    assert_eq!(json["rates"][0]["rates"][1]["mistake"], "reversed");
 }
 
 #[test]

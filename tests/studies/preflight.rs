@@ -1,6 +1,7 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::evidence::rates::spring_chain;
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
@@ -20,7 +21,7 @@ pub fn case(number: usize) -> Specimen {
 }
 
 pub fn chain() -> Specimen {
-    Specimen::spring_chain().unwrap()
+    spring_chain().unwrap()
 }
 
 pub fn wing() -> Specimen {
