@@ -5,7 +5,7 @@ use super::residuals::{Weights, jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
-use crate::studies::noisy_modes::uniform;
+use crate::studies::noise::uniform;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use crate::method::linear_algebra::{check_length, finite, finite_list};
 use crate::method::model::{ModalModel, ONE_WEIGHT, Share};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
-use crate::studies::noisy_modes::Noise;
+use crate::studies::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
