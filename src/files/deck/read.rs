@@ -21,27 +21,19 @@ pub struct Deck {
     pub unread: Vec<Unread>,
 }
 
-/// Reads a deck; `file` is its name in messages.
+/// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
 /// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
 /// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
-/// supports or coordinates, such as loads, are listed in [`Deck::unread`], except EIGR and EIGRL: they say how to look
-/// for eigenvalues. Every other card is an error.
+/// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
+/// they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
 /// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and
-/// [`FileError::DeckField`] name file, line, card and field.
-pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
-    read_without(file, text.as_bytes(), &[])
-}
-
-/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored` that are not understood;
-/// [`Deck::unread`] lists them.
-///
-/// # Errors
-/// Those of [`read`]; [`FileError::Input`] for the name of a card that is read.
-pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
+/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Input`] for the name of a card to be ignored that is
+/// read.
+pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
         return Err(FileError::input("--ignore", "a card that is not read here", card));
