@@ -54,7 +54,7 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode.
+    /// [`FileError::Input`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Weights, FileError> {
         let compare = &self.job.compare;
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
@@ -101,7 +101,7 @@ impl Prepared {
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`]; [`FileError::Job`] for factors of point masses, which are not rewritten.
+    /// Those of [`rewrite`]; [`FileError::Input`] for factors of point masses, which are not rewritten.
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else { return Ok(None) };
         let mut elements = deck.model.elements.clone();
