@@ -96,7 +96,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         ));
         return Ok(());
     }
-    let summary = samples.summary(&study, last);
+    let summary = samples.summary(&study, last)?;
     let tables = [study_table(&study, &summary)];
     let figure = histogram::draw("histogram", &tables[0].title, &summary)?;
     let files = [("summary.csv", render::csv(&tables)), ("histogram.svg", figure)];

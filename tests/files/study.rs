@@ -147,7 +147,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
     let study = place.study(3, &[Vary::Noise]);
     let found = corfem::files::job::run(&study.prepared, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
-    let summary = place.read(&study, text.as_bytes()).expect("it reads").summary(&study, COUNT);
+    let summary = place.read(&study, text.as_bytes()).expect("it reads").summary(&study, COUNT).expect("a summary");
     assert_eq!((summary.within + summary.outside, summary.failed.len()), (COUNT as usize, 0));
     for (story, (name, spread)) in summary.spreads.iter().enumerate() {
         let spread = spread.as_ref().expect("samples");
@@ -171,7 +171,7 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
         [line(5, true, 3.0), line(1, true, 1.0), failed, line(3, false, 2.0), line(2, true, 4.0), line(9, true, 99.0)];
     let samples = place.read(study, text.concat().as_bytes()).expect("it reads");
     assert!(samples.contains(9) && !samples.contains(6));
-    let summary = samples.summary(study, 8);
+    let summary = samples.summary(study, 8).expect("a summary");
     assert_eq!((summary.within, summary.outside, &summary.failed[..]), (3, 1, &[4][..]));
     let [(a, Some(first)), (b, Some(second))] = &summary.spreads[..] else { panic!("{summary:?}") };
     assert_eq!((&a[..], &b[..]), ("a", "b"));
@@ -183,7 +183,7 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
     let places: Vec<usize> = (0..24).filter(|&bar| first.bars[bar] == 1).collect();
     assert_eq!(places, [0, 8, 16, 23]);
     assert_eq!((second.deviation, second.bars[0], second.quantiles), (0.0, 4, [1.0; 3]));
-    let none = place.read(study, b"").expect("it reads").summary(study, 8);
+    let none = place.read(study, b"").expect("it reads").summary(study, 8).expect("a summary");
     assert_eq!(none.spreads[0].1, None);
 }
 
@@ -237,7 +237,7 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
     }
     let text: String = failed.iter().map(|(line, _)| line.as_str()).collect();
     let samples = place.read(&study, text.as_bytes()).expect("it reads");
-    assert_eq!(samples.summary(&study, 10).failed.len(), failed.len());
+    assert_eq!(samples.summary(&study, 10).expect("a summary").failed.len(), failed.len());
 }
 
 #[test]
@@ -257,7 +257,7 @@ proptest! {
         let path = folder.path().join("samples.csv");
         let whole = study.header() + &order.iter().map(|&row| lines[row].as_str()).collect::<String>();
         fs::write(&path, &whole).expect("written");
-        let expected = Samples::read(&path, study).expect("it reads").summary(study, 6);
+        let expected = Samples::read(&path, study).expect("it reads").summary(study, 6).expect("a summary");
         let cut = (share * whole.len() as f64) as usize;
         fs::write(&path, &whole[..cut]).expect("written");
         let found = Samples::read(&path, study).expect("it reads");
@@ -268,7 +268,7 @@ proptest! {
         let text = whole[..found.whole as usize].to_owned() + &more + &study.header() + &lines[order[0]] + "\r\n";
         fs::write(&path, text).expect("written");
         let samples = Samples::read(&path, study).expect("it reads");
-        prop_assert_eq!(samples.summary(study, 6), expected);
+        prop_assert_eq!(samples.summary(study, 6).expect("a summary"), expected);
         prop_assert!(place.job.exists());
     }
 }

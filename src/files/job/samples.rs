@@ -4,29 +4,23 @@ use super::Study;
 use super::study::{FAILED, digest};
 use crate::files::error::FileError;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
 
 /// Bars of a histogram.
 const BARS: usize = 24;
 /// The parts of all samples below the quantiles.
 const PARTS: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// The samples of a file.
-#[derive(Debug, Clone, PartialEq)]
+/// Where the samples of a file stand: some forty bytes for each, whatever the number of parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Samples {
-    by_number: BTreeMap<u64, Sample>,
+    path: PathBuf,
+    /// By number, where its line begins, and a digest of it.
+    places: BTreeMap<u64, (u64, u64)>,
     /// Bytes of whole lines: what follows is a line that was torn.
     pub whole: u64,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct Sample {
-    /// None of one that failed.
-    is_within: Option<bool>,
-    /// None of one that failed.
-    factors: Vec<f64>,
-    /// A digest of its line.
-    digest: u64,
 }
 
 /// The factor of one parameter over the samples.
@@ -63,32 +57,37 @@ impl Samples {
     /// # Errors
     /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study or of none, and a sample again with other numbers.
     pub fn read(path: &Path, study: &Study) -> Result<Self, FileError> {
-        let bytes = std::fs::read(path).map_err(FileError::of_file(path, "read"))?;
-        let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-        let mut samples = Self { by_number: BTreeMap::new(), whole: whole as u64 };
-        let (name, header, count) = (path.display().to_string(), study.header(), study.parameters().count());
-        for (number, line) in (1..).zip(String::from_utf8_lossy(&bytes[..whole]).lines().map(str::trim_end)) {
-            if line == header.trim_end() || line.is_empty() {
+        let mut samples = Self { path: path.to_owned(), places: BTreeMap::new(), whole: 0 };
+        let failed = FileError::of_file(path, "read");
+        let mut reader = BufReader::new(File::open(path).map_err(&failed)?);
+        let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
+        for number in 1.. {
+            bytes.clear();
+            let length = reader.read_until(b'\n', &mut bytes).map_err(&failed)?;
+            if bytes.last() != Some(&b'\n') {
+                break;
+            }
+            let (text, at) = (String::from_utf8_lossy(&bytes), samples.whole);
+            samples.whole += length as u64;
+            if text.trim_end() == header.trim_end() || text.trim().is_empty() {
                 continue;
             }
-            let wrong = |expected| Err(FileError::line(&name, number, expected, line));
-            let cells: Vec<&str> = line.split(',').collect();
+            let name = path.display().to_string();
+            let wrong = |expected| Err(FileError::line(&name, number, expected, text.trim_end()));
+            let cells: Vec<&str> = text.trim_end().split(',').collect();
             let (Some(sample), true) = (cells[0].parse().ok(), cells.len() == count + 6) else {
                 return wrong("a line of a sample of this study");
             };
             if cells[count + 5] != format!("{:016x}", study.identity) {
                 return wrong("a sample of this job, seed and choice of what varies");
             }
-            let numbers: Vec<f64> = cells[3..count + 5].iter().filter_map(|cell| cell.parse().ok()).collect();
-            let is_run = numbers.len() == count + 2 && numbers.iter().all(|number| number.is_finite());
-            let (is_within, factors) = match cells[1..3] {
-                [FAILED, _] => (None, Vec::new()),
-                [_, "true" | "false"] if is_run => (Some(cells[2] == "true"), numbers[2..].to_vec()),
-                _ => return wrong("true or false, and error sum, analyses and factors as numbers"),
-            };
-            let new = Sample { is_within, factors, digest: digest(line.as_bytes(), 0) };
-            let digest = new.digest;
-            if samples.by_number.insert(sample, new).is_some_and(|before| before.digest != digest) {
+            let is_number = |cell: &&str| cell.parse::<f64>().is_ok_and(f64::is_finite);
+            let is_run = ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
+            if cells[1] != FAILED && !is_run {
+                return wrong("true or false, and error sum, analyses and factors as numbers");
+            }
+            let digest = digest(text.trim_end().as_bytes(), 0);
+            if samples.places.insert(sample, (at, digest)).is_some_and(|(_, before)| before != digest) {
                 return wrong("a sample once, or again as it was");
             }
         }
@@ -97,19 +96,43 @@ impl Samples {
 
     /// Whether a sample is there.
     pub fn contains(&self, sample: u64) -> bool {
-        self.by_number.contains_key(&sample)
+        self.places.contains_key(&sample)
     }
 
-    /// What the samples up to the number `last` come to, the same whatever their order in the file.
-    pub fn summary(&self, study: &Study, last: u64) -> Summary {
-        let all = || self.by_number.range(..=last);
-        let spreads = study.parameters().enumerate().map(|(place, name)| {
-            let values = all().filter_map(|(_, sample)| sample.factors.get(place).copied());
-            (name.to_owned(), spread(values.collect()))
-        });
-        let count = |is_within: bool| all().filter(|(_, sample)| sample.is_within == Some(is_within)).count();
-        let failed = all().filter(|(_, sample)| sample.is_within.is_none()).map(|(number, _)| *number);
-        Summary { spreads: spreads.collect(), within: count(true), outside: count(false), failed: failed.collect() }
+    /// What the samples up to the number `last` come to, the same whatever their order in the file. The numbers of one parameter at a
+    /// time are held.
+    ///
+    /// # Errors
+    /// [`FileError::File`].
+    pub fn summary(&self, study: &Study, last: u64) -> Result<Summary, FileError> {
+        let mut summary = Summary { spreads: Vec::new(), within: 0, outside: 0, failed: Vec::new() };
+        self.each(last, |sample, cells| match cells[1..3] {
+            [FAILED, _] => summary.failed.push(sample),
+            [_, "true"] => summary.within += 1,
+            _ => summary.outside += 1,
+        })?;
+        for (place, name) in study.parameters().enumerate() {
+            let mut values = Vec::new();
+            // What failed has no number.
+            self.each(last, |_, cells| values.extend(cells[place + 5].parse::<f64>().ok()))?;
+            summary.spreads.push((name.to_owned(), spread(values)));
+        }
+        Ok(summary)
+    }
+
+    /// Calls with every sample up to `last`, ascending, and the cells of its line.
+    fn each(&self, last: u64, mut with: impl FnMut(u64, &[&str])) -> Result<(), FileError> {
+        let failed = FileError::of_file(&self.path, "read");
+        let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
+        let (mut now, mut line) = (0, String::new());
+        for (&sample, &(at, _)) in self.places.range(..=last) {
+            // Within what is read already nothing is read again.
+            reader.seek_relative(at as i64 - now as i64).map_err(&failed)?;
+            line.clear();
+            now = at + reader.read_line(&mut line).map_err(&failed)? as u64;
+            with(sample, &line.trim_end().split(',').collect::<Vec<_>>());
+        }
+        Ok(())
     }
 }
 
