@@ -124,7 +124,7 @@ impl Frame {
     pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
         let corner = |&node: &usize| (self.nodes[node], moved[node].dot(along));
         let cells = self.panels.iter().flat_map(|panel| cells(panel.iter().map(corner).collect()));
-        cells.flat_map(|cell| node_lines(&cell)).collect()
+        cells.flat_map(|cell| zero_lines(&cell)).collect()
     }
 }
 
@@ -150,7 +150,7 @@ fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
 }
 
 /// The zero lines of a displacement that is linear on triangles about the middle of a cell.
-fn node_lines(corners: &[Corner]) -> Vec<Segment> {
+fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
     let share = 1.0 / corners.len() as f64;
     let middle = mean(&corners.iter().map(|&corner| (share, corner)).collect::<Vec<_>>());
     let line = |(&a, &b): (&Corner, &Corner)| {
