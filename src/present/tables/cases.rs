@@ -166,9 +166,7 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
     for result in results {
         tables.extend(tables_of(result)?);
     }
-    tables.push(iteration_table(results)?);
-    tables.push(settings_table(results));
-    tables.push(fit_table(fit));
+    tables.extend([iteration_table(results)?, settings_table(results), fit_table(fit)]);
     Ok(tables)
 }
 
