@@ -56,14 +56,7 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
     let limits = results()[3].case.settings.inner.factor_range;
-    let factor = |value: f64| Factor {
-        name: "web".to_owned(),
-        value,
-        deviation: None,
-        published: None,
-        bounds: None,
-        remark: None,
-    };
+    let factor = |value: f64| Factor { name: "web".to_owned(), value, ..Factor::default() };
     for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0), ([-0.99, 5.0], -2.0)] {
         let rows = values.map(factor).to_vec();
         let across = "factor".to_owned();

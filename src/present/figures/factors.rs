@@ -11,7 +11,7 @@ const ROW: f64 = 24.0;
 const STEPS: f64 = 7.0;
 
 /// A parameter's factor.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Factor {
     /// Name of the parameter.
     pub name: String,

@@ -13,11 +13,10 @@ pub fn unlimited_factors(result: &CaseResult) -> Vec<Factor> {
     let factor = |(name, &value): (&String, &f64)| Factor {
         name: name.clone(),
         value,
-        deviation: None,
         // The paper quotes one factor: about 60, for the faulty cover of Case 4.
         published: ((result.case.number, &name[..]) == (4, "8")).then_some(60.0),
-        bounds: None,
         remark: result.anomaly.as_ref().filter(|anomaly| anomaly.parameter == *name).map(|_| ANOMALY),
+        ..Factor::default()
     };
     names.iter().zip(factors).map(factor).collect()
 }
