@@ -51,9 +51,9 @@ pub fn subject(subject: &Subject) -> Result<Value, PresentError> {
     Ok(json!({
         "name": subject.title,
         "solver": subject.solver,
-        "converged": subject.converged,
+        "converged": subject.converged(),
         "verdict": subject.verdict,
-        "verdict_in_words": subject.words,
+        "verdict_in_words": subject.words(),
         "parameters": subject.parameters,
         "ranges": subject.ranges,
         "factors": factors,
