@@ -4,7 +4,7 @@ use crate::cases::error::CaseError;
 use crate::studies::noisy_modes::{Noise, with_noise};
 use crate::studies::weighted::comparison::Known;
 use crate::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use crate::studies::weighted::residuals::Weights;
+use crate::studies::weighted::residuals::equal_weights;
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
@@ -48,7 +48,7 @@ impl Coverage {
 /// estimate at one has no interval of its own.
 fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
     let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
-    let weights = Weights::uniform(Noise::USUAL, known.test.len())?;
+    let weights = equal_weights(Noise::USUAL, known.test.len())?;
     let names = known.model.parameters().iter().map(|parameter| parameter.name.clone());
     let mut parameters: Vec<Held> = names.map(|parameter| Held { parameter, ..Held::default() }).collect();
     let mut tests = 0;

@@ -5,13 +5,14 @@ use crate::cases::error::CaseError;
 use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
+use crate::method::error_sum::ModeWeight;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::model::ModalModel;
 use crate::method::modes::ModeSet;
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{stiffness_changes, unlimited_factors};
 use crate::studies::noisy_modes::{Noise, with_noise};
-use crate::studies::weighted::residuals::{Weights, residuals, residuals_of};
+use crate::studies::weighted::residuals::{equal_weights, residuals, residuals_of};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
@@ -56,7 +57,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 ///
 /// # Errors
 /// Those of [`residuals`].
-pub fn by_single_fit(model: &ModalModel, weights: &Weights) -> Result<Vec<Suspect>, Error> {
+pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<Suspect>, Error> {
     let start = 0.5 * residuals(model, weights)?.norm_squared();
     let objective = |parameter: usize, log: f64| {
         let mut factors = vec![1.0; model.shares.len()];
@@ -108,7 +109,7 @@ pub struct Located {
 pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseError> {
     let case = Case::new(4)?;
     let exact = ModeSet::from(case.test_modes()?);
-    let weights = Weights::uniform(NOISE, exact.len())?;
+    let weights = equal_weights(NOISE, exact.len())?;
     let noisy = seeds.map(|seed| with_noise(&exact, NOISE, seed)).collect::<Result<Vec<_>, Error>>()?;
     let mut located = Vec::new();
     for (ratio, culprit) in RATIOS.into_iter().flat_map(|ratio| (0..PANEL_COUNT).map(move |panel| (ratio, panel))) {

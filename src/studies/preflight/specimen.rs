@@ -1,6 +1,6 @@
 //! Structures before their correlation.
 
-use super::{Finding, coarse_condensation, preflight};
+use super::{Finding, preflight};
 use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::closed_forms::spring_chain::spring_stiffness;
@@ -10,7 +10,6 @@ use crate::method::modes::{ModeSet, solve};
 use crate::method::outer_loop::Settings;
 use crate::studies::delta_wing::correlation;
 use crate::studies::weighted::comparison::Known;
-use crate::studies::whole_model::WholeModel;
 use nalgebra::{DMatrix, DVector};
 
 /// Stiffness of the first model's springs over the true one.
@@ -29,8 +28,6 @@ pub struct Specimen {
     pub settings: Settings,
     /// Bounds on its parameters' factors.
     pub ranges: Vec<Option<Range>>,
-    /// What condensation to the measured points does to the modes that are compared.
-    pub condensation: Vec<Finding>,
     /// Whether the masses are made with the columns of $T$, and so take their order.
     pub mass_follows: bool,
 }
@@ -50,18 +47,15 @@ impl Specimen {
     /// # Errors
     /// Those of the wing and of its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let Known { name, model, test, truth } = Known::delta_wing()?;
-        let (whole, sensors) = WholeModel::of(&model)?;
-        let highest = correlation::TEST_MODES.into_iter().max().unwrap_or(1);
-        let condensation = coarse_condensation(&whole, &vec![1.0; truth.len()], &sensors, highest)?;
+        let Known { name, model, test, .. } = Known::delta_wing()?;
         let specimen = Self::of(&name, &model, test, correlation::settings())?;
-        Ok(Self { condensation, mass_follows: true, ..specimen })
+        Ok(Self { mass_follows: true, ..specimen })
     }
 
     fn of(name: &str, model: &FiniteElementModel, test: ModeSet, settings: Settings) -> Result<Self, CaseError> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
         let model = model.matrices(&vec![1.0; ranges.len()])?;
-        Ok(Self { name, model, test, settings, ranges, condensation: Vec::new(), mass_follows: false })
+        Ok(Self { name, model, test, settings, ranges, mass_follows: false })
     }
 
     /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 % wrong.
@@ -80,7 +74,6 @@ impl Specimen {
             model: DynamicModel { stiffness: wrong, mass, shares: Vec::new() },
             settings: Settings::default(),
             ranges: vec![None; count],
-            condensation: Vec::new(),
             mass_follows: false,
         })
     }
@@ -90,7 +83,6 @@ impl Specimen {
     /// # Errors
     /// Those of [`preflight`].
     pub fn findings(&self, test: &ModeSet) -> Result<Vec<Finding>, Error> {
-        let found = preflight(&self.model, test, &self.settings, &self.ranges)?;
-        Ok([self.condensation.clone(), found].concat())
+        preflight(&self.model, test, &self.settings, &self.ranges)
     }
 }

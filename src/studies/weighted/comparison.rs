@@ -1,7 +1,7 @@
 //! The paper's rule and the weighted one on the same structures.
 
 use super::gauss_newton::{WeightedSettings, gauss_newton};
-use super::residuals::{DEVIATIONS, Weights};
+use super::residuals::{DEVIATIONS, equal_weights};
 use crate::cases::error::CaseError;
 use crate::cases::fit::rms;
 use crate::cases::torque_box::TEST_GAGE;
@@ -101,7 +101,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
             0 => (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation),
             _ => (Known::of_case(number)?, run_case(&Case::new(number)?, |_, _| {})?.correlation),
         };
-        let weights = Weights::uniform(DEVIATIONS, known.test.len())?;
+        let weights = equal_weights(DEVIATIONS, known.test.len())?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
         let found = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;

@@ -1,8 +1,9 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
 use super::identifiability::{Identifiability, identifiability};
-use super::residuals::{Weights, jacobian, residuals};
+use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
+use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::studies::noisy_modes::uniform;
@@ -113,7 +114,7 @@ pub fn gauss_newton<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     first: &[f64],
     ranges: &[Option<Range>],
-    weights: &Weights,
+    weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
     positive_setting("prior_deviation", settings.prior_deviation)?;
@@ -213,7 +214,7 @@ fn bounded_step(
 pub fn from_several_starts<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     ranges: &[Option<Range>],
-    weights: &Weights,
+    weights: &[ModeWeight],
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
