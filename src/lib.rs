@@ -24,7 +24,7 @@
 //!      [`outer_loop`](method::outer_loop).
 //! - [`closed_forms`]: structures whose answers can be written down.
 //! - [`cases`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, noisy test modes, a pre-flight that
+//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, noise on test modes, a pre-flight that
 //!   names mistakes in model and test before the first step, whole models without condensation, weighted steps with what the
 //!   test sees of the parameters, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.

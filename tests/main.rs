@@ -1,4 +1,5 @@
-//! The method's specification: one test program, in folders that mirror the rooms of `src/`, in the order of the text.
+//! The method's specification: one test program, in folders that mirror the rooms of `src/`, in the order of the text,
+//! and in `evidence` the studies whose tables `paper/*.md` quotes.
 
 mod common;
 mod ledgers;
@@ -10,3 +11,5 @@ mod studies;
 mod files;
 mod present;
 mod program;
+
+mod evidence;

@@ -14,7 +14,7 @@ use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::eigensolutions::planted;
-use corfem::studies::weighted::comparison::Known;
+use corfem::studies::known::Known;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel};
 use corfem::studies::wing::Wing;
 use nalgebra::DMatrix;

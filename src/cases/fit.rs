@@ -88,6 +88,6 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
 }
 
 /// Root mean square of a list; NaN of none.
-pub(crate) fn rms(values: &[f64]) -> f64 {
+pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

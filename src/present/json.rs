@@ -19,7 +19,6 @@ use crate::method::structure::DIRECTIONS;
 use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::preflight::Finding;
-use crate::studies::preflight::rates::Rates;
 use crate::studies::whole_modes::WholeModes;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -155,10 +154,10 @@ pub fn readings(columns: &[ReadingColumn], detections: &[Detection]) -> Result<S
     document(json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }))
 }
 
-/// What the pre-flight finds in structures, and how often it finds mistakes; places count from zero.
-pub fn preflight(found: &[(String, Vec<Finding>)], rates: &[Rates]) -> Result<String, PresentError> {
+/// What the pre-flight finds in structures; places count from zero.
+pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentError> {
     let structure = |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
-    document(json!({ "structures": found.iter().map(structure).collect::<Value>(), "rates": rates }))
+    document(json!({ "structures": found.iter().map(structure).collect::<Value>() }))
 }
 
 /// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.

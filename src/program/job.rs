@@ -66,7 +66,7 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
 
 /// Says everything doubtful of a job and ranks its parameters, without a step.
 pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -> Result<(), PresentError> {
-    let Some(path) = job else { return super::studies::check(output, quiet) };
+    let Some(path) = job else { return super::studies::check(output) };
     let tables = progress::during(quiet, "looking at the job", || {
         let prepared = Prepared::new(path)?;
         let subject = Subject::of_job(&prepared, None)?;

@@ -26,10 +26,7 @@ use pictures::{DumpArguments, FolderArguments};
 use place::{check, put};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use studies::{
-    CostArguments, DeltaWingArguments, FewerModesArguments, LocalizeArguments, MatricesArguments, TablesArguments,
-    WeightedArguments,
-};
+use studies::{CostArguments, DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
 use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
@@ -74,20 +71,14 @@ enum Command {
     Readings(OutputArguments),
     /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
     Matrices(MatricesArguments),
-    /// Correlate Case 2 with noisy test modes, as they are and after Appendix B, and compare the gages found
-    Noise(OutputArguments),
     /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and say how its factors scatter
     Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
-    /// Look at a job before the first step; without one, at the paper's cases, and count how often mistakes are named
+    /// Look at a job before the first step; without one, at the paper's cases and the delta wing
     Check(CheckArguments),
-    /// Make each panel of the box too thin in turn, and count how often it is named as the wrong one
-    Localize(LocalizeArguments),
-    /// Compare the paper's rule with weighted Gauss–Newton steps, and count how often their 95 % intervals hold the truth
-    Weighted(WeightedArguments),
     /// Count the eigensolutions that the method takes and saves, and compare its steps with linear Taylor steps
     Cost(CostArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
@@ -128,14 +119,11 @@ pub fn run() -> ExitCode {
         Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet).map(|()| true),
         Some(Command::Readings(arguments)) => studies::readings(&arguments, quiet).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
-        Some(Command::Noise(arguments)) => studies::noise(&arguments, quiet).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Cost(arguments)) => studies::cost(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
-        Some(Command::Localize(arguments)) => studies::localize(&arguments, quiet).map(|()| true),
-        Some(Command::Weighted(arguments)) => studies::weighted(&arguments, quiet).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments, quiet),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
         Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),

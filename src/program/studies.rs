@@ -1,4 +1,4 @@
-//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `noise`, `check`, `localize`, `weighted`, `cost` and `delta-wing`.
+//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `check`, `cost` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::progress::during;
@@ -10,18 +10,12 @@ use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
 use corfem::cases::readings::{READINGS, all_columns, detection};
 use corfem::cases::torque_box::Reconstruction;
 use corfem::present::{PresentError, json, tables};
-use corfem::studies::coverage;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
 use corfem::studies::eigensolutions;
 use corfem::studies::linearization::{Exact, both_structures};
-use corfem::studies::localization;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
-use corfem::studies::noisy_modes::{NOISY_CASE, Noise, SEEDS, noisy_modes};
 use corfem::studies::preflight::Specimen;
-use corfem::studies::preflight::rates::{self, all_rates};
-use corfem::studies::weighted::comparison::compare_all;
-use corfem::studies::weighted::gauss_newton::WeightedSettings;
 use serde_json::json;
 
 #[derive(Debug, Args)]
@@ -41,24 +35,6 @@ pub struct MatricesArguments {
     /// How many test modes, the lowest, the corrections are given
     #[arg(long, value_name = "N", default_value_t = USUAL_TEST_MODES)]
     test_modes: usize,
-    #[command(flatten)]
-    output: OutputArguments,
-}
-
-#[derive(Debug, Args)]
-pub struct LocalizeArguments {
-    /// How many noisy tests of each panel
-    #[arg(long, value_name = "N", default_value_t = *localization::SEEDS.end(), value_parser = clap::value_parser!(u64).range(1..))]
-    tests: u64,
-    #[command(flatten)]
-    output: OutputArguments,
-}
-
-#[derive(Debug, Args)]
-pub struct WeightedArguments {
-    /// How many noisy tests of each structure
-    #[arg(long, value_name = "N", default_value_t = *coverage::SEEDS.end(), value_parser = clap::value_parser!(u64).range(1..))]
-    tests: u64,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -134,16 +110,8 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     arguments.output.write(&tables, || json::document(json!({ "comparison": comparison })))
 }
 
-/// Correlates noisy test modes, raw and after Appendix B, and writes what becomes of the gages.
-pub fn noise(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
-    let case = Case::new(NOISY_CASE)?;
-    let study = during(quiet, "noisy tests", || noisy_modes(&case, Noise::USUAL, SEEDS))?;
-    output.write(&tables::noisy_modes::noisy_tables(&study), || json::document(json!({ "study": study })))
-}
-
-/// Looks at the paper's cases and the delta wing before the first step, and writes what is found and how often mistakes
-/// are.
-pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
+/// Looks at the paper's cases and the delta wing before the first step, and writes what is found.
+pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
     let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
     specimens.push(Specimen::delta_wing()?);
     let mut found = Vec::new();
@@ -151,26 +119,7 @@ pub fn check(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> 
         let findings = specimen.findings(&specimen.test)?;
         found.push((specimen.name, findings));
     }
-    let rates = during(quiet, "mistakes made and looked for", || all_rates(rates::SEEDS))?;
-    let mut tables = vec![tables::preflight::findings_table(&found)];
-    tables.extend(tables::preflight::rate_tables(&rates));
-    output.write(&tables, || json::preflight(&found, &rates))
-}
-
-/// Makes each panel of the box too thin in turn, and writes how often it is found.
-pub fn localize(LocalizeArguments { tests, output }: &LocalizeArguments, quiet: bool) -> Result<(), PresentError> {
-    let located = during(quiet, "panels too thin in turn", || localization::localization(1..=*tests))?;
-    output.write(&tables::weighted::localization_tables(&located), || json::document(json!({ "located": located })))
-}
-
-/// Writes the paper's rule and the weighted one side by side, and how often the weighted one's intervals hold the truth.
-pub fn weighted(WeightedArguments { tests, output }: &WeightedArguments, quiet: bool) -> Result<(), PresentError> {
-    let settings = WeightedSettings::default();
-    let compared = during(quiet, "both rules side by side", || compare_all(&settings))?;
-    let coverages = during(quiet, "intervals of noisy tests", || coverage::all_coverages(1..=*tests))?;
-    let mut tables = tables::weighted::coverage_tables(&coverages);
-    tables.insert(0, tables::weighted::rules_table(&compared));
-    output.write(&tables, || json::document(json!({ "structures": compared, "coverage": coverages })))
+    output.write(&[tables::preflight::findings_table(&found)], || json::preflight(&found))
 }
 
 /// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.

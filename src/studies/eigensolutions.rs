@@ -6,7 +6,7 @@ use crate::method::error::Error;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::outer_loop::{Correlation, Settings, correlate};
 use crate::studies::delta_wing::correlation;
-use crate::studies::weighted::comparison::Known;
+use crate::studies::known::Known;
 use crate::studies::wing::Wing;
 use serde::Serialize;
 

@@ -11,7 +11,7 @@ use crate::method::linear_algebra::{check_length, symmetric_part};
 use crate::method::model::{DynamicModel, FiniteElementModel};
 use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{cross_orthogonality, pair_modes};
-use crate::studies::weighted::comparison::Known;
+use crate::studies::known::Known;
 use nalgebra::{DMatrix, DVector};
 
 /// What predicts modes, in the order of [`Prediction::errors`].

@@ -2,17 +2,17 @@
 
 pub mod assignment;
 pub mod complex_modes;
-pub mod coverage;
 pub mod delta_wing;
 pub mod eigensolutions;
 pub mod expansion;
 pub mod free_modes;
+pub mod known;
 pub mod linearization;
 pub mod localization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod metrics;
-pub mod noisy_modes;
+pub mod noise;
 pub mod preflight;
 pub mod weighted;
 pub mod whole_modes;

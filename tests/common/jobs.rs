@@ -9,7 +9,7 @@ use corfem::files::test_data::{Sensor, TestData};
 use corfem::method::modes::ModeSet;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
-use corfem::studies::noisy_modes::{Noise, with_noise};
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::whole_model::WholeShare;
 use nalgebra::Vector3;
 

@@ -9,7 +9,7 @@ use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
-use corfem::studies::noisy_modes::Noise;
+use corfem::studies::noise::Noise;
 use corfem::studies::weighted::identifiability::identifiability;
 use corfem::studies::weighted::residuals::{equal_weights, jacobian};
 use nalgebra::DMatrix;

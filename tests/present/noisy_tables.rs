@@ -2,12 +2,12 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF};
+use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
 use crate::studies::noisy_modes::study;
 use corfem::cases::Case;
-use corfem::present::render::csv;
+use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::noisy_modes::noisy_tables;
-use corfem::studies::noisy_modes::{NOISY_CASE, Noise, noisy_modes};
+use corfem::studies::noise::Noise;
 
 #[test]
 fn noisy_modes_as_numbers() {
@@ -18,7 +18,17 @@ fn noisy_modes_as_numbers() {
     for table in &tables {
         assert!(table.rows.iter().all(|row| row.cells.len() == table.columns.len()), "{}", table.name);
     }
-    assert_golden("noisy_modes", &csv(&tables), numbers);
+    let written = csv(&tables);
+    assert!(written.contains("\nnoisy_gages,median,Raw all,%,"));
+    assert!(written.lines().all(|line| line.split(',').count() == 6));
+    assert_golden("noisy_modes", &written, numbers);
+    assert!(text(&tables).starts_with("Case 2 with noisy test modes"));
+    assert!(text(&tables).lines().all(|line| line.chars().count() <= WIDTH));
+    assert!(markdown(&tables).contains("| Raw shear, % | Orthogonal shear, % | Screened shear, % |"));
+    assert_eq!(study().runs.len(), 21);
+    for (seed, run) in study().runs.iter().enumerate() {
+        assert_eq!((run.seed, run.orthogonal.gages_in.len()), ((seed > 0).then_some(seed as u64), 15));
+    }
 }
 
 fn number(table: &Table, row: &str, column: &str) -> f64 {

@@ -2,11 +2,12 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::GOLDEN_COUNT;
+use crate::evidence::rates::rate_tables;
 use crate::studies::preflight_rates::study;
 use corfem::present::json;
 use corfem::present::render::csv;
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::preflight::{findings_table, rate_tables};
+use corfem::present::tables::preflight::findings_table;
 use corfem::studies::preflight::Finding;
 
 #[test]
@@ -52,12 +53,11 @@ fn findings_stand_under_their_structure() {
 }
 
 #[test]
-fn findings_and_rates_as_json_are_those_given() {
+fn findings_as_json_are_those_given() {
     let low = Finding::LowPair { test: 1, analysis: 0, cross: 0.5 };
     let found = [("a".to_owned(), vec![]), ("b".to_owned(), vec![low.clone()])];
-    let value: serde_json::Value = serde_json::from_str(&json::preflight(&found, &[]).expect("written")).expect("JSON");
+    let value: serde_json::Value = serde_json::from_str(&json::preflight(&found).expect("written")).expect("JSON");
     assert_eq!((&value["structures"][0]["name"], &value["structures"][1]["name"]), (&"a".into(), &"b".into()));
     assert_eq!(value["structures"][0]["findings"], serde_json::json!([]));
     assert_eq!(value["structures"][1]["findings"], serde_json::json!([low]));
-    assert_eq!(value["rates"], serde_json::json!([]));
 }

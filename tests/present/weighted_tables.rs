@@ -2,15 +2,14 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{JOB_RESULTS, SINGLE_FIT_FACTOR};
+use crate::evidence::coverage::{Coverage, Held, all_coverages, coverage_tables};
+use crate::evidence::localization::{localization, localization_tables};
+use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::places::{filled, goldens};
 use corfem::files::job::Prepared;
-use corfem::present::render::{WIDTH, csv, text};
+use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
-use corfem::present::tables::weighted::{coverage_tables, localization_tables, rules_table};
-use corfem::studies::coverage::{Coverage, Held, all_coverages};
-use corfem::studies::localization::localization;
-use corfem::studies::weighted::comparison::compare_all;
 use corfem::studies::weighted::gauss_newton::WeightedSettings;
 use std::path::Path;
 
@@ -31,6 +30,8 @@ fn two_rules_as_numbers() {
     let table = rules_table(&compare_all(&WeightedSettings::default()).expect("they run"));
     let numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: false };
     fits(std::slice::from_ref(&table));
+    assert!(table.title.starts_with("The paper's rule"));
+    assert!(markdown(std::slice::from_ref(&table)).contains("| Structure | Steps | Analyses | Factor RMS, % |"));
     assert_golden("rules", &csv(&[table]), numbers);
 }
 
@@ -48,7 +49,11 @@ fn culprits_without_noise_are_those_of_the_golden() {
     }
     // All panels are found first by their own fit, with one seed's noise too.
     assert_eq!(written(&tables[0], "all")[3..], ["15", "15", "15"]);
-    assert!(tables[0].title.ends_with("of 1 noisy tests"));
+    assert!(csv(&tables).contains("\nlocalization_0.5,all,Fit first,,15,\n"));
+    assert!(markdown(&tables).contains("| Panel | Factor, no noise | Factor first |"));
+    assert!(
+        tables[0].title.starts_with("One panel 0.01 times as thick") && tables[0].title.ends_with("of 1 noisy tests")
+    );
 }
 
 #[test]
@@ -70,6 +75,8 @@ fn intervals_are_counted_by_what_the_test_says_of_a_parameter() {
 fn a_few_tests_see_the_parameters_that_a_thousand_see() {
     let tables = coverage_tables(&all_coverages(1..=3).expect("they run"));
     fits(&tables);
+    assert!(tables[0].title.ends_with("over 3 noisy tests") && tables[1].rows.len() == 15);
+    assert!(csv(&tables).contains("\ncoverage,Delta wing,Parameters,,21,\n"));
     let goldens = goldens();
     for structure in &tables[0].rows {
         let place = |column: &str| filled(&format!("{{coverage|coverage|{}|{column}|0}}", structure.label), &goldens);

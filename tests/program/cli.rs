@@ -198,7 +198,6 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
         &["cases", "--groups"],
         &["tables"],
         &["fewer-modes"],
-        &["noise"],
         &["matrices"],
         &["cost", "--error", "5"],
         &["delta-wing"],

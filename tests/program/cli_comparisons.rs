@@ -1,4 +1,4 @@
-//! The program's comparisons from outside: fewer modes, matrices, and noisy modes.
+//! The program's comparisons from outside: fewer modes and matrices.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -59,28 +59,9 @@ fn matrices_of_a_case_and_a_number_of_modes() {
 }
 
 #[test]
-fn noise_in_every_format() {
-    let plain = corfem(&["noise"]);
-    assert_eq!(plain.status.code(), Some(0));
-    assert!(text(&plain.stdout).starts_with("Case 2 with noisy test modes"));
-    let markdown = text(&corfem(&["noise", "--format", "markdown"]).stdout);
-    assert!(markdown.contains("| Raw shear, % | Orthogonal shear, % | Screened shear, % |"));
-    let numbers = text(&corfem(&["noise", "--format", "csv"]).stdout);
-    assert!(numbers.lines().all(|line| line.split(',').count() == 6));
-    assert!(numbers.contains("\nnoisy_gages,median,Raw all,%,"));
-    let json: Value = serde_json::from_slice(&corfem(&["noise", "--format", "json"]).stdout).expect("JSON");
-    let runs = json["study"]["runs"].as_array().expect("a list");
-    assert_eq!(runs.len(), 21);
-    for (seed, run) in runs.iter().enumerate() {
-        assert_eq!(run["seed"], if seed == 0 { Value::Null } else { seed.into() });
-        assert_eq!(run["orthogonal"]["gages_in"].as_array().map(Vec::len), Some(15));
-    }
-}
-
-#[test]
 fn comparisons_go_to_a_file_when_asked() {
     let folder = tempfile::tempdir().expect("a folder");
-    for command in ["fewer-modes", "matrices", "noise"] {
+    for command in ["fewer-modes", "matrices"] {
         let file = folder.path().join(command);
         let done = corfem(&[command, "--output", file.to_str().expect("a name")]);
         assert!(done.status.success() && done.stdout.is_empty());

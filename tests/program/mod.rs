@@ -12,7 +12,6 @@ pub mod cli_pictures;
 pub mod cli_places;
 pub mod cli_streams;
 pub mod cli_tables;
-pub mod cli_weighted;
 pub mod deck_cli;
 pub mod dump;
 pub mod stops;

@@ -3,7 +3,7 @@
 use corfem::cases::{Case, run_case};
 use corfem::method::error::Error;
 use corfem::studies::eigensolutions::{Counted, count_all, counted, planted};
-use corfem::studies::weighted::comparison::Known;
+use corfem::studies::known::Known;
 use corfem::studies::wing::Wing;
 
 fn case(number: usize, error: f64) -> Counted {

@@ -4,8 +4,8 @@ use crate::common::tolerances::{MEASURABLE_ERROR, ORDER_HALFWAY, ORDER_SLACK, RO
 use approx::assert_relative_eq;
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
+use corfem::studies::known::Known;
 use corfem::studies::linearization::{Exact, MEASURES, Prediction, STEPS, both_structures, predictions};
-use corfem::studies::weighted::comparison::Known;
 
 const FIRST: usize = 0;
 const RECURSIVE: usize = 1;

@@ -3,6 +3,7 @@
 use crate::common::tolerances::{
     BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY, STANDARD_ERRORS,
 };
+use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
 use corfem::cases::torque_box::dynamic_points;
 use corfem::cases::{Case, run_case};
 use corfem::method::appendix_b::{
@@ -11,9 +12,7 @@ use corfem::method::appendix_b::{
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::method::step::StepRule;
-use corfem::studies::noisy_modes::{
-    Found, NOISY_CASE, Noise, NoisyModes, NoisyRun, SEEDS, noisy_modes, split_mix_64, with_noise,
-};
+use corfem::studies::noise::{Noise, split_mix_64, with_noise};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use std::sync::OnceLock;

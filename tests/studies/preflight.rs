@@ -1,6 +1,7 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::evidence::rates::spring_chain;
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
@@ -9,7 +10,7 @@ use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::studies::delta_wing::{DeltaWing, correlation};
-use corfem::studies::noisy_modes::{Noise, split_mix_64, with_noise};
+use corfem::studies::noise::{Noise, split_mix_64, with_noise};
 use corfem::studies::preflight::{
     Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, Specimen, preflight,
 };
@@ -20,7 +21,7 @@ pub fn case(number: usize) -> Specimen {
 }
 
 pub fn chain() -> Specimen {
-    Specimen::spring_chain().unwrap()
+    spring_chain().unwrap()
 }
 
 pub fn wing() -> Specimen {

@@ -1,6 +1,7 @@
 //! The pre-flight: points in another order in shapes of any scale, ratios of frequencies, and what is too little to be named.
 
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::evidence::plant::mass_follows;
 use crate::studies::preflight::{agreement, case, chain, findings, mended, wing, with_shapes};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
 use corfem::method::model::DynamicModel;
@@ -93,8 +94,8 @@ fn ratios_that_scatter_have_no_common_factor() {
 #[test]
 fn masses_follow_the_columns_of_t_where_they_are_made_with_them() {
     // The wing's are of elements and come through T; those of the others are given at the points.
-    assert!(wing().mass_follows);
-    assert!([case(1), case(2), case(3), chain()].iter().all(|specimen| !specimen.mass_follows));
+    assert!(mass_follows(&wing()));
+    assert!([case(1), case(2), case(3), chain()].iter().all(|specimen| !mass_follows(specimen)));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! How often the pre-flight names mistakes made on purpose, and how often it is wrong.
 
 use crate::common::tolerances::{LEAST_COLUMNS, LEAST_DETECTIONS, MOST_LOW_PAIRS};
-use corfem::studies::preflight::rates::{Rates, SEEDS, all_rates, rates};
-use corfem::studies::preflight::{MISTAKES, Mistake, Specimen};
+use crate::evidence::plant::{MISTAKES, Mistake};
+use crate::evidence::rates::{Rates, SEEDS, all_rates, rates, spring_chain};
 use std::sync::OnceLock;
 
 pub fn study() -> &'static [Rates] {
@@ -40,7 +40,7 @@ fn nearly_every_mistake_is_named() {
 
 #[test]
 fn the_same_seeds_give_the_same_rates() {
-    let chain = Specimen::spring_chain().unwrap();
+    let chain = spring_chain().unwrap();
     let few = rates(&chain, 1..=5).unwrap();
     assert_eq!(few, rates(&chain, 1..=5).unwrap());
     assert_eq!(few.seeds, 5);

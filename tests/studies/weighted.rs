@@ -2,14 +2,15 @@
 
 use crate::common::draws::Draws;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR};
+use crate::evidence::rules::compare_all;
 use corfem::cases::Case;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
-use corfem::studies::noisy_modes::{Noise, with_noise};
-use corfem::studies::weighted::comparison::{Known, compare_all};
+use corfem::studies::known::Known;
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };

@@ -5,13 +5,13 @@ use crate::common::tolerances::{
     COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE,
     MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR,
 };
+use crate::evidence::coverage::{SEEDS, SEEN, all_coverages, coverage_tables};
+use crate::evidence::localization::{self, NOISE, localization, localization_tables};
 use crate::studies::weighted::at;
 use corfem::cases::Case;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::present::render::csv;
-use corfem::present::tables::weighted::{coverage_tables, localization_tables};
-use corfem::studies::coverage::{SEEDS, SEEN, all_coverages};
-use corfem::studies::localization::{self, NOISE, by_single_fit, localization};
+use corfem::studies::localization::by_single_fit;
 use corfem::studies::weighted::residuals::{equal_weights, residuals};
 
 #[test]

@@ -5,7 +5,7 @@ use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
-use corfem::studies::weighted::comparison::Known;
+use corfem::studies::known::Known;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
 use corfem::studies::weighted::identifiability::identifiability;
 use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian};

@@ -14,7 +14,7 @@ use corfem::method::structure::{Element, Grid, Material, Structure};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::GROUPS;
 use corfem::studies::free_modes::{CountedModes, counted_modes};
-use corfem::studies::noisy_modes::Noise;
+use corfem::studies::noise::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::equal_weights;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};

@@ -8,7 +8,7 @@ use crate::method::model::{ModalModel, Range};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
-use crate::studies::noisy_modes::Noise;
+use crate::studies::noise::Noise;
 use crate::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };

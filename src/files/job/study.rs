@@ -6,7 +6,7 @@ use crate::files::error::FileError;
 use crate::files::test_data::quoted;
 use crate::method::modes::ModeSet;
 use crate::method::verdict::Outcome;
-use crate::studies::noisy_modes::{Noise, split_mix_64, uniform, with_noise_by_mode};
+use crate::studies::noise::{Noise, split_mix_64, uniform, with_noise_by_mode};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -7,20 +7,17 @@ pub mod delta_wing;
 pub mod fewer_modes;
 pub mod job;
 pub mod matrices;
-pub mod noisy_modes;
 pub mod preflight;
 pub mod published;
 pub mod readings;
 pub mod stages;
 pub mod subject;
 pub mod unlimited;
-pub mod weighted;
 
 use super::table::Digits;
 use crate::cases::fit::rms;
 use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
-use crate::studies::noisy_modes::Noise;
 
 const HERTZ: Digits = Digits::Significant(4);
 const INCHES: Digits = Digits::Fixed(5);
@@ -68,15 +65,6 @@ pub fn paper_tables<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         "Of the paper's tables, here are {}; corfem tables prints Table 1, computed anew, and the others as published, \
         with their CPU seconds.",
         numbers.join(", ")
-    )
-}
-
-/// Noise of a test in words.
-fn noise_words(noise: Noise) -> String {
-    format!(
-        "{:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard deviations)",
-        100.0 * noise.shape,
-        100.0 * noise.frequency
     )
 }
 

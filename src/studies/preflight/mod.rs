@@ -12,14 +12,11 @@
 
 mod frequencies;
 mod order;
-mod plant;
-pub mod rates;
 mod shapes;
 mod specimen;
 mod words;
 
 pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
-pub use plant::{MISTAKES, Mistake};
 pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
 pub use specimen::Specimen;
 

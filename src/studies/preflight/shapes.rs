@@ -201,7 +201,7 @@ fn order_of(change: &Change, points: usize) -> Option<Vec<usize>> {
 }
 
 /// The order that undoes another.
-pub(super) fn inverse(order: &[usize]) -> Vec<usize> {
+fn inverse(order: &[usize]) -> Vec<usize> {
     let mut inverse = vec![0; order.len()];
     order.iter().enumerate().for_each(|(place, &of)| inverse[of] = place);
     inverse

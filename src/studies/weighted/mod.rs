@@ -2,7 +2,6 @@
 //! deviations. Their sum of squares is the test's chi-squared and its curvature says how sure the factors are, of which the
 //! paper's error sum, where every mode and sensor counts alike, says nothing.
 
-pub mod comparison;
 pub mod gauss_newton;
 pub mod identifiability;
 pub mod residuals;

@@ -1,23 +1,24 @@
 //! Appendix B in use: the box's test modes with reproducible errors of measurement, correlated as they are and after Appendix B.
 //! What is wrong with the gages each time says what its steps are worth.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::cases::fit::rms;
-use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
-use crate::method::appendix_b::{
-    Examination, MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, rigid_body_vectors,
+use super::{PERCENT, RMS_PERCENT, noise_words};
+use corfem::cases::Case;
+use corfem::cases::error::CaseError;
+use corfem::cases::fit::rms;
+use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
+use corfem::method::appendix_b::{
+    Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports, balance, examine,
+    rigid_body_vectors,
 };
-use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
-use crate::method::model::FiniteElementModel;
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::correlate;
-use crate::method::step::StepRule;
-use crate::method::structure::ElementKind;
+use corfem::method::error::Error;
+use corfem::method::model::FiniteElementModel;
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::correlate;
+use corfem::method::step::StepRule;
+use corfem::method::structure::ElementKind;
+use corfem::present::table::{Cell, Digits, Table, numbers};
+use corfem::studies::noise::{Noise, with_noise};
 use nalgebra::Vector3;
-use serde::Serialize;
-use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
 /// The case whose test modes get noise.
@@ -29,24 +30,8 @@ const NO_LIMITS: MovementLimits = MovementLimits { balance: 0.999, frequency: f6
 /// Rigid-body motions that points which move along z can show.
 const MOTIONS: [Motion; 3] = [Motion::Plunge, Motion::Roll, Motion::Pitch];
 
-/// Standard deviations of the errors of a measurement, as fractions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Noise {
-    /// Of every component of a shape, relative to the shape's largest.
-    pub shape: f64,
-    /// Of a frequency, relative to it.
-    pub frequency: f64,
-}
-
-impl Noise {
-    /// A good test: 1 % of shape and 0.3 % of frequency.
-    pub const USUAL: Self = Self { shape: 0.01, frequency: 0.003 };
-    /// A perfect one.
-    pub const NONE: Self = Self { shape: 0.0, frequency: 0.0 };
-}
-
 /// What a correlation with some test modes leads to; errors are fractions.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// Whether the last pass met the case's tolerances beside the modes given.
     pub converged: bool,
@@ -69,7 +54,7 @@ pub struct Found {
 }
 
 /// The correlations with the test modes of one seed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NoisyRun {
     /// The seed; none for modes without noise.
     pub seed: Option<u64>,
@@ -84,14 +69,14 @@ pub struct NoisyRun {
 }
 
 /// The study.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NoisyModes {
     /// Case number.
     pub case: usize,
     /// The noise.
     pub noise: Noise,
     /// Why the modes are not balanced: the stiffness against rigid-body motion relative to $\omega^2$ times its mass, above
-    /// [`crate::method::appendix_b::LARGEST_SUSPENSION_RATIO`]. None when they are.
+    /// [`LARGEST_SUSPENSION_RATIO`]. None when they are.
     pub support_ratio: Option<f64>,
     /// Without noise, then one run for every seed.
     pub runs: Vec<NoisyRun>,
@@ -150,49 +135,87 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
     })
 }
 
-/// Test modes with reproducible errors of measurement:
-///
-/// $$ f_i (1 + \sigma_f z), \qquad V_{ij} + \sigma_v z \max_k \lvert V_{ik} \rvert $$
-///
-/// with the standard deviations $\sigma$ of `noise` and another standard normal variate $z$ in every place. The variates
-/// are those of Box and Muller, *Annals of Mathematical Statistics* 29 (1958), 610–611, from [`split_mix_64`].
-///
-/// # Errors
-/// Those of [`ModeSet::from_measured`], such as [`Error::NotPositive`] when noise turns a frequency negative.
-pub fn with_noise(exact: &ModeSet, noise: Noise, seed: u64) -> Result<ModeSet, Error> {
-    with_noise_by_mode(exact, &vec![noise; exact.len()], seed)
+/// A quantity of a correlation: its name, its unit, how it is written, and its value in that unit.
+type Quantity = (&'static str, &'static str, Digits, fn(&Found) -> f64);
+
+const GAGES: [Quantity; 3] = [
+    ("shear", "%", PERCENT, |found| 100.0 * found.shear_gage_rms),
+    ("membrane", "%", PERCENT, |found| 100.0 * found.membrane_gage_rms),
+    ("all", "%", PERCENT, |found| 100.0 * found.gage_rms),
+];
+const COURSE: [Quantity; 2] = [
+    ("iterations", "", Digits::Fixed(0), |found| found.iterations as f64),
+    ("error sum", "%", RMS_PERCENT, |found| 100.0 * found.error_sum),
+];
+const TRUE_ERRORS: [Quantity; 2] = [
+    ("frequency", "%", RMS_PERCENT, |found| 100.0 * found.true_frequency_rms),
+    ("shape", "%", RMS_PERCENT, |found| 100.0 * found.true_shape_rms),
+];
+
+/// One of a run's three correlations.
+type Side = fn(&NoisyRun) -> &Found;
+
+/// The names of the test modes that they are given.
+const SIDES: [(&str, Side); 3] =
+    [("Raw", |run| &run.raw), ("Orthogonal", |run| &run.orthogonal), ("Screened", |run| &run.screened)];
+
+/// The study's tables: the gages found, how the correlations went, and how far they end from the true modes; a row
+/// without noise, one for every seed, and the median and the worst over the seeds.
+pub fn noisy_tables(study: &NoisyModes) -> Vec<Table> {
+    let noisy: Vec<&NoisyRun> = study.runs.iter().filter(|run| run.seed.is_some()).collect();
+    let count = |fits: &dyn Fn(&NoisyRun) -> bool| noisy.iter().filter(|run| fits(run)).count();
+    let better = |side: Side| count(&|run| side(run).gage_rms < run.raw.gage_rms);
+    let [raw, orthogonal, screened] = SIDES.map(|(_, side)| side);
+    let converged = |side: Side| count(&|run| side(run).converged);
+    let noise = format!(
+        "Noise: {}. Orthogonal: by Appendix B. Screened: those that its limits keep.",
+        noise_words(study.noise)
+    );
+    let balance = study.support_ratio.map_or_else(
+        || "The modes are balanced first.".to_owned(),
+        |ratio| {
+            format!(
+                "Balancing does not apply, because supports hold the structure: its stiffness against rigid-body motion is \
+                {ratio:.0} times the inertia at the lowest frequency, where a suspension's is at most {LARGEST_SUSPENSION_RATIO}."
+            )
+        },
+    );
+    let gains = format!(
+        "Of {} seeds, orthogonal modes give better gages than raw ones with {}, screened ones with {}.",
+        noisy.len(),
+        better(orthogonal),
+        better(screened)
+    );
+    let met = format!(
+        "Error sum: beside the test modes given. The case's tolerances are met with {} seeds raw, {} orthogonal, {} screened.",
+        converged(raw),
+        converged(orthogonal),
+        converged(screened)
+    );
+    let kept = study.runs.iter().map(|run| Cell::count(run.kept.len()));
+    vec![
+        table(study, "gages", "RMS gage errors", &GAGES).notes([noise, balance, gains]),
+        table(study, "course", "how the correlations went", &COURSE).column("Modes kept", "", kept).notes([met]),
+        table(study, "truth", "RMS errors beside the modes without noise", &TRUE_ERRORS),
+    ]
 }
 
-/// The same with standard deviations of every mode's own, and the same variates.
-///
-/// # Errors
-/// [`Error::WrongShape`] unless there is one `noise` a mode; those of [`with_noise`].
-pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result<ModeSet, Error> {
-    check_length("standard deviations", noise.len(), exact.len())?;
-    let mut state = seed;
-    // Above zero, so that it has a logarithm, and at most one.
-    let mut above_zero = || uniform(&mut state) + 0.5_f64.powi(53);
-    let mut normal = || (-2.0 * above_zero().ln()).sqrt() * (2.0 * PI * above_zero()).cos();
-    let noisy = |(frequency, noise): (f64, &Noise)| frequency * (1.0 + noise.frequency * normal());
-    let frequencies: Vec<f64> = exact.frequencies_hz().into_iter().zip(noise).map(noisy).collect();
-    let mut shapes = exact.shapes.clone();
-    for (mut shape, noise) in shapes.column_iter_mut().zip(noise) {
-        let deviation = noise.shape * shape.amax();
-        shape.apply(|component| *component += deviation * normal());
+/// Quantities of all correlations run by run, and their median and largest value over the seeds.
+fn table(study: &NoisyModes, name: &str, what: &str, quantities: &[Quantity]) -> Table {
+    let title = format!("Case {} with noisy test modes: {what}", study.case);
+    let labels = study.runs.iter().map(|run| run.seed.map_or_else(|| "no noise".to_owned(), |seed| seed.to_string()));
+    let mut table = Table::new(format!("noisy_{name}"), title, "Seed").labels(labels).labels(["median", "worst"]);
+    for (name, unit, digits, value) in quantities {
+        for (side_name, side) in SIDES {
+            let values = study.runs.iter().map(|run| value(side(run)));
+            let of_seeds = study.runs.iter().filter(|run| run.seed.is_some()).map(|run| value(side(run)));
+            let mut of_seeds: Vec<f64> = of_seeds.collect();
+            of_seeds.sort_by(f64::total_cmp);
+            let last = of_seeds.len().checked_sub(1);
+            let median = last.map(|last| 0.5 * (of_seeds[last / 2] + of_seeds[last.div_ceil(2)]));
+            let all = values.map(Some).chain([median, of_seeds.last().copied()]);
+            table = table.column(format!("{side_name} {name}"), unit, numbers(all, *digits));
+        }
     }
-    ModeSet::from_measured(&frequencies, &shapes)
-}
-
-/// The next number from zero up to one: of [`split_mix_64`] the 53 bits that a number holds.
-pub fn uniform(state: &mut u64) -> f64 {
-    (split_mix_64(state) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// The next number of the generator SplitMix64, from its state, which moves on: Steele, Lea and Flood, "Fast Splittable
-/// Pseudorandom Number Generators", *OOPSLA* 2014, 453–472, with the constants of Vigna's public-domain `splitmix64.c`.
-pub fn split_mix_64(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^ (mixed >> 31)
+    table
 }

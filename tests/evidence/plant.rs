@@ -1,16 +1,12 @@
 //! Mistakes made on purpose.
 
-use super::Finding;
-use super::frequencies::FACTORS;
-use super::shapes::{Change, Mended, inverse, reordered};
-use super::specimen::Specimen;
-use crate::method::error::Error;
-use crate::studies::noisy_modes::{Noise, split_mix_64, with_noise};
-use serde::Serialize;
+use corfem::method::error::Error;
+use corfem::studies::noise::{Noise, split_mix_64, with_noise};
+use corfem::studies::preflight::{Change, FACTORS, Finding, Mended, Specimen};
+use nalgebra::DMatrix;
 
 /// A mistake made on purpose; what it hits is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mistake {
     /// Frequencies times one of [`FACTORS`], in turn.
     Factor,
@@ -88,6 +84,25 @@ fn either(named: bool) -> Naming {
     if named { Naming::First } else { Naming::Not }
 }
 
+/// Whether the masses are made with the columns of $T$, and so take their order: those of elements, which it spreads over several
+/// points. Masses given at the points are diagonal.
+pub fn mass_follows(specimen: &Specimen) -> bool {
+    let mass = &specimen.model.mass;
+    *mass != DMatrix::from_diagonal(&mass.diagonal())
+}
+
+/// A symmetric matrix with rows and columns in another order.
+fn reordered(matrix: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
+    matrix.select_rows(order).select_columns(order)
+}
+
+/// The order that undoes another.
+fn inverse(order: &[usize]) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..order.len()).collect();
+    places.sort_by_key(|&place| order[place]);
+    places
+}
+
 /// A structure whose test has noise, with a mistake; none where the structure does not allow it.
 pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Option<Planted>, Error> {
     let mut specimen = Specimen { test: with_noise(&right.test, Noise::USUAL, seed)?, ..right.clone() };
@@ -125,7 +140,7 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
                 _ => order.swap(two[0], two[1]),
             }
             specimen.model.stiffness = reordered(&specimen.model.stiffness, &order);
-            if !right.mass_follows {
+            if !mass_follows(right) {
                 names(Change::Columns(inverse(&order)))
             } else {
                 specimen.model.mass = reordered(&specimen.model.mass, &order);

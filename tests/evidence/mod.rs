@@ -1,0 +1,24 @@
+//! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables that the documents
+//! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
+
+pub mod coverage;
+pub mod localization;
+pub mod noisy_modes;
+pub mod plant;
+pub mod rates;
+pub mod rules;
+
+use corfem::present::table::Digits;
+use corfem::studies::noise::Noise;
+
+const PERCENT: Digits = Digits::Fixed(1);
+const RMS_PERCENT: Digits = Digits::Fixed(2);
+
+/// Noise of a test in words.
+fn noise_words(noise: Noise) -> String {
+    format!(
+        "{:.1} % of its shape's largest component on every component, {:.1} % on every frequency (standard deviations)",
+        100.0 * noise.shape,
+        100.0 * noise.frequency
+    )
+}
