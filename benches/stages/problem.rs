@@ -9,7 +9,7 @@ use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
 use corfem::studies::delta_wing::correlation;
-use corfem::studies::eigensolutions::planted;
+use corfem::studies::known::planted;
 use corfem::studies::wing::Wing;
 use std::hint::black_box;
 use std::sync::Arc;

@@ -26,7 +26,7 @@ use pictures::{DumpArguments, FolderArguments};
 use place::{check, put};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use studies::{CostArguments, DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
+use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
 use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
@@ -79,8 +79,6 @@ enum Command {
     Init(InitArguments),
     /// Look at a job before the first step; without one, at the paper's cases and the delta wing
     Check(CheckArguments),
-    /// Count the eigensolutions that the method takes and saves, and compare its steps with linear Taylor steps
-    Cost(CostArguments),
     /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
     DeltaWing(DeltaWingArguments),
     /// Write the figures of the cases, of fewer modes and of matrices as SVG
@@ -122,7 +120,6 @@ pub fn run() -> ExitCode {
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
-        Some(Command::Cost(arguments)) => studies::cost(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments, quiet),
         Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),

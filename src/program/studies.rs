@@ -1,4 +1,4 @@
-//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `check`, `cost` and `delta-wing`.
+//! `corfem tables`, `fewer-modes`, `readings`, `matrices`, `check` and `delta-wing`.
 
 use super::output::{OutputArguments, say};
 use super::progress::during;
@@ -12,8 +12,6 @@ use corfem::cases::torque_box::Reconstruction;
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
-use corfem::studies::eigensolutions;
-use corfem::studies::linearization::{Exact, both_structures};
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::preflight::Specimen;
 use serde_json::json;
@@ -35,15 +33,6 @@ pub struct MatricesArguments {
     /// How many test modes, the lowest, the corrections are given
     #[arg(long, value_name = "N", default_value_t = USUAL_TEST_MODES)]
     test_modes: usize,
-    #[command(flatten)]
-    output: OutputArguments,
-}
-
-#[derive(Debug, Args)]
-pub struct CostArguments {
-    /// An error sum to be reached, percent; may be given again
-    #[arg(long, value_name = "PERCENT", default_values_t = eigensolutions::ERRORS.map(|error| 100.0 * error))]
-    error: Vec<f64>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -120,16 +109,6 @@ pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
         found.push((specimen.name, findings));
     }
     output.write(&[tables::preflight::findings_table(&found)], || json::preflight(&found))
-}
-
-/// Writes how many eigensolutions the method takes and saves, and how far its steps can be trusted.
-pub fn cost(CostArguments { error, output }: &CostArguments) -> Result<(), PresentError> {
-    let errors: Vec<f64> = error.iter().map(|percent| percent / 100.0).collect();
-    let mut tables = vec![tables::cost::eigensolution_table(&eigensolutions::count_all(&errors)?)];
-    for exact in [Exact::SameCondensation, Exact::NewCondensation] {
-        tables.push(tables::cost::linearization_table(&both_structures(exact)?, exact));
-    }
-    output.write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.

@@ -3,10 +3,18 @@
 use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::cases::torque_box::TEST_GAGE;
+use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
+use crate::method::outer_loop::{Correlation, Settings, correlate};
 use crate::studies::delta_wing::DeltaWing;
-use crate::studies::delta_wing::correlation::{GROUPS, Group, first_model, test_modes};
+use crate::studies::delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
+use crate::studies::wing::Wing;
+
+/// Modes of the wing's test and analysis.
+pub const WING_MODES: usize = 10;
+/// Error sum to which the wing is correlated, a fraction.
+const WING_ERROR_SUM: f64 = 0.025;
 
 /// A structure whose true factors are known.
 pub struct Known {
@@ -40,4 +48,28 @@ impl Known {
         let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
     }
+}
+
+/// A wing whose groups want factors from 0.75 to 1.3, with the lowest modes of the right wing as its test.
+///
+/// # Errors
+/// Those of [`Wing::model`] and its modes.
+pub fn planted(wing: &Wing) -> Result<Known, Error> {
+    let model = wing.model()?;
+    let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
+    let truth: Vec<f64> = pattern.into_iter().cycle().take(model.parameters().len()).collect();
+    let test = model.modes(&truth)?.lowest(WING_MODES)?.into();
+    Ok(Known { name: "Wing".to_owned(), model, test, truth })
+}
+
+/// The planted wing of 1,458 structural DOF, correlated to an error sum of 2.5 %.
+///
+/// # Errors
+/// Those of [`planted`] and [`correlate`].
+pub fn recovered() -> Result<(Known, Correlation), Error> {
+    let known = planted(&Wing::default())?;
+    let settings = Settings { error_sum_tolerance: WING_ERROR_SUM, ..correlation::settings() };
+    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, Some(WING_MODES));
+    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
+    Ok((known, run))
 }

@@ -3,7 +3,6 @@
 pub mod assignment;
 pub mod complex_modes;
 pub mod delta_wing;
-pub mod eigensolutions;
 pub mod expansion;
 pub mod free_modes;
 pub mod known;

@@ -2,6 +2,8 @@
 //! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
 
 pub mod coverage;
+pub mod eigensolutions;
+pub mod linearization;
 pub mod localization;
 pub mod noisy_modes;
 pub mod plant;

@@ -2,11 +2,11 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{GOLDEN_COUNT, GOLDEN_STEPS, JOB_RESULTS, ROUND_OFF_FLOOR};
+use crate::evidence::eigensolutions::{Counted, ERRORS, Effort, count_all, eigensolution_table};
+use crate::evidence::linearization::linearization_table;
 use crate::present::figures::figures;
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cost::{eigensolution_table, linearization_table};
-use corfem::studies::eigensolutions::{Counted, ERRORS, Effort, count_all};
 use corfem::studies::linearization::{Exact, METHODS, both_structures};
 
 fn fits(table: &Table) {

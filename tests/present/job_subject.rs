@@ -15,7 +15,7 @@ use corfem::present::subject::{Derivatives, Subject};
 use corfem::present::tables::job::{doubts_table, places_table, study_table, suspects_table};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
-use corfem::studies::eigensolutions::planted;
+use corfem::studies::known::planted;
 use corfem::studies::wing::Wing;
 use nalgebra::Vector3;
 

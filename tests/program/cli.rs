@@ -199,7 +199,6 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
         &["tables"],
         &["fewer-modes"],
         &["matrices"],
-        &["cost", "--error", "5"],
         &["delta-wing"],
         &["deck", "4"],
         &["modes", deck],

@@ -4,7 +4,6 @@ pub mod cli;
 pub mod cli_check;
 pub mod cli_comparisons;
 pub mod cli_settings;
-pub mod cli_cost;
 pub mod cli_study;
 pub mod cli_jobs;
 pub mod cli_init;

@@ -8,7 +8,7 @@ use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{
     GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
 };
-use crate::studies::eigensolutions::recovered;
+use crate::studies::known::recovered;
 use nalgebra::Vector3;
 
 /// Grids of the box's root, rear and front.

@@ -1,7 +1,6 @@
 //! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of the studies.
 
 pub mod cases;
-pub mod cost;
 pub mod deck;
 pub mod delta_wing;
 pub mod fewer_modes;

@@ -1,23 +1,22 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::method::error::Error;
-use crate::method::inner_loop::InnerSettings;
-use crate::method::outer_loop::{Correlation, Settings, correlate};
-use crate::studies::delta_wing::correlation;
-use crate::studies::known::Known;
-use crate::studies::wing::Wing;
-use serde::Serialize;
+use corfem::cases::Case;
+use corfem::cases::error::CaseError;
+use corfem::method::error::Error;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::outer_loop::{Settings, correlate};
+use corfem::present::table::{Cell, Table};
+use corfem::studies::delta_wing::correlation;
+use corfem::studies::known::{Known, WING_MODES, planted};
+use corfem::studies::wing::Wing;
 
 /// Error sums to be reached, fractions.
 pub const ERRORS: [f64; 2] = [0.05, 0.025];
-/// Modes of the wing's test and analysis, and most passes before a correlation counts as one that does not get there.
-const WING_MODES: usize = 10;
+/// Most passes before a correlation counts as one that does not get there.
 const MOST_PASSES: usize = 200;
 
 /// What one way of getting to an error takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     /// Full finite element analyses, each with its eigensolution.
     pub analyses: usize,
@@ -28,7 +27,7 @@ pub struct Effort {
 }
 
 /// Both ways on one structure to one error.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Counted {
     /// The structure.
     pub name: String,
@@ -40,30 +39,6 @@ pub struct Counted {
     pub perturbation: Effort,
     /// By the same rule of the step, with an analysis after every single step.
     pub reanalysis: Effort,
-}
-
-/// A wing whose groups want factors from 0.75 to 1.3, with the lowest modes of the right wing as its test.
-///
-/// # Errors
-/// Those of [`Wing::model`] and its modes.
-pub fn planted(wing: &Wing) -> Result<Known, Error> {
-    let model = wing.model()?;
-    let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
-    let truth: Vec<f64> = pattern.into_iter().cycle().take(model.parameters().len()).collect();
-    let test = model.modes(&truth)?.lowest(WING_MODES)?.into();
-    Ok(Known { name: "Wing".to_owned(), model, test, truth })
-}
-
-/// The planted wing of 1,458 structural DOF, correlated to the smaller of the [`ERRORS`].
-///
-/// # Errors
-/// Those of [`planted`] and [`correlate`].
-pub fn recovered() -> Result<(Known, Correlation), Error> {
-    let known = planted(&Wing::default())?;
-    let settings = Settings { error_sum_tolerance: ERRORS[1], ..correlation::settings() };
-    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, Some(WING_MODES));
-    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
-    Ok((known, run))
 }
 
 /// Counts both ways on one structure to an exact error sum, with the rule of the step of given settings.
@@ -105,4 +80,27 @@ pub fn count_all(errors: &[f64]) -> Result<Vec<Counted>, CaseError> {
         Ok(errors.iter().map(|error| counted(&known, modes, &settings, *error)).collect::<Result<_, _>>()?)
     };
     Ok((1..=5).map(of).collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+/// Full eigensolutions to an exact error sum, by perturbation and with an analysis after every step.
+pub fn eigensolution_table(counted: &[Counted]) -> Table {
+    let note = "Perturbation: the method, whose steps within a pass take no eigensolution. Re-analysis: the same rule of the step with \
+        an analysis after every one. And differences: derivatives by an eigensolution per parameter and step too. A + says that \
+        the error was not reached.";
+    let mut table =
+        Table::new("eigensolutions", "Full eigensolutions to an error sum, counted", "Structure, error sum")
+            .headings(["Steps", "Perturbation", "Steps one by one", "Re-analysis", "And differences"], "")
+            .notes([note]);
+    for of in counted {
+        let solutions = |analyses: usize, reached| match reached {
+            true => Cell::count(analyses),
+            false => Cell::text(format!("{analyses}+")),
+        };
+        let (quick, slow) = (of.perturbation, of.reanalysis);
+        let all = slow.analyses + slow.steps * of.parameters;
+        let cells = [Cell::count(quick.steps), solutions(quick.analyses, quick.reached), Cell::count(slow.steps)];
+        let others = [slow.analyses, all].map(|count| solutions(count, slow.reached));
+        table.row(format!("{}, {} %", of.name, 100.0 * of.error), cells.into_iter().chain(others));
+    }
+    table
 }
