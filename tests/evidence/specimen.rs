@@ -1,14 +1,14 @@
 //! Structures before their correlation.
 
-use super::{Finding, preflight};
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::method::error::Error;
-use crate::method::model::{DynamicModel, FiniteElementModel, Range};
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::Settings;
-use crate::studies::delta_wing::correlation;
-use crate::studies::known::Known;
+use corfem::cases::Case;
+use corfem::cases::error::CaseError;
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Range};
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::Settings;
+use corfem::studies::delta_wing::correlation;
+use corfem::studies::known::Known;
+use corfem::studies::preflight::{Finding, preflight};
 
 /// A structure before its correlation, without mistakes.
 #[derive(Debug, Clone)]
