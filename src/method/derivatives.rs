@@ -12,7 +12,7 @@ use crate::method::linear_algebra::finite_list;
 use crate::method::model::{ModalModel, Share};
 use crate::method::modes::ModeSet;
 use crate::method::state::ModalState;
-use nalgebra::{DMatrix, DVector, DVectorView};
+use nalgebra::{DMatrix, DVectorView};
 use serde::{Deserialize, Serialize};
 
 /// Relative change of a parameter's stiffness for a derivative.
@@ -111,32 +111,19 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Erro
 /// modes.
 fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
     let shapes = &state.modes.shapes;
-    let (dof_count, count) = shapes.shape();
-    let mut pull = DMatrix::zeros(count, count);
-    if state.errors.shape == 0.0 {
-        return pull;
-    }
-    let mut to_shape = DVector::zeros(dof_count);
-    let to_shape = to_shape.as_mut_slice();
-    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
+    let dof_count = shapes.nrows();
+    let mut slopes = DMatrix::zeros(dof_count, shapes.ncols());
+    let paired = state.pairing.analysis_mode.iter().enumerate();
+    for (j, &i) in paired.filter(|_| state.errors.shape > 0.0) {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
-        let (shape, sign) = (shapes.column(i), state.pairing.sign[j]);
-        unit_shape_difference(shape, sign, model.test.shapes.column(j), to_shape);
+        let (shape, sign, mut slope) = (shapes.column(i), state.pairing.sign[j], slopes.column_mut(i));
+        unit_shape_difference(shape, sign, model.test.shapes.column(j), slope.as_mut_slice());
         let largest = shape.iamax();
-        to_shape[largest] -= product(to_shape, shape.as_slice()) / shape[largest];
-        let scale =
-            model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
-        let others = shapes.as_slice().chunks_exact(dof_count);
-        for (pull, other) in pull.column_mut(i).as_mut_slice().iter_mut().zip(others) {
-            *pull = scale * product(to_shape, other);
-        }
+        slope[largest] -= slope.dot(&shape) / shape[largest];
+        slope *= model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
     }
-    pull
-}
-
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    shapes.tr_mul(&slopes)
 }
 
 /// $\Sigma$ (n × n) in place of the pull, with $\partial\beta_{ri}$ `per_change` of $\omega_i^2$.

@@ -21,7 +21,7 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
 #[doc = include_str!("../../paper/examples/linear_algebra/check_finite.md")]
 pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
-    let Some(index) = matrix.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+    let Some(index) = matrix.as_slice().iter().position(|value| !value.is_finite()) else { return Ok(()) };
     let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
     let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
     Err(Error::NotFinite { what, row, column, value: if real.is_finite() { imaginary } else { real } })

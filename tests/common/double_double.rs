@@ -29,6 +29,21 @@ fn quick_two_sum(a: f64, b: f64) -> Dd {
     Dd { high, low: b - (high - a) }
 }
 
+/// The two halves of a number, of 26 bits each.
+fn split(a: f64) -> (f64, f64) {
+    let shifted = 134_217_729.0 * a;
+    let high = shifted - (shifted - a);
+    (high, a - high)
+}
+
+/// The product of two numbers and what its rounding lost. A fused multiplication has the same, but is a call where the processor
+/// is not known to have one.
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
 impl Dd {
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
     pub const ONE: Self = Self { high: 1.0, low: 0.0 };
@@ -96,8 +111,7 @@ impl Sub for Dd {
 impl Mul for Dd {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        let high = self.high * other.high;
-        let low = self.high.mul_add(other.high, -high);
+        let (high, low) = two_product(self.high, other.high);
         quick_two_sum(high, low + (self.high * other.low + self.low * other.high))
     }
 }
