@@ -17,7 +17,7 @@ use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
 use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
-use crate::studies::preflight::Specimen;
+use crate::studies::preflight::preflight_of;
 use html::{escaped, figure, figures, prose, section, section_of, table};
 use story::story;
 
@@ -181,9 +181,8 @@ fn box_section(contents: &Contents) -> String {
 /// What looks wrong with the cases before anything moves.
 fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     let found = |result: &CaseResult| {
-        let specimen = Specimen::of_case(&result.case)?;
-        let findings = specimen.findings(&result.test)?;
-        Ok((specimen.name, findings))
+        let case = &result.case;
+        Ok((format!("Case {}", case.number), preflight_of(&case.model()?, &result.test, &case.settings)?))
     };
     let found = contents.results.iter().map(found).collect::<Result<Vec<_>, PresentError>>()?;
     Ok(table(&preflight::findings_table(&found)))
