@@ -1,6 +1,7 @@
 //! Chains of point masses and springs: structures whose stiffness is written down at sight, and, when uniform, whose
 //! modes are too.
 
+use super::analytical::{ChainEnds, chain_eigenvalues};
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure, positive};
@@ -22,35 +23,6 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
         ends[spring - 1] = -1.0;
     }
     stiffness * &ends * ends.transpose()
-}
-
-/// How the ends of a chain are supported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ChainEnds {
-    /// A spring from the first mass to ground and one from the last.
-    FixedFixed,
-    /// A spring from the first mass to ground alone.
-    FixedFree,
-    /// Springs between the masses alone: the first eigenvalue is zero, a rigid-body motion.
-    FreeFree,
-}
-
-/// Eigenvalues $\omega_j^2$, ascending, of $n$ equal masses in a row joined by equal springs, rad²/s².
-///
-/// $$ \omega_j^2 = \frac{4k}{m} \sin^2 \frac{\theta_j}{2}, \qquad
-///    \theta_j = \frac{j\pi}{n+1}, \quad \frac{(2j-1)\pi}{2n+1}, \quad \frac{(j-1)\pi}{n} $$
-///
-/// for fixed-fixed, fixed-free and free-free ends. `spring` in lbf/in, `mass` in lbf·s²/in.
-///
-/// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
-pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) -> Vec<f64> {
-    let n = count as f64;
-    let share = |j: f64| match ends {
-        ChainEnds::FixedFixed => j / (n + 1.0),
-        ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
-        ChainEnds::FreeFree => (j - 1.0) / n,
-    };
-    (1..=count).map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2)).collect()
 }
 
 /// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) and $d+1$ springs $k$ (lbf/in), both ends held:

@@ -1,3 +1,3 @@
 //! Closed forms against what they are the closed form of.
 
-pub mod spring_chain;
+pub mod analytical;

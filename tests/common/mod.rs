@@ -23,7 +23,6 @@ pub mod measured;
 pub mod nastran95;
 pub mod outer_loop;
 pub mod pairings;
-pub mod panel_energies;
 pub mod panels;
 pub mod rational_rows;
 pub mod rational_series;
@@ -35,7 +34,6 @@ pub mod structures;
 pub mod test_files;
 pub mod tolerances;
 pub mod torque_boxes;
-pub mod two_dof;
 pub mod vibrations;
 pub mod whole_models;
 

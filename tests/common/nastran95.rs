@@ -141,7 +141,7 @@ pub fn boxes() -> StoredBoxes {
 /// The factor NASTRAN-95 puts on a shear panel's stiffness: its own energy, with sides taken for parallel when the
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
-    use super::panel_energies::{
+    use corfem::closed_forms::analytical::{
         no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
     };
     let [a, b, c, d] = corners[..] else { panic!("four corners") };

@@ -1,6 +1,6 @@
 //! Whole models of springs and masses as sparse matrices.
 
-use corfem::closed_forms::spring_chain::ChainEnds;
+use corfem::closed_forms::analytical::ChainEnds;
 use corfem::method::model::Range;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 

@@ -2,9 +2,6 @@
 
 use crate::common::log_log_slope;
 use crate::common::matrices::relative_distance;
-use crate::common::panel_energies::{
-    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
-};
 use crate::common::panels::{
     distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid, warped_panel,
 };
@@ -12,6 +9,9 @@ use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
 use approx::assert_relative_eq;
+use corfem::closed_forms::analytical::{
+    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+};
 use corfem::method::elements::panel::{MeanPlane, mean_plane};
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, shear_panel};
 use corfem::method::structure::Material;

@@ -3,7 +3,7 @@
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
 use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
-use corfem::closed_forms::spring_chain::{ChainEnds, chain_eigenvalues};
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};

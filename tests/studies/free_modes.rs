@@ -2,8 +2,8 @@
 
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::closed_forms::spring_chain::spring_stiffness;
-use corfem::closed_forms::spring_chain::{ChainEnds, chain_eigenvalues};
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};

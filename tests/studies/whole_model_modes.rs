@@ -3,7 +3,7 @@
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
 use crate::common::whole_models::{chain_of_springs as chain, masses, springs};
-use corfem::closed_forms::spring_chain::{ChainEnds, chain_eigenvalues};
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
 use corfem::studies::free_modes::counted_modes;
 use corfem::studies::whole_model::{Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes};

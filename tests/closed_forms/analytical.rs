@@ -3,7 +3,7 @@
 use crate::common::log_log_slope;
 use crate::common::structures::{dense, factorized, sizes, spring_chain};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
-use corfem::closed_forms::spring_chain::{ChainEnds, chain_eigenvalues};
+use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz};
 use corfem::method::appendix_a::condense;
 use corfem::method::modes;
 use nalgebra::{DMatrix, DVector};
@@ -48,18 +48,6 @@ proptest! {
             prop_assert!((found - expected).abs() <= MATRIX_ROUND_OFF * spring);
         }
     }
-}
-
-/// Frequencies of a uniform rod fixed at one end, vibrating along itself, ascending, Hz.
-///
-/// $$ f_j = \frac{2j-1}{4L} \sqrt{E/\rho} $$
-///
-/// `length` in inches, `youngs_modulus` in lbf/in², `density` (mass per volume) in lbf·s²/in⁴.
-///
-/// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
-fn fixed_free_rod_frequencies_hz(length: f64, youngs_modulus: f64, density: f64, count: usize) -> Vec<f64> {
-    let fundamental = (youngs_modulus / density).sqrt() / (4.0 * length);
-    (1..=count).map(|j| (2 * j - 1) as f64 * fundamental).collect()
 }
 
 /// A uniform rod cut into n elements of lumped mass, half at the free end: frequencies tend to the closed form's with

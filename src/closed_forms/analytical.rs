@@ -1,10 +1,14 @@
-//! Closed forms of the energy of a shear panel, which the quadrature is compared with.
+//! Closed forms that the numerical routes are compared with: the energy of the shear panel, chains of equal
+//! masses and springs, the uniform rod.
+//!
+//! Nothing in the correlation uses them. They are here, not in the tests, because they are results of their own.
 
-use corfem::method::elements::panel::MeanPlane;
-use corfem::method::structure::Material;
+use crate::method::elements::panel::MeanPlane;
+use crate::method::structure::Material;
+use std::f64::consts::PI;
 
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
-/// `energy_coefficient` for unit thickness, in⁴/lbf.
+/// [`crate::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
 /// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad
 ///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$
@@ -17,7 +21,7 @@ pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
     plane.area / (2.0 * material.shear_modulus) * (1.0 + skewness_weight(material) * 3.0 * d * d)
 }
 
-/// $Z$ of a shear panel whose sides 1-2 and 3-4 alone are parallel, in⁴/lbf; as `parallelogram_energy` otherwise.
+/// $Z$ of a shear panel whose sides 1-2 and 3-4 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
 ///
 /// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3} \frac{s^2 + sc + c^2}{1+\nu}\Big), \qquad
 ///    p_i = y_b - Y_i, \quad s = \frac{X_2 - x_b}{y_b}, \quad c = -\frac{x_b}{y_b} $$
@@ -32,7 +36,7 @@ pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
         * (1.0 + skewness_weight(material) * (s * s + s * c + c * c))
 }
 
-/// $Z$ of a shear panel whose sides 1-4 and 2-3 alone are parallel, in⁴/lbf; as `parallelogram_energy` otherwise.
+/// $Z$ of a shear panel whose sides 1-4 and 2-3 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
 ///
 /// $$ Z = \frac{p_1 p_2}{p_3 p_4} \frac{A}{2G} \Big(1 + \frac{2}{3} \frac{b^2 + bD + D^2}{1+\nu}\Big), \qquad
 ///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3-X_2}{Y_3}\Big), $$
@@ -49,7 +53,7 @@ pub fn sides_14_23_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
         * (1.0 + skewness_weight(material) * (b * b + b * d + d * d))
 }
 
-/// $Z$ of a shear panel without parallel sides, in⁴/lbf; as `parallelogram_energy` otherwise.
+/// $Z$ of a shear panel without parallel sides, in⁴/lbf; as [`parallelogram_energy`] otherwise.
 ///
 /// With $(x_a, 0)$ where sides 1-2 and 3-4 meet, $(x_b, y_b)$ where 1-4 and 2-3 do, $l$ the distance between the two,
 /// $D = (x_a - x_b)/y_b$, $p_i = (y_b/l)(x_a - X_i - D Y_i)$ the distance of corner $i$ from the line through both,
@@ -100,4 +104,45 @@ fn meeting_of_sides_14_23(plane: &MeanPlane) -> (f64, f64) {
     let [_, c2, c3, c4] = plane.corners;
     let along = c2.x * c3.y / (c3.y * c4.x - c4.y * (c3.x - c2.x));
     (along * c4.x, along * c4.y)
+}
+
+/// How the ends of a chain are supported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ChainEnds {
+    /// A spring from the first mass to ground and one from the last.
+    FixedFixed,
+    /// A spring from the first mass to ground alone.
+    FixedFree,
+    /// Springs between the masses alone: the first eigenvalue is zero, a rigid-body motion.
+    FreeFree,
+}
+
+/// Eigenvalues $\omega_j^2$, ascending, of $n$ equal masses in a row joined by equal springs, rad²/s².
+///
+/// $$ \omega_j^2 = \frac{4k}{m} \sin^2 \frac{\theta_j}{2}, \qquad
+///    \theta_j = \frac{j\pi}{n+1}, \quad \frac{(2j-1)\pi}{2n+1}, \quad \frac{(j-1)\pi}{n} $$
+///
+/// for fixed-fixed, fixed-free and free-free ends. `spring` in lbf/in, `mass` in lbf·s²/in.
+///
+/// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
+pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) -> Vec<f64> {
+    let n = count as f64;
+    let share = |j: f64| match ends {
+        ChainEnds::FixedFixed => j / (n + 1.0),
+        ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
+        ChainEnds::FreeFree => (j - 1.0) / n,
+    };
+    (1..=count).map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2)).collect()
+}
+
+/// Frequencies of a uniform rod fixed at one end, vibrating along itself, ascending, Hz.
+///
+/// $$ f_j = \frac{2j-1}{4L} \sqrt{E/\rho} $$
+///
+/// `length` in inches, `youngs_modulus` in lbf/in², `density` (mass per volume) in lbf·s²/in⁴.
+///
+/// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
+pub fn fixed_free_rod_frequencies_hz(length: f64, youngs_modulus: f64, density: f64, count: usize) -> Vec<f64> {
+    let fundamental = (youngs_modulus / density).sqrt() / (4.0 * length);
+    (1..=count).map(|j| (2 * j - 1) as f64 * fundamental).collect()
 }
