@@ -2,13 +2,33 @@
 //! [`cross_orthogonality`](crate::method::pairing::cross_orthogonality); either side may have more modes than the other.
 //!
 //! AutoMAC is the modal assurance of a set of shapes with itself: what it has beside its diagonal, sensors cannot tell apart.
-//! Pseudo-orthogonality is the cross-orthogonality of shapes that [`scaled_with`](crate::method::modes::ModeSet::scaled_with) has scaled
-//! with the test-analysis mass at the sensors, such as a condensed one.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, finite};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
+
+/// Pseudo-orthogonality of analysis shapes (d × n) and test shapes (d × g) of any scale, n × g, by a test-analysis mass $M$ at the
+/// sensors (d × d, lbf·s²/in), such as a condensed one; its magnitude is at most one:
+///
+/// $$ \mathrm{POC}_{ij} = \frac{v_i^t M w_j}{\sqrt{v_i^t M v_i} \sqrt{w_j^t M w_j}} $$
+///
+/// Source: Ewins, *Modal Testing: Theory, Practice and Application*, 2nd edition (2000), chapter 5.
+///
+/// # Errors
+/// [`Error::NotSymmetric`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a generalized mass.
+pub fn pseudo_orthogonality(
+    analysis: &DMatrix<f64>,
+    test: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    check_symmetric("test-analysis mass", mass)?;
+    check_shape("analysis mode shapes", analysis, mass.nrows(), analysis.ncols())?;
+    check_shape("test mode shapes", test, mass.nrows(), test.ncols())?;
+    let generalized_mass = |shape: &DVector<f64>| shape.dot(&(mass * shape));
+    let (v, w) = (scaled("analysis", analysis, generalized_mass)?, scaled("test", test, generalized_mass)?);
+    finite("pseudo-orthogonality", v.tr_mul(&(mass * w)))
+}
 
 /// Modal scale factors, n × g: the multiple of the analysis shape $v_i$ (of d × n) that is nearest to the test shape $w_j$ (of d × g),
 ///
@@ -55,8 +75,8 @@ pub fn coordinate_assurance(
         return Err(Error::Unknown { owner: "pairs".to_owned(), what: "analysis mode (from zero)", label });
     }
     at_least_one("pairs", modes.len())?;
-    let v = unit("paired analysis", analysis.select_columns(&modes))?;
-    let w = unit("paired test", test.select_columns(&tests))?;
+    let v = scaled("paired analysis", &analysis.select_columns(&modes), DVector::norm_squared)?;
+    let w = scaled("paired test", &test.select_columns(&tests), DVector::norm_squared)?;
     let assurance = v.row_iter().zip(w.row_iter()).map(|(v, w)| match (v.norm(), w.norm()) {
         (0.0, 0.0) => 1.0,
         (0.0, _) | (_, 0.0) => 0.0,
@@ -65,15 +85,18 @@ pub fn coordinate_assurance(
     Ok(DVector::from_iterator(v.nrows(), assurance))
 }
 
-/// The shapes with a length of one each.
-fn unit(of: &str, mut shapes: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    check_finite("mode shapes", &shapes)?;
-    for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
-        let largest = shape.amax();
-        positive("largest component", || format!("{of} mode {mode} (from zero)"), largest)?;
+/// The shapes with a square of one each.
+fn scaled(of: &str, shapes: &DMatrix<f64>, square: impl Fn(&DVector<f64>) -> f64) -> Result<DMatrix<f64>, Error> {
+    check_finite("mode shapes", shapes)?;
+    let mut scaled = shapes.clone();
+    for (mode, mut shape) in scaled.column_iter_mut().enumerate() {
+        let (owner, largest) = (|| format!("{of} mode {mode} (from zero)"), shape.amax());
+        positive("largest component", owner, largest)?;
         // In two steps: squares of very large or small components leave the range of numbers.
         shape /= largest;
-        shape.normalize_mut();
+        let square = square(&shape.clone_owned());
+        positive("generalized mass", owner, square)?;
+        shape /= square.sqrt();
     }
-    Ok(shapes)
+    Ok(scaled)
 }
