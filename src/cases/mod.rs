@@ -152,20 +152,8 @@ impl Case {
     /// # Errors
     /// Those of [`Self::model_with`] and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, CaseError> {
-        self.test_modes_with(|model, _| Ok(model.clone()))
-    }
-
-    /// The same with the element stiffness of another program, see [`run_case_with`].
-    ///
-    /// # Errors
-    /// Those of [`Self::model_with`], of `elements` and of the analysis.
-    pub fn test_modes_with<E: From<CaseError>>(
-        &self,
-        mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
-    ) -> Result<Modes, E> {
         let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-        let factors = vec![1.0; model.parameters().len()];
-        Ok(elements(&model, &factors)?.modes(&factors).map_err(CaseError::from)?)
+        Ok(model.modes(&vec![1.0; model.parameters().len()])?)
     }
 }
 

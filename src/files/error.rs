@@ -29,9 +29,6 @@ pub enum FileError {
         .cards.iter().map(|unread| unread.card.as_str()).collect::<Vec<_>>().join(",")
     )]
     DeckCards { file: String, cards: Vec<Unread> },
-    /// A card to be ignored that is read.
-    #[error("--ignore: expected a card that is not read here, found {card}")]
-    IgnoredCard { card: String },
     /// More masses than memory has room for, which is in GiB.
     #[error(
         "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \
@@ -57,9 +54,9 @@ pub enum FileError {
     /// An element at a degree of freedom that an MPC equation makes dependent.
     #[error("element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}")]
     TiedElement { element: usize, grid: usize, direction: char },
-    /// A job, or what it names, that is not what it must be.
-    #[error("{file}: expected {expected}, found {found}")]
-    Job { file: String, expected: String, found: String },
+    /// A job, what it names, or what else is asked for, that is not what it must be.
+    #[error("{of}: expected {expected}, found {found}")]
+    Input { of: String, expected: String, found: String },
     /// A request to stop a correlation.
     #[error("correlation: expected to go on, found a request to stop")]
     Interrupted,
@@ -103,8 +100,8 @@ impl FileError {
         Self::SolverAnswer { expected: expected.into(), found: found.into() }
     }
 
-    pub(crate) fn job(file: &Path, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self::Job { file: file.display().to_string(), expected: expected.into(), found: found.into() }
+    pub(crate) fn input(of: impl ToString, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Input { of: of.to_string(), expected: expected.into(), found: found.into() }
     }
 
     /// Turns the operating system's error about a file into this one, for `map_err`.

@@ -16,7 +16,7 @@ use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
 use crate::method::structure::DIRECTIONS;
-use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
+use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::preflight::Finding;
 use crate::studies::whole_modes::WholeModes;
@@ -51,9 +51,9 @@ pub fn subject(subject: &Subject) -> Result<Value, PresentError> {
     Ok(json!({
         "name": subject.title,
         "solver": subject.solver,
-        "converged": subject.converged,
+        "converged": subject.converged(),
         "verdict": subject.verdict,
-        "verdict_in_words": subject.words,
+        "verdict_in_words": subject.words(),
         "parameters": subject.parameters,
         "ranges": subject.ranges,
         "factors": factors,
@@ -165,21 +165,22 @@ pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentErro
 /// # Errors
 /// Those of the wing's analyses and of [`document`].
 pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
-    let group = |found: &Recovered| {
+    let group = |((group, factor), share): ((&Group, &f64), &f64)| {
         json!({
-            "name": found.group.name,
-            "elements": found.group.elements,
-            "true_factor": found.true_factor(),
-            "factor": found.factor,
-            "largest_share": found.share,
+            "name": group.name,
+            "elements": group.elements,
+            "true_factor": group.true_factor(),
+            "factor": factor,
+            "largest_share": share,
         })
     };
+    let groups = GROUPS.iter().zip(&run.correlation.best_factors).zip(&run.shares);
     document(json!({
         "measured_grids": MEASURED_GRIDS,
         "trailing_edge_load_deflections_in": wing.deflections(TipLoad::TrailingEdge)?,
         "leading_edge_load_deflections_in": wing.deflections(TipLoad::LeadingEdge)?,
         "frequencies_hz": wing.modes()?.modes.frequencies_hz(),
-        "groups": run.groups.iter().map(group).collect::<Value>(),
+        "groups": groups.map(group).collect::<Value>(),
         "test_modes": TEST_MODES,
         "correlation": subject(&Subject::of_wing(wing, run)?)?,
     }))

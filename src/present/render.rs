@@ -99,7 +99,7 @@ impl TextColumn {
         let least = if name.contains(' ') { LEAST } else { 0 };
         let words = cells.iter().map(String::as_str).chain(name.split(' ')).chain([unit]);
         let width = words.map(|word| word.chars().count()).fold(least, usize::max);
-        let mut heading = lines(name, width);
+        let mut heading = lines(name.split(' '), width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
         Self { heading, cells, width }
     }
@@ -151,13 +151,13 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
 
 /// A paragraph in lines of at most [`WIDTH`].
 fn wrapped(paragraph: &str) -> String {
-    lines(paragraph, WIDTH).join("\n")
+    lines(paragraph.split(' '), WIDTH).join("\n")
 }
 
 /// Words in lines of at most a width, but for a single word that is longer.
-fn lines(words: &str, width: usize) -> Vec<String> {
+pub(super) fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in words.split(' ') {
+    for word in words {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
             _ => lines.push(word.to_owned()),

@@ -74,7 +74,7 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let name = arguments.deck.display().to_string();
     let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
-    let deck = deck::read_without(&name, &bytes, &arguments.ignore)?;
+    let deck = deck::read(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
         say(format_args!("corfem: {name}: {}", not_read(card)));
     }

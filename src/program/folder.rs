@@ -41,39 +41,37 @@ pub fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> std::result::Resul
     let _ = lock.lock();
     let _held = signals::hold();
     settle(folder).map_err(failed(folder))?;
-    let mut at = folder.to_owned();
-    let done = stage(folder, files, |path| at = path.to_owned()).and_then(|()| {
-        at = folder.to_owned();
-        switch(folder, files)
-    });
+    let write = || {
+        let new = folder.join(STAGE).join(NEW);
+        [OLD, NEW]
+            .iter()
+            .try_for_each(|name| fs::create_dir_all(folder.join(STAGE).join(name)))
+            .map_err(failed(folder))?;
+        for (name, text) in files {
+            let path = folder.join(name);
+            stage(&path, &new.join(name), text).map_err(failed(&path))?;
+        }
+        switch(folder, files).map_err(failed(folder))
+    };
+    let done = write();
     if done.is_err() {
         let _ = settle(folder);
         let _ = made.then(|| fs::remove_dir(folder));
     }
-    Ok(done.map_err(failed(&at))?)
+    Ok(done?)
 }
 
-/// Writes the new files where nobody looks; `says` is told of each before it is looked at.
-fn stage(folder: &Path, files: &[(String, Vec<u8>)], mut says: impl FnMut(&Path)) -> Result<()> {
-    let stage = folder.join(STAGE);
-    fs::create_dir(&stage)?;
-    fs::create_dir(stage.join(OLD))?;
-    fs::create_dir(stage.join(NEW))?;
-    for (name, text) in files {
-        let path = folder.join(name);
-        says(&path);
-        if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-            return Err(Error::new(ErrorKind::AlreadyExists, "something else than a file stands there"));
-        }
-        let old = old_file(&path)?;
-        let new = stage.join(NEW).join(name);
-        let mut file = File::create(&new)?;
-        file.write_all(text)?;
-        // Another's file becomes one's own where it cannot stay the other's.
-        let _ = old.map(|old| as_old(&file, &old));
-        sync(&file)?;
+/// Writes the new file of a place where nobody looks.
+fn stage(path: &Path, new: &Path, text: &[u8]) -> Result<()> {
+    if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(Error::new(ErrorKind::AlreadyExists, "something else than a file stands there"));
     }
-    Ok(())
+    let old = old_file(path)?;
+    let mut file = File::create(new)?;
+    file.write_all(text)?;
+    // Another's file becomes one's own where it cannot stay the other's.
+    let _ = old.map(|old| as_old(&file, &old));
+    sync(&file)
 }
 
 /// Turns a folder from its old files to those staged.

@@ -5,15 +5,16 @@ use super::progress::during;
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
-use corfem::cases::Case;
 use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
 use corfem::cases::readings::{READINGS, all_columns, detection};
 use corfem::cases::torque_box::Reconstruction;
+use corfem::cases::{CASES, Case};
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
+use corfem::studies::known::Known;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
-use corfem::studies::preflight::Specimen;
+use corfem::studies::preflight::preflight_of;
 use serde_json::json;
 
 #[derive(Debug, Args)]
@@ -101,13 +102,15 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
 
 /// Looks at the paper's cases and the delta wing before the first step, and writes what is found.
 pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
-    let mut specimens = (1..=4).map(|case| Specimen::of_case(&Case::new(case)?)).collect::<Result<Vec<_>, _>>()?;
-    specimens.push(Specimen::delta_wing()?);
     let mut found = Vec::new();
-    for specimen in specimens {
-        let findings = specimen.findings(&specimen.test)?;
-        found.push((specimen.name, findings));
+    for number in CASES {
+        let case = Case::new(number)?;
+        let test = case.test_modes()?;
+        found.push((format!("Case {number}"), preflight_of(&case.model()?, &test, &case.settings)?));
     }
+    let wing = Known::delta_wing()?;
+    let findings = preflight_of(&wing.model, &wing.test, &settings())?;
+    found.push((wing.name, findings));
     output.write(&[tables::preflight::findings_table(&found)], || json::preflight(&found))
 }
 

@@ -8,7 +8,7 @@ use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Settings, correlate};
 use crate::studies::delta_wing::DeltaWing;
-use crate::studies::delta_wing::correlation::{self, GROUPS, first_model, test_modes};
+use crate::studies::delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
 use crate::studies::wing::Wing;
 
 /// Modes of the wing's test and analysis.
@@ -45,7 +45,7 @@ impl Known {
     /// Those of the wing and its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
         let wing = DeltaWing::embedded()?;
-        let truth = GROUPS.iter().map(|group| 1.0 / group.first_over_true).collect();
+        let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
     }
 }

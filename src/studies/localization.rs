@@ -2,11 +2,12 @@
 
 use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
+use crate::method::error_sum::ModeWeight;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::model::ModalModel;
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{stiffness_changes, unlimited_factors};
-use crate::studies::weighted::residuals::{Weights, residuals, residuals_of};
+use crate::studies::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
 /// Decades on either side of the best factor so far that are searched, at first about one: 25 factors each, to 1 %.
@@ -44,7 +45,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 ///
 /// # Errors
 /// Those of [`residuals`].
-pub fn by_single_fit(model: &ModalModel, weights: &Weights) -> Result<Vec<Suspect>, Error> {
+pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<Suspect>, Error> {
     let start = 0.5 * residuals(model, weights)?.norm_squared();
     let objective = |parameter: usize, log: f64| {
         let mut factors = vec![1.0; model.shares.len()];

@@ -7,7 +7,7 @@ use corfem::present::table::{Cell, Table, percents};
 use corfem::studies::known::Known;
 use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::Weights;
+use corfem::studies::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.
@@ -53,7 +53,7 @@ impl Coverage {
 /// estimate at one has no interval of its own.
 fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
     let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
-    let weights = Weights::uniform(Noise::USUAL, known.test.len())?;
+    let weights = equal_weights(Noise::USUAL, known.test.len())?;
     let names = known.model.parameters().iter().map(|parameter| parameter.name.clone());
     let mut parameters: Vec<Held> = names.map(|parameter| Held { parameter, ..Held::default() }).collect();
     let mut tests = 0;

@@ -9,7 +9,7 @@ use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::localization::{by_factor, by_single_fit};
 use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::residuals::Weights;
+use corfem::studies::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Noise of the study: 1 % of shapes, 0.5 % of frequencies.
@@ -42,7 +42,7 @@ pub struct Located {
 pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseError> {
     let case = Case::new(4)?;
     let exact = ModeSet::from(case.test_modes()?);
-    let weights = Weights::uniform(NOISE, exact.len())?;
+    let weights = equal_weights(NOISE, exact.len())?;
     let noisy = seeds.map(|seed| with_noise(&exact, NOISE, seed)).collect::<Result<Vec<_>, Error>>()?;
     let mut located = Vec::new();
     for (ratio, culprit) in RATIOS.into_iter().flat_map(|ratio| (0..PANEL_COUNT).map(move |panel| (ratio, panel))) {

@@ -9,6 +9,7 @@ pub mod noisy_modes;
 pub mod plant;
 pub mod rates;
 pub mod rules;
+pub mod specimen;
 
 use corfem::present::table::Digits;
 use corfem::studies::noise::Noise;

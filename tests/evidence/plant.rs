@@ -1,8 +1,9 @@
 //! Mistakes made on purpose.
 
+use super::specimen::Specimen;
 use corfem::method::error::Error;
 use corfem::studies::noise::{Noise, split_mix_64, with_noise};
-use corfem::studies::preflight::{Change, FACTORS, Finding, Mended, Specimen};
+use corfem::studies::preflight::{Change, FACTORS, Finding, Mended};
 use nalgebra::DMatrix;
 
 /// A mistake made on purpose; what it hits is drawn.

@@ -2,6 +2,7 @@
 
 use super::noise_words;
 use super::plant::{MISTAKES, Mistake, Naming, plant};
+use super::specimen::Specimen;
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
 use corfem::closed_forms::spring_chain::spring_stiffness;
@@ -11,7 +12,7 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::Settings;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::preflight::{Finding, Specimen};
+use corfem::studies::preflight::Finding;
 use nalgebra::{DMatrix, DVector};
 use std::ops::RangeInclusive;
 
@@ -104,7 +105,6 @@ pub fn spring_chain() -> Result<Specimen, Error> {
         model: DynamicModel { stiffness: wrong, mass, shares: Vec::new() },
         settings: Settings::default(),
         ranges: vec![None; count],
-        condensation: Vec::new(),
     })
 }
 

@@ -9,7 +9,7 @@ use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use corfem::studies::known::Known;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::{DEVIATIONS, Weights};
+use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights};
 
 /// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +45,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
             0 => (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation),
             _ => (Known::of_case(number)?, run_case(&Case::new(number)?, |_, _| {})?.correlation),
         };
-        let weights = Weights::uniform(DEVIATIONS, known.test.len())?;
+        let weights = equal_weights(DEVIATIONS, known.test.len())?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
         let found = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;

@@ -17,7 +17,7 @@ proptest! {
     #[test]
     fn deck_to_model_to_deck_is_the_identity(model in bulk_data()) {
         let text = written(&model).expect("a deck");
-        let read = deck::read("deck", &text).expect("it reads");
+        let read = deck::read("deck", text.as_bytes(), &[]).expect("it reads");
         prop_assert_eq!(&read.model, &model);
         prop_assert!(read.unread.is_empty());
         prop_assert_eq!(written(&read.model).expect("a deck"), text);
@@ -35,7 +35,7 @@ proptest! {
             }).prop_shuffle())
         })
     ) {
-        let read = deck::read("deck", &lines.join("\n")).expect("it reads");
+        let read = deck::read("deck", lines.join("\n").as_bytes(), &[]).expect("it reads");
         prop_assert_eq!(read.model, model);
     }
 
@@ -113,7 +113,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
     for number in CASES {
         let factors: Vec<f64> = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect();
         let (_, text) = box_deck(number, &factors);
-        let read = deck::read("box", &text).expect("it reads");
+        let read = deck::read("box", text.as_bytes(), &[]).expect("it reads");
         assert!(read.unread.is_empty(), "{:?}", read.unread);
         let found = deck::modes(&read.model).expect("modes");
         let model = Case::new(number).expect("a case").model().expect("a model");
@@ -140,7 +140,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
 #[test]
 fn mpc_cards_are_the_load_distribution() {
     let (_, text) = box_deck(2, &[1.0; 15]);
-    let read = deck::read("box", &text).expect("it reads").model;
+    let read = deck::read("box", text.as_bytes(), &[]).expect("it reads").model;
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());

@@ -22,12 +22,12 @@ pub fn error(line: Option<usize>, card: &str) -> FileError {
         Some(line) => lines[line - 1] = card,
         None => lines.push(card),
     }
-    deck::read("wing.dat", &lines.join("\n")).expect_err(card)
+    deck::read("wing.dat", lines.join("\n").as_bytes(), &[]).expect_err(card)
 }
 
 #[test]
 fn the_deck_without_errors_reads() {
-    assert!(deck::read("wing.dat", GOOD).is_ok());
+    assert!(deck::read("wing.dat", GOOD.as_bytes(), &[]).is_ok());
 }
 
 /// Line replaced (or `-` for one more), the card, and of its error the field, part of what is expected, and what is found.
@@ -141,17 +141,17 @@ MPC,1,2,1,-1.,1,1,1.
 MPC,1,3,1,-1.,1,2,1.,,+M
 +M,,1,1,1.,2,1,1.
 ";
-    let error = deck::read("wing.dat", deck).expect_err("grid 2 x is dependent");
+    let error = deck::read("wing.dat", deck.as_bytes(), &[]).expect_err("grid 2 x is dependent");
     assert!(
         matches!(&error, FileError::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
         "{error}"
     );
-    let error = deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,1,2,1")).expect_err("tied twice");
+    let error = deck::read("wing.dat", deck.replace("MPC,1,3,1", "MPC,1,2,1").as_bytes(), &[]).expect_err("tied twice");
     assert!(
         matches!(&error, FileError::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
         "{error}"
     );
-    let error = deck::read("wing.dat", &deck.replace("MPC,1,3,1", "MPC,7,3,1")).expect_err("two sets");
+    let error = deck::read("wing.dat", deck.replace("MPC,1,3,1", "MPC,7,3,1").as_bytes(), &[]).expect_err("two sets");
     assert!(
         matches!(&error, FileError::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
         "{error}"
@@ -172,7 +172,7 @@ fn messages_say_what_was_expected_and_found() {
 
 #[test]
 fn what_no_deck_can_hold_is_refused() {
-    let mut model = deck::read("wing.dat", GOOD).expect("it reads").model;
+    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("it reads").model;
     let write = |model: &deck::BulkData| deck::bulk_data(model);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");

@@ -43,19 +43,20 @@ fn a_line_that_is_no_card_is_named() {
         assert_eq!((file.as_str(), *at), ("wing.dat", line), "{error}");
         assert_eq!((*wanted, there.as_str()), (expected, found));
     }
-    let error = deck::read("wing.dat", "+,1\n").expect_err("nothing to continue");
+    let error = deck::read("wing.dat", "+,1\n".as_bytes(), &[]).expect_err("nothing to continue");
     assert!(matches!(error, FileError::DeckLine { line: 1, .. }), "{error}");
 }
 
 #[test]
 fn case_control_that_selects_two_sets_is_refused() {
     for (control, line) in [("SPC = 1\nSUBCASE 2\nSPC = 2", 3), ("MPC = NONE", 1), ("MPC=3\nMPC=4", 2)] {
-        let error = deck::read("wing.dat", &format!("{control}\nBEGIN BULK\n{GOOD}")).expect_err(control);
+        let error =
+            deck::read("wing.dat", format!("{control}\nBEGIN BULK\n{GOOD}").as_bytes(), &[]).expect_err(control);
         assert!(
             matches!(&error, FileError::DeckLine { line: found, expected: "one set of constraints, by its number", .. } if *found == line),
             "{error}"
         );
     }
     let same = format!("SPC = 1\nSUBCASE 2\nSPC = 1\nDISP = ALL\nBEGIN BULK\n{GOOD}");
-    assert!(deck::read("wing.dat", &same).is_ok());
+    assert!(deck::read("wing.dat", same.as_bytes(), &[]).is_ok());
 }

@@ -58,7 +58,7 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
     let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes");
     let bulk = BulkData::of(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
     let text = bulk_data(&bulk).expect("a deck");
-    let read = deck::read("box", &text).expect("it reads").model;
+    let read = deck::read("box", text.as_bytes(), &[]).expect("it reads").model;
     let modes = deck::modes(&read).expect("modes").modes;
     [&own.omega_squared, &modes.omega_squared].map(|squared| squared.as_slice().to_vec())
 }

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {
-    deck::modes(&deck::read("test", text)?.model)
+    deck::modes(&deck::read("test", text.as_bytes(), &[])?.model)
 }
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.

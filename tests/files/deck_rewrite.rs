@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 const ORIGINAL: &str = include_str!("../../golden/formats/original.bdf");
 
 pub fn elements(deck: &[u8]) -> Vec<Element> {
-    deck::read_without("deck", deck, &[]).expect("it reads").model.elements
+    deck::read("deck", deck, &[]).expect("it reads").model.elements
 }
 
 /// The elements of a deck, some with another size and another density.

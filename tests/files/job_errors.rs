@@ -263,7 +263,7 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] = [&finished.first, &finished.last].map(|model| model.exact.errors.frequency);
     assert!(last < first, "{last} after {first}");
-    assert_eq!(prepared.weights().expect("weights").shape, [0.0; 3]);
+    assert!(prepared.weights().expect("weights").iter().all(|weight| weight.shape == 0.0));
 }
 
 /// By the paper's rule: ones change nothing, and what a mode of weight zero is measured as is in no error.

@@ -128,7 +128,7 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
     let dense = with(rods(), "model.bdf", "MAT1,1,1.+6,,.3", "MAT1,1,1.+6,,.3,4.-3");
     let corrected = |files: &Files, factors: &[f64]| {
         let bytes = prepared(files).corrected_deck(factors).expect("it can be written").expect("a deck");
-        let elements = deck::read_without("corrected", &bytes, &[]).expect("it reads").model.elements;
+        let elements = deck::read("corrected", &bytes, &[]).expect("it reads").model.elements;
         elements.iter().map(|element| (element.size, element.material.density)).collect::<Vec<_>>()
     };
     assert_eq!(corrected(&dense, &[2.5, 0.5]), [(0.25, 1.6e-3), (0.05, 0.0), (0.05, 0.0)]);

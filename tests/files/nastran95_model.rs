@@ -26,7 +26,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
     for line in ["INSERT READ,-1 $", "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $", "EXIT $", "ENDALTER", "DIAG    44"] {
         assert!(text.lines().any(|found| found == line), "{line}");
     }
-    let read = corfem::files::deck::read("deck", &text).expect("it reads").model;
+    let read = corfem::files::deck::read("deck", text.as_bytes(), &[]).expect("it reads").model;
     // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
     let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
     assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);

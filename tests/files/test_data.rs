@@ -4,32 +4,16 @@ use crate::common::ground_tests::wing_test;
 use corfem::files::test_data::TestData;
 use corfem::method::error::Error;
 use nalgebra::DMatrix;
-use std::f64::consts::PI;
 
 fn refused(change: impl Fn(&mut TestData)) -> Error {
     let mut data = wing_test();
     change(&mut data);
-    let (of_check, of_modes) = (data.check().expect_err("refused"), data.mode_set(&[0]).expect_err("refused"));
-    assert_eq!(of_check.to_string(), of_modes.to_string());
-    of_check
+    data.check().expect_err("refused")
 }
 
 #[test]
-fn a_sound_test_gives_the_modes_asked_for_in_their_order() {
-    let data = wing_test();
-    data.check().expect("sound");
-    let set = data.mode_set(&[1, 0]).expect("modes");
-    assert_eq!(set.shapes, data.shapes.select_columns(&[1, 0]));
-    for (place, mode) in [1, 0].into_iter().enumerate() {
-        assert_eq!(set.omega_squared[place], (2.0 * PI * data.frequencies_hz[mode]).powi(2));
-    }
-}
-
-#[test]
-fn modes_that_are_not_there_and_none_at_all_are_refused() {
-    let data = wing_test();
-    assert!(matches!(data.mode_set(&[0, 2]), Err(Error::Unknown { label: 2, .. })));
-    assert!(matches!(data.mode_set(&[]), Err(Error::Empty { .. })));
+fn a_test_without_modes_is_refused() {
+    wing_test().check().expect("sound");
     assert!(matches!(TestData::default().check(), Err(Error::Empty { .. })));
 }
 

@@ -11,7 +11,7 @@ use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
 use corfem::studies::noise::Noise;
 use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{Weights, jacobian};
+use corfem::studies::weighted::residuals::{equal_weights, jacobian};
 use nalgebra::DMatrix;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
@@ -157,7 +157,7 @@ pub fn deviations() -> Sketch {
     let case = Case::new(2).expect("a case");
     let test = case.test_modes().expect("modes");
     let model = case.model_with(&[TEST_GAGE; 15]).expect("a model").analyze(&[1.0; 15], &test, None).expect("a model");
-    let weights = Weights::uniform(Noise::USUAL, 9).expect("weights");
+    let weights = equal_weights(Noise::USUAL, 9).expect("weights");
     let seen = jacobian(&model, &weights).and_then(|jacobian| identifiability(&jacobian, 1.0)).expect("what is seen");
     let percents = seen.deviations.iter().map(|deviation| 100.0 * deviation).collect();
     let errors = final_gage_errors().into_iter().map(f64::abs).collect();

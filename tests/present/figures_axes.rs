@@ -3,7 +3,7 @@
 use crate::common::drawings::words;
 use crate::present::figures::results;
 use corfem::cases::Case;
-use corfem::present::figures::cover_gages::{Cover, cover_gages, draw};
+use corfem::present::figures::cover_gages::draw;
 use corfem::present::figures::error_history::{self, PassHistory, error_history};
 use corfem::present::figures::factors::{Factor, Factors};
 use corfem::present::subject::Subject;
@@ -11,14 +11,14 @@ use corfem::present::subject::Subject;
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {
     let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
-    let said = words(&draw(&cover_gages(&cases)).expect("drawn"));
+    let said = words(&draw(&cases).expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
     assert_eq!(said.iter().filter(|word| *word == "0.0001").count(), 1);
     assert!(said.iter().any(|word| word == "0.010"));
     assert!(!said.iter().any(|word| word == "0.0100" || word == "0.000"));
-    let mut covers = cover_gages(&cases[..1]);
-    covers[1].1.iter_mut().for_each(|cover: &mut Cover| cover.gage = 0.001);
-    let thin = words(&draw(&covers).expect("drawn"));
+    let mut case = cases[0].clone();
+    case.panels.iter_mut().for_each(|panel| panel.gage = 0.001);
+    let thin = words(&draw(&[case]).expect("drawn"));
     assert_eq!(thin.iter().filter(|word| *word == "0.001").count(), 6, "three decimals are enough");
 }
 
@@ -56,14 +56,7 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
     let limits = results()[3].case.settings.inner.factor_range;
-    let factor = |value: f64| Factor {
-        name: "web".to_owned(),
-        value,
-        deviation: None,
-        published: None,
-        bounds: None,
-        remark: None,
-    };
+    let factor = |value: f64| Factor { name: "web".to_owned(), value, ..Factor::default() };
     for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0), ([-0.99, 5.0], -2.0)] {
         let rows = values.map(factor).to_vec();
         let across = "factor".to_owned();
@@ -79,7 +72,7 @@ fn factor_axis_leaves_room_for_the_numbers() {
 #[test]
 fn legend_of_the_gages_has_the_panels_colors() {
     let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
-    let svg = draw(&cover_gages(&cases)).expect("drawn");
+    let svg = draw(&cases).expect("drawn");
     // The fill of the last polygon before a word.
     let fill = |word: &str| {
         let before = &svg[..svg.find(word).expect("written")];

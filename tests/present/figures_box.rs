@@ -1,12 +1,12 @@
 //! The data of the figures of the box are the model's and Table 2's.
 
+use crate::common::drawings::{words, written};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::present::figures::results;
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
-use corfem::method::structure::ElementKind;
 use corfem::present::figures::box_elements::Layer;
-use corfem::present::figures::cover_gages::cover_gages;
+use corfem::present::figures::cover_gages::draw;
 use corfem::present::subject::Subject;
 use nalgebra::DVector;
 
@@ -60,31 +60,25 @@ fn box_elements_are_the_models_in_three_layers() {
 #[test]
 fn cover_gages_are_those_of_table_2() {
     let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
-    let data = cover_gages(&cases);
+    let said = written(&draw(&cases).expect("drawn"));
     let table = PublishedTable::number(2).expect("it reads");
-    let names: Vec<&str> = data.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"]);
-    for (number, (_, covers)) in data.iter().enumerate() {
-        let labels: Vec<usize> = covers.iter().map(|cover| cover.label).collect();
-        assert_eq!(labels, [2, 4, 8, 9, 11, 15]);
-        for cover in covers {
-            assert_eq!(cover.upper, [4, 9, 15].contains(&cover.label));
-            assert_eq!(cover.corners.len(), 4);
-            let row = cover.label.to_string();
+    let names = ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"];
+    for (number, name) in names.into_iter().enumerate() {
+        let row = said.iter().position(|word| word.text == name).expect("its row");
+        // In every cover its number and kind, and below them its gage.
+        for (pair, label) in said[row + 1..row + 13].chunks_exact(2).zip([2, 4, 8, 9, 11, 15]) {
+            let [above, below] = pair else { panic!("a pair") };
+            assert_eq!(above.bounds[2] < 410.0, [4, 9, 15].contains(&label), "upper covers at the left: {above:?}");
+            assert!(above.bounds[3] <= below.bounds[1]);
+            let (element, gage) = (label.to_string(), below.text.parse::<f64>().expect("a gage"));
             if number == 0 {
-                assert_eq!((cover.gage, cover.kind), (0.010, None));
+                assert_eq!((&above.text, gage), (&element, 0.010));
                 continue;
             }
-            let printed = table.required(&row, &format!("gage_{number}")).expect("printed");
-            assert_eq!(cover.gage, printed);
-            let kind = match table.text(&row, &format!("type_{number}")) {
-                Some("S") => ElementKind::ShearPanel,
-                _ => ElementKind::Membrane,
-            };
-            assert_eq!(cover.kind, Some(kind));
-            let place = cases[0].reconstruction.grids[&cases[0].panels[cover.label - 1].grids[0]];
-            assert_eq!(<[f64; 3]>::from(cover.corners[0]), place);
+            assert_eq!(Some(gage), table.value(&element, &format!("gage_{number}")));
+            let kind = table.text(&element, &format!("type_{number}")).expect("printed");
+            assert_eq!(above.text, format!("{element} {kind}"));
         }
     }
-    assert!(cover_gages(&[]).is_empty());
+    assert!(!words(&draw(&[]).expect("drawn")).iter().any(|word| word == "GVT"));
 }

@@ -40,7 +40,7 @@ fn histograms_of_few_samples() {
 }
 
 fn factor(name: &str, value: f64) -> Factor {
-    Factor { name: name.to_owned(), value, deviation: None, published: None, bounds: None, remark: None }
+    Factor { name: name.to_owned(), value, ..Factor::default() }
 }
 
 #[test]

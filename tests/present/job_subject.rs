@@ -38,7 +38,7 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
     assert!(subject.sensors.iter().all(|sensor| sensor.direction == Vector3::x()));
     let first = prepared.analyze(&[1.0; 2]).expect("analyzed");
     assert_eq!(subject.derivatives, Some(Derivatives::of(&first).expect("taken")));
-    assert_eq!((subject.converged, subject.best, subject.stages.len()), (false, None, 0));
+    assert_eq!((subject.converged(), subject.best, subject.stages.len()), (false, None, 0));
     // Without elements the lines of the test are drawn, but for one with an end that stands nowhere.
     let mut lined = prepared.clone();
     std::sync::Arc::make_mut(&mut lined.source).geometry.elements.clear();
@@ -57,7 +57,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
         let prepared = prepared(files);
         let finished = run(&prepared, |_| {}, || true).expect("it runs");
         let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
-        assert_eq!((finished.verdict.is_within, subject.converged), (is_within, is_within));
+        assert_eq!((finished.verdict.is_within, subject.converged()), (is_within, is_within));
         assert_eq!(subject.factors(), finished.factors);
     }
     let prepared = prepared(&each);

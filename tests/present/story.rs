@@ -77,7 +77,7 @@ fn page_refers_to_no_file_that_it_does_not_carry() {
 #[test]
 fn both_wings_come_within_tolerance_of_their_tests_and_not_all_of_their_gages() {
     for wing in wings() {
-        assert!(wing.converged, "{}: {}", wing.title, wing.words);
+        assert!(wing.converged(), "{}: {}", wing.title, wing.words());
         assert_eq!(wing.truth.len(), wing.parameters.len());
         let off =
             |factors: &[f64]| factors.iter().zip(&wing.truth).map(|(f, t)| (f / t - 1.0).abs()).fold(0.0, f64::max);

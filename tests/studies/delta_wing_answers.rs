@@ -121,7 +121,7 @@ fn wing_to_deck_to_wing_is_the_identity() {
         let cards = text.lines().filter(|line| line.split_whitespace().next() == Some(card));
         assert_eq!(cards.count(), count, "{card}");
     }
-    let read = deck::read("wing", &text).expect("it reads");
+    let read = deck::read("wing", text.as_bytes(), &[]).expect("it reads");
     assert_eq!(read.model, model);
     assert!(read.unread.is_empty());
     assert_eq!(deck::modes(&read.model).expect("modes"), wing().modes().expect("modes"));

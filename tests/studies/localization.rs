@@ -8,7 +8,7 @@ use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::ModeSet;
 use corfem::studies::known::Known;
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::weighted::residuals::{Weights, residuals};
+use corfem::studies::weighted::residuals::{equal_weights, residuals};
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
@@ -39,7 +39,7 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
     let case = Case::new(2).unwrap();
     let (first, test) =
         (case.model().unwrap().matrices(&[1.0; 15]).unwrap(), ModeSet::from(case.test_modes().unwrap()));
-    let weights = Weights::uniform(NOISE, test.len()).unwrap();
+    let weights = equal_weights(NOISE, test.len()).unwrap();
     let objective = |factors: &[f64]| {
         let model = at(&first, factors).analyze(&test, None).unwrap();
         0.5 * residuals(&model, &weights).unwrap().norm_squared()

@@ -2,6 +2,7 @@
 
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::rates::spring_chain;
+use crate::evidence::specimen::Specimen;
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
@@ -12,7 +13,7 @@ use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::studies::delta_wing::{DeltaWing, correlation};
 use corfem::studies::noise::{Noise, split_mix_64, with_noise};
 use corfem::studies::preflight::{
-    Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, Specimen, preflight,
+    Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, preflight,
 };
 use nalgebra::DMatrix;
 

@@ -1,13 +1,12 @@
 //! The pre-flight: what it says of frequencies, of modes, of settings and of two mistakes at once.
 
 use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
+use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{case, chain, findings, wing, with_shapes};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::outer_loop::Settings;
-use corfem::studies::preflight::{
-    Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, Specimen, preflight,
-};
+use corfem::studies::preflight::{Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight};
 use corfem::studies::whole_model::CondensationError;
 
 #[test]

@@ -2,12 +2,13 @@
 
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::plant::mass_follows;
+use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{agreement, case, chain, findings, mended, wing, with_shapes};
 use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
-use corfem::studies::preflight::{Change, CommonFactor, Finding, LEAST_GAIN, LEAST_SHARE, Specimen};
+use corfem::studies::preflight::{Change, CommonFactor, Finding, LEAST_GAIN, LEAST_SHARE};
 use nalgebra::DMatrix;
 
 #[test]

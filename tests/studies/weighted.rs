@@ -5,6 +5,7 @@ use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, R
 use crate::evidence::rules::compare_all;
 use corfem::cases::Case;
 use corfem::method::error::Error;
+use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
@@ -14,7 +15,7 @@ use corfem::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
 use corfem::studies::weighted::identifiability::{NORMAL_95, identifiability};
-use corfem::studies::weighted::residuals::{DEVIATIONS, Weights, jacobian, residuals};
+use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian, residuals};
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel and a mass parameter for every point.
 fn by_matrices() -> DynamicModel {
@@ -45,8 +46,8 @@ fn modes(model: &DynamicModel) -> ModeSet {
     solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap().into()
 }
 
-fn weights(modes: usize) -> Weights {
-    Weights::uniform(DEVIATIONS, modes).unwrap()
+fn weights(modes: usize) -> Vec<ModeWeight> {
+    equal_weights(DEVIATIONS, modes).unwrap()
 }
 
 #[test]
@@ -57,10 +58,8 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
         let mut draws = Draws(seed);
         let factors: Vec<f64> = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect();
         let test = with_noise(&modes(&first), Noise::USUAL, seed).unwrap();
-        let weights = Weights {
-            frequency: (0..9).map(|_| 100.0 + 200.0 * draws.unit()).collect(),
-            shape: (0..9).map(|_| 30.0 + 70.0 * draws.unit()).collect(),
-        };
+        let weight = |_| ModeWeight { frequency: 100.0 + 200.0 * draws.unit(), shape: 30.0 + 70.0 * draws.unit() };
+        let weights: Vec<ModeWeight> = (0..9).map(weight).collect();
         let here = at(&first, &factors).analyze(&test, None).unwrap();
         let slopes = jacobian(&here, &weights).unwrap();
         assert_eq!(slopes.shape(), (90, 24));
@@ -265,7 +264,7 @@ fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_tr
 fn input_out_of_range_is_refused() {
     let known = Known::of_case(2).unwrap();
     let analyze = |factors: &[f64]| -> Result<ModalModel, Error> { known.model.analyze(factors, &known.test, None) };
-    let run = |first: &[f64], ranges: &[Option<Range>], weights: &Weights, settings: &WeightedSettings| {
+    let run = |first: &[f64], ranges: &[Option<Range>], weights: &[ModeWeight], settings: &WeightedSettings| {
         gauss_newton(analyze, first, ranges, weights, settings).err()
     };
     let (ones, free, usual) = ([1.0; 15], [None; 15], WeightedSettings::default());
@@ -278,7 +277,7 @@ fn input_out_of_range_is_refused() {
     assert!(matches!(run(&[0.0; 15], &free, &weights(9), &usual), Some(Error::NotPositive { .. })));
     let upside_down = [Some(Range { lower: 2.0, upper: 1.0 }); 15];
     assert!(matches!(run(&ones, &upside_down, &weights(9), &usual), Some(Error::Limits { .. })));
-    assert!(matches!(Weights::uniform(Noise::NONE, 9), Err(Error::Setting { .. })));
+    assert!(matches!(equal_weights(Noise::NONE, 9), Err(Error::Setting { .. })));
     assert!(matches!(identifiability(&DMatrix::zeros(0, 3), 1.0), Err(Error::Empty { .. })));
     let few = WeightedSettings { trials: 1, ..usual };
     let stopped = gauss_newton(analyze, &ones, &free, &weights(9), &few).unwrap();

@@ -12,7 +12,7 @@ use corfem::cases::Case;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::present::render::csv;
 use corfem::studies::localization::by_single_fit;
-use corfem::studies::weighted::residuals::{Weights, residuals};
+use corfem::studies::weighted::residuals::{equal_weights, residuals};
 
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {
@@ -53,7 +53,7 @@ fn a_single_error_is_undone_by_its_own_factor() {
     let case = Case::new(4).unwrap();
     let right = case.model_with(&[0.01; 15]).unwrap().matrices(&[1.0; 15]).unwrap();
     let test: ModeSet = solve(&right.stiffness, &right.mass, 9).unwrap().into();
-    let weights = Weights::uniform(NOISE, 9).unwrap();
+    let weights = equal_weights(NOISE, 9).unwrap();
     for culprit in 0..15 {
         let mut factors = [1.0; 15];
         factors[culprit] = 0.05;

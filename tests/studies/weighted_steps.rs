@@ -2,18 +2,19 @@
 
 use crate::common::tolerances::{ROUND_OFF, STANDARD_ERRORS};
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
+use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::studies::known::Known;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
 use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{DEVIATIONS, Weights, jacobian};
+use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
 fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
     let known = Known::of_case(2).unwrap();
-    let weights = Weights::uniform(DEVIATIONS, known.test.len()).unwrap();
+    let weights = equal_weights(DEVIATIONS, known.test.len()).unwrap();
     // Without trials there is one analysis a start.
     let settings = WeightedSettings { trials: 0, ..WeightedSettings::default() };
     let mut firsts: Vec<Vec<f64>> = Vec::new();
@@ -42,7 +43,7 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
             DynamicModel { stiffness, mass: DMatrix::identity(2, 2), shares: vec![Share::Stiffness(share.clone())] };
         let test: ModeSet = solve(&model.stiffness, &model.mass, 2).unwrap().into();
         let modal = model.analyze(&test, None).unwrap();
-        let weights = Weights { frequency: vec![1.0; 2], shape: vec![1.0; 2] };
+        let weights = [ModeWeight::ONE; 2];
         // What the first mode gains of the second.
         jacobian(&modal, &weights).unwrap()[(2, 0)]
     };

@@ -16,7 +16,7 @@ use corfem::studies::delta_wing::correlation::GROUPS;
 use corfem::studies::free_modes::{CountedModes, counted_modes};
 use corfem::studies::noise::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::Weights;
+use corfem::studies::weighted::residuals::equal_weights;
 use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 
@@ -184,7 +184,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
     assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
     let test = ModeSet { shapes: sensors.times(&vibrations.shapes).expect("fits"), ..vibrations };
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 20);
-    let weights = Weights::uniform(Noise { frequency: 1e-3, shape: 5e-3 }, test.len()).expect("weights");
+    let weights = equal_weights(Noise { frequency: 1e-3, shape: 5e-3 }, test.len()).expect("weights");
     let settings = WeightedSettings::default();
     let found = gauss_newton(analyze, &[1.0; 3], &model.ranges(), &weights, &settings).expect("a correlation");
     for (found, truth) in found.factors.iter().zip(&truth) {

@@ -130,13 +130,8 @@ impl Card {
     /// Adds an entry to others by the number in its first field, which no other card may have.
     pub fn keep<T>(&self, start: usize, value: T, others: &mut Numbered<T>) -> Result<(), FileError> {
         let kept = Kept { value, card: self.clone(), start };
-        match others.insert(self.label(start)?, kept) {
-            None => Ok(()),
-            Some(first) => {
-                let expected = format!("a number other than that of the card in line {}", first.card.line);
-                Err(self.error(start, expected))
-            }
-        }
+        let Some(first) = others.insert(self.label(start)?, kept) else { return Ok(()) };
+        Err(self.error(start, format!("a number other than that of the card in line {}", first.card.line)))
     }
 
     /// What a field refers to by its number, which must exist; `card` is the name of the card looked for.

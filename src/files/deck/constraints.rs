@@ -59,10 +59,9 @@ impl Constraints {
     ///
     /// A set that case control selects must exist in `file`, unless cards `may_lack`.
     pub fn select(&mut self, file: &str, selected: Option<Selected>, may_lack: bool) -> Result<Vec<Card>, FileError> {
-        let by_control = selected.map(|selected| [selected.spc, selected.mpc]);
         let mut left_out = Vec::new();
         for (row, sets) in [&mut self.supports, &mut self.equations].into_iter().enumerate() {
-            let Some(chosen) = by_control.map(|chosen| chosen[row]) else {
+            let Some(chosen) = selected.map(|selected| selected[row]) else {
                 let first = sets.unions.first().or(sets.cards.first()).map(|(set, _)| *set);
                 if let (Some(first), Some(other)) = (first, sets.select(first)?.first()) {
                     return Err(other.error(2, format!("set {first} again, for no case control selects one")));

@@ -139,11 +139,7 @@ pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
         return Ok(PointMass { label, grid, direction, mass: card.positive(3)? });
     }
     card.absent(4, "coordinate systems but the basic one")?;
-    for field in 6..=8 {
-        card.absent(field, "offsets of masses")?;
-    }
-    for field in 12..=17 {
-        card.absent(field, "rotary inertia")?;
-    }
+    (6..=8).try_for_each(|field| card.absent(field, "offsets of masses"))?;
+    (12..=17).try_for_each(|field| card.absent(field, "rotary inertia"))?;
     Ok(PointMass { label, grid: card.label(3)?, direction: None, mass: card.positive(5)? })
 }

@@ -15,36 +15,19 @@ const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Selected {
-    pub spc: Option<(usize, usize)>,
-    pub mpc: Option<(usize, usize)>,
-}
+pub(super) type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
 pub(super) struct Line {
     /// Its number in the file, from one.
-    pub number: usize,
-    /// Field 1 in capitals: a name, or `+`, `*` or nothing before a continuation's tag.
-    pub first: String,
+    number: usize,
+    /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
+    first: String,
+    continues: bool,
     /// Fields 2 to 9, or four large ones.
-    pub data: Vec<Field>,
-    /// Whether they are large.
-    pub large: bool,
+    data: Vec<Field>,
     /// Field 10, without its `+` or `*`.
-    pub tag: String,
-}
-
-impl Line {
-    /// Whether this is a continuation.
-    pub fn continues(&self) -> bool {
-        self.first.is_empty() || self.first.starts_with(['+', '*'])
-    }
-
-    /// The tag of a continuation, as field 1 has it.
-    pub fn own_tag(&self) -> &str {
-        self.first.trim_start_matches(['+', '*'])
-    }
+    tag: String,
 }
 
 /// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
@@ -63,16 +46,12 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
     let lines: Vec<(usize, String)> = lines.collect();
     let begin = lines.iter().position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
-    let mut selected = begin.map(|_| Selected::default());
-    if let Some(selected) = &mut selected {
-        for (number, line) in control {
-            select(file, *number, line, selected)?;
-        }
-    }
+    let mut selected = Selected::default();
+    control.iter().try_for_each(|(number, line)| select(file, *number, line, &mut selected))?;
     let of_model = |(_, line): &&(usize, String)| statement(line, &["PARAM"]).or(statement(line, &INCLUDES)).is_some();
     let bulk = bulk.iter().take_while(|(_, line)| line.trim() != "ENDDATA");
     let bulk = control.iter().filter(of_model).chain(bulk).map(|(number, line)| fields(file, *number, line.trim_end()));
-    Ok((selected, bulk.collect::<Result<_, _>>()?))
+    Ok((begin.map(|_| selected), bulk.collect::<Result<_, _>>()?))
 }
 
 /// Which of these words a line begins with.
@@ -82,10 +61,10 @@ fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
 }
 
 /// Takes notice of `SPC = n` and `MPC = n`.
-fn select(file: &str, line: usize, text: &str, selected: &mut Selected) -> Result<(), FileError> {
+fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Result<(), FileError> {
     let (slot, set) = match text.split_once('=').map(|(name, set)| (name.trim(), set)) {
-        Some(("SPC", set)) => (&mut selected.spc, set),
-        Some(("MPC", set)) => (&mut selected.mpc, set),
+        Some(("SPC", set)) => (spc, set),
+        Some(("MPC", set)) => (mpc, set),
         _ => return Ok(()),
     };
     match set.trim().parse() {
@@ -114,10 +93,8 @@ pub(super) fn cut(text: &str) -> Cut {
     let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
     let mut parts = text.split(',').map(str::to_owned);
     let name = if is_free { parts.next().unwrap_or_default() } else { slice(0, SMALL_FIELD) };
-    let (width, count) = match is_large(name.trim()) {
-        true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE),
-        false => (SMALL_FIELD, FIELDS_PER_LINE),
-    };
+    let is_large = name.trim().ends_with('*') || name.trim().starts_with('*');
+    let (width, count) = if is_large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE) } else { (SMALL_FIELD, FIELDS_PER_LINE) };
     let start = |place: usize| SMALL_FIELD + width * place;
     let fixed = (0..count).map(|place| slice(start(place), start(place + 1))).chain([slice(start(count), usize::MAX)]);
     let parts = if is_free { parts.collect() } else { fixed.collect() };
@@ -126,7 +103,7 @@ pub(super) fn cut(text: &str) -> Cut {
 
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     if let Some(name) = statement(text, &INCLUDES) {
-        return Ok(Line { number, first: name.to_owned(), data: Vec::new(), large: false, tag: String::new() });
+        return Ok(Line { number, first: name.to_owned(), continues: false, data: Vec::new(), tag: String::new() });
     }
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
     let Cut { name, mut parts, is_free, count, width } = cut(text);
@@ -134,11 +111,12 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
         // What follows column 80 does not count.
         *tag = tag.chars().take(SMALL_FIELD).collect();
     }
-    let first = name.trim().to_owned();
-    let is_named = first.starts_with(|c: char| c.is_ascii_alphabetic());
-    if !is_named && !first.is_empty() && !first.starts_with(['+', '*']) {
-        return Err(wrong("a card's name or a continuation", &first));
+    let first = name.trim();
+    let continues = first.is_empty() || first.starts_with(['+', '*']);
+    if !continues && !first.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return Err(wrong("a card's name or a continuation", first));
     }
+    let first = if continues { first.trim_start_matches(['+', '*']) } else { first.trim_end_matches('*') }.to_owned();
     if parts.len() > count + 1 {
         return Err(wrong("no more fields than a line has", text));
     }
@@ -150,12 +128,7 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
         return Err(wrong("a field of 8 characters, or of 16 with an asterisk", &long.text));
     }
     let tag = tag.trim_start_matches(['+', '*']).to_owned();
-    Ok(Line { number, large: is_large(&first), first, data, tag })
-}
-
-/// Whether field 1 says that a line is in the large format.
-fn is_large(name: &str) -> bool {
-    name.ends_with('*') || name.starts_with('*')
+    Ok(Line { number, first, continues, data, tag })
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.
@@ -184,23 +157,18 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
     let mut ends = Vec::new();
     let mut open: Option<usize> = None;
     for line in lines {
-        if !line.continues() {
+        if !line.continues {
             ends.push(line.tag.clone());
             open = line.tag.is_empty().then_some(cards.len());
-            cards.push(Card {
-                file: file.clone(),
-                line: line.number,
-                name: line.first.trim_end_matches('*').to_owned(),
-                fields: line.data,
-            });
-        } else if line.own_tag().is_empty() {
+            cards.push(Card { file: file.clone(), line: line.number, name: line.first, fields: line.data });
+        } else if line.first.is_empty() {
             let card = open.ok_or_else(|| no_parent(file, &line))?;
             append(&mut cards[card], &line);
             open = line.tag.is_empty().then_some(card);
             ends[card] = line.tag;
         } else {
             open = None;
-            let (tag, number) = (line.own_tag().to_owned(), line.number);
+            let (tag, number) = (line.first.clone(), line.number);
             if let Some(first) = waiting.insert(tag.clone(), line) {
                 let found = format!("{tag}, which the one in line {} has", first.number);
                 return Err(FileError::line(file, number, "a continuation with a tag of its own", found));
@@ -227,7 +195,7 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
 }
 
 fn no_parent(file: &str, line: &Line) -> FileError {
-    let found = match line.own_tag() {
+    let found = match line.first.as_str() {
         "" => "none before it".to_owned(),
         tag => format!("none that ends with tag {tag}"),
     };
@@ -236,7 +204,7 @@ fn no_parent(file: &str, line: &Line) -> FileError {
 
 fn append(card: &mut Card, line: &Line) {
     // The second half of a card of the large format may be missing.
-    if !line.large {
+    if line.data.len() == FIELDS_PER_LINE {
         let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
         let blank = Field { text: String::new(), line: line.number };
         card.fields.resize(whole, blank);

@@ -34,6 +34,6 @@ pub(super) use lines::{cards, decoded};
 
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;
-pub use read::{Deck, Reason, Unread, read, read_without};
+pub use read::{Deck, Reason, Unread, read};
 pub use rewrite::rewrite;
 pub use write::{Task, bulk_data, write};

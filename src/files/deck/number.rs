@@ -25,6 +25,12 @@ pub fn parse_real(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// The reals of a line in columns of one width, or `None` unless each of them holds one; the last may be narrower.
+pub(in crate::files) fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
+    let columns = line.as_bytes().chunks(width);
+    columns.map(|column| parse_real(std::str::from_utf8(column).ok()?.trim())).collect()
+}
+
 /// The shortest NASTRAN real that reads back as exactly `value`, if it has at most `width` characters.
 pub fn exact_real(value: f64, width: usize) -> Option<String> {
     let text = layout(&format!("{value:e}"))?;

@@ -21,35 +21,32 @@ pub struct Deck {
     pub unread: Vec<Unread>,
 }
 
-/// Reads a deck; `file` is its name in messages.
+/// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
 /// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
 /// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
-/// supports or coordinates, such as loads, are listed in [`Deck::unread`], except EIGR and EIGRL: they say how to look
-/// for eigenvalues. Every other card is an error.
+/// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
+/// they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
 /// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and
-/// [`FileError::DeckField`] name file, line, card and field.
-pub fn read(file: &str, text: &str) -> Result<Deck, FileError> {
-    read_without(file, text.as_bytes(), &[])
-}
-
-/// Reads a deck in UTF-8 or Latin-1 as [`read`] does, but without cards of the names `ignored` that are not understood;
-/// [`Deck::unread`] lists them.
-///
-/// # Errors
-/// Those of [`read`]; [`FileError::IgnoredCard`] for the name of a card that is read.
-pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
+/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Input`] for the name of a card to be ignored that is
+/// read.
+pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
-        return Err(FileError::IgnoredCard { card: card.clone() });
+        return Err(FileError::input("--ignore", "a card that is not read here", card));
     }
     let (selected, lines) = sections(file, &decoded(text))?;
     let (cards, others): (Vec<Card>, Vec<Card>) =
         join(&file.into(), lines)?.into_iter().partition(|card| is_read(&name(card)));
-    let mut unread: Vec<_> = others.iter().map(|card| unread(card, &ignored)).collect();
+    let why = |card: &Card| match name(card) {
+        name if WITHOUT_PART.contains(&name.as_str()) => Reason::WithoutPart,
+        name if ignored.contains(&name) => Reason::Ignored,
+        _ => Reason::Unknown,
+    };
+    let mut unread: Vec<_> = others.iter().map(|card| one_unread(card, why(card))).collect();
     let unknown = counted(unread.iter().filter(|card| card.reason == Reason::Unknown));
     if !unknown.is_empty() {
         return Err(FileError::DeckCards { file: file.to_owned(), cards: unknown });
@@ -73,13 +70,8 @@ pub fn read_without(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck,
         }
     }
     let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
-    let left_out = constraints.select(file, selected, may_lack)?.into_iter();
-    unread.extend(left_out.map(|Card { name, line, .. }| Unread {
-        card: name,
-        line,
-        count: 1,
-        reason: Reason::NotSelected,
-    }));
+    let left_out = constraints.select(file, selected, may_lack)?;
+    unread.extend(left_out.iter().map(|card| one_unread(card, Reason::NotSelected)));
     let grids = grids.iter().map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
     let mut grids = grids.collect::<Result<BTreeMap<usize, Grid>, FileError>>()?;
     constraints.constrain(&mut grids)?;
@@ -111,9 +103,7 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
 /// A grid; what GRDSET says counts where its own card has blanks.
 fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
     let chosen = |field: usize| default.filter(|_| card.text(field).is_empty()).unwrap_or(card);
-    for field in [3, 7] {
-        chosen(field).absent(field, "coordinate systems but the basic one")?;
-    }
+    [3, 7].iter().try_for_each(|&field| chosen(field).absent(field, "coordinate systems but the basic one"))?;
     let position = Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?);
     Ok(Grid { label, position, constrained: chosen(8).directions(8)? })
 }
@@ -185,15 +175,8 @@ fn is_read(name: &str) -> bool {
     READ.contains(&name) || ELEMENT_CARDS.iter().any(|known| name == known.0 || name == known.1)
 }
 
-/// A card that is not read, where those of the names `ignored` are left out by request.
-fn unread(card: &Card, ignored: &[String]) -> Unread {
-    let name = name(card);
-    let reason = match &name {
-        _ if WITHOUT_PART.contains(&name.as_str()) => Reason::WithoutPart,
-        _ if ignored.contains(&name) => Reason::Ignored,
-        _ => Reason::Unknown,
-    };
-    Unread { card: name, line: card.line, count: 1, reason }
+fn one_unread(card: &Card, reason: Reason) -> Unread {
+    Unread { card: name(card), line: card.line, count: 1, reason }
 }
 
 /// Cards put together by name and reason, in the order of the file.

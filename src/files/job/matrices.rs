@@ -95,9 +95,9 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
         if labels.is_empty() && cells.first().is_some_and(|cell| cell.eq_ignore_ascii_case("grid")) {
             continue;
         }
-        let (label, place) = row(&cells).ok_or_else(|| {
-            FileError::job(file, "lines of grid, direction and perhaps x, y, z", format!("line {number}: {line}"))
-        })?;
+        let found = || format!("line {number}: {line}");
+        let wrong = || FileError::input(file.display(), "lines of grid, direction and perhaps x, y, z", found());
+        let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
         places.extend(place.map(|place| (label.0, place)));
     }

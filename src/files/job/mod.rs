@@ -194,11 +194,11 @@ const MOST_LABELS: usize = 10_000_000;
 /// Reads a job file.
 ///
 /// # Errors
-/// [`FileError::File`] when it cannot be read; [`FileError::Job`] naming line and entry that are not understood.
+/// [`FileError::File`] when it cannot be read; [`FileError::Input`] naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
     let job = toml::from_str(&text).map(|job| Job { path: path.to_owned(), ..job });
-    job.map_err(|error| FileError::job(path, "a job as corfem init explains it", error.to_string()))
+    job.map_err(|error| FileError::input(path.display(), "a job as corfem init explains it", error.to_string()))
 }
 
 impl Job {
@@ -213,7 +213,7 @@ impl Job {
     }
 
     fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {
-        FileError::job(&self.path, expected, found)
+        FileError::input(self.path.display(), expected, found)
     }
 
     /// Refuses what is found instead of what is expected, if anything is.

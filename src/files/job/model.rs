@@ -53,7 +53,7 @@ pub(super) fn load(job: &Job) -> Result<ModelSource, FileError> {
 
 fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let bytes = std::fs::read(file).map_err(FileError::of_file(file, "read"))?;
-    let deck = deck::read_without(&file.display().to_string(), &bytes, &job.model.ignore)?;
+    let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
     let elements = element_matrices(&structure)?;

@@ -57,7 +57,7 @@ impl Prepared {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Job`] for modes that the test does not have or that are named twice, and when no test mode has
+    /// Those of the files; [`FileError::Input`] for modes that the test does not have or that are named twice, and when no test mode has
     /// a partner; those of the first analysis and of [`Prepared::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;

@@ -13,12 +13,8 @@ use crate::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
 use crate::studies::weighted::identifiability::{Identifiability, identifiability};
-use crate::studies::weighted::residuals::{Weights, jacobian, residuals};
+use crate::studies::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 use crate::studies::whole_model::{WholeParameter, WholeShare};
-
-/// Standard deviations where neither test nor job has any: what resonance frequencies of repeated tests scatter by, and shapes
-/// measured with accelerometers relative to their largest component.
-const USUAL: Noise = Noise { frequency: 0.005, shape: 0.02 };
 
 /// How the factors were found.
 #[derive(Debug, Clone)]
@@ -54,8 +50,8 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Job`] for weights that are not one a test mode.
-    pub fn weights(&self) -> Result<Weights, FileError> {
+    /// [`FileError::Input`] for weights that are not one a test mode.
+    pub fn weights(&self) -> Result<Vec<ModeWeight>, FileError> {
         let compare = &self.job.compare;
         let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
         let lists = [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)];
@@ -63,11 +59,11 @@ impl Prepared {
             let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
             self.job.refuse(other, format!("{named} {what}, one a test mode of the job"))?;
         }
-        let own = self.own_weights();
-        let all = own.iter().zip(&self.modes).map(|(own, &mode)| (own, self.deviations(mode)));
-        let (frequency, shape) =
-            all.map(|(own, noise)| (own.frequency / noise.frequency, own.shape / noise.shape)).unzip();
-        Ok(Weights { frequency, shape })
+        let weight = |(own, &mode): (ModeWeight, &usize)| {
+            let noise = self.deviations(mode);
+            ModeWeight { frequency: own.frequency / noise.frequency, shape: own.shape / noise.shape }
+        };
+        Ok(self.own_weights().into_iter().zip(&self.modes).map(weight).collect())
     }
 
     /// The job's own weights of the test modes, ones where it has none.
@@ -91,8 +87,8 @@ impl Prepared {
         };
         let (data, compare) = (&self.data, &self.job.compare);
         Noise {
-            frequency: of(&data.frequency_deviation, compare.frequency_deviation, USUAL.frequency),
-            shape: of(&data.shape_deviation, compare.shape_deviation, USUAL.shape),
+            frequency: of(&data.frequency_deviation, compare.frequency_deviation, DEVIATIONS.frequency),
+            shape: of(&data.shape_deviation, compare.shape_deviation, DEVIATIONS.shape),
         }
     }
 
@@ -101,7 +97,7 @@ impl Prepared {
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`]; [`FileError::Job`] for factors of point masses, which are not rewritten.
+    /// Those of [`rewrite`]; [`FileError::Input`] for factors of point masses, which are not rewritten.
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else { return Ok(None) };
         let mut elements = deck.model.elements.clone();

@@ -1,7 +1,7 @@
 //! The text that NASTRAN's module OUTPUT4 writes, dense or sparse.
 
 use super::{Found, LabeledMatrix, is_wanted};
-use crate::files::deck::number::parse_real;
+use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use crate::studies::whole_model::SparseMatrix;
 
@@ -142,9 +142,8 @@ impl Lines<'_> {
         let mut row = first;
         while let Some(line) = self.lines.get(*at + 1).filter(|line| line.contains('.')) {
             *at += 1;
-            for field in line.as_bytes().chunks(width) {
-                let value = std::str::from_utf8(field).ok().and_then(|text| parse_real(text.trim()));
-                let value = value.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))?;
+            let reals = parse_reals(line, width);
+            for value in reals.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))? {
                 self.require(row <= rows, *at, "no more numbers than rows")?;
                 entries.push((row - 1, column - 1, value));
                 row += 1;

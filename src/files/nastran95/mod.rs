@@ -84,14 +84,6 @@ impl Nastran95 {
         Ok(Self { home, time_limit: TIME_LIMIT, output_limit: OUTPUT_LIMIT, stop: Arc::default() })
     }
 
-    /// Runs a deck in a temporary folder that is removed, however the run ends.
-    ///
-    /// # Errors
-    /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
-    pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
-        process::run(self, deck)
-    }
-
     /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
     ///
     /// # Errors

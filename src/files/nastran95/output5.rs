@@ -1,7 +1,7 @@
 //! The formatted file of NASTRAN's module OUTPUT5.
 
 use super::process::shown;
-use crate::files::deck::number::parse_real;
+use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -36,15 +36,12 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
         value.ok_or_else(|| wrong(line, "an integer"))
     };
     let mut matrices = Matrices::new();
-    let mut current: Option<(String, DMatrix<f64>)> = None;
-    let mut left = numbers;
-    let mut at = 1;
+    let (mut name, mut left, mut at) = ("", numbers, 1);
     while at < lines.len() {
         let number = |place: usize| integer(at, place * INTEGER);
         let (column, first, last) = (number(0)?, number(1)?, number(2)?);
         at += 1;
         if column == 0 {
-            matrices.extend(current.take());
             let size = |place: usize| integer(at, HEADER_SIZES + place * INTEGER);
             let (columns, rows, kind) = (size(0)?, size(1)?, size(3)?);
             if kind != 2 {
@@ -52,34 +49,25 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
             }
             let fewer = columns.checked_mul(rows).and_then(|entries| left.checked_sub(entries));
             left = fewer.ok_or_else(|| wrong(at, &format!("matrices of at most {numbers} entries in all")))?;
-            let name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
-            current = Some((name.to_owned(), DMatrix::zeros(rows, columns)));
+            name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
+            matrices.insert(name.to_owned(), DMatrix::zeros(rows, columns));
             at += 1;
             continue;
         }
-        let Some((_, matrix)) = &mut current else {
-            return Err(wrong(at - 1, "a matrix's header before its columns"));
-        };
+        let matrix = matrices.get_mut(name);
+        let matrix = matrix.ok_or_else(|| wrong(at - 1, "a matrix's header before its columns"))?;
         if column > matrix.ncols() || first == 0 || last > matrix.nrows() || last < first {
             return Err(wrong(at - 1, "a column and rows within the matrix"));
         }
         let mut row = first - 1;
         while row < last {
-            let line = lines.get(at).ok_or_else(|| wrong(at, "reals"))?;
-            let bytes = line.trim_end().as_bytes();
-            for field in bytes.chunks(REAL) {
-                match std::str::from_utf8(field).ok().and_then(|text| parse_real(text.trim())) {
-                    Some(value) if row < last => matrix[(row, column - 1)] = value,
-                    _ => return Err(wrong(at, "reals of the format D26.17, as many as rows")),
-                }
-                row += 1;
-            }
-            if bytes.is_empty() {
-                return Err(wrong(at, "reals"));
-            }
-            at += 1;
+            let line = lines.get(at).map(|line| line.trim_end()).filter(|line| !line.is_empty());
+            let reals = parse_reals(line.ok_or_else(|| wrong(at, "reals"))?, REAL);
+            let reals = reals.filter(|reals| reals.len() <= last - row);
+            let reals = reals.ok_or_else(|| wrong(at, "reals of the format D26.17, as many as rows"))?;
+            matrix.column_mut(column - 1).rows_mut(row, reals.len()).copy_from_slice(&reals);
+            (at, row) = (at + 1, row + reals.len());
         }
     }
-    matrices.extend(current);
     Ok(matrices)
 }

@@ -30,19 +30,24 @@ const MESSAGE_LENGTH: usize = 300;
 const PRINTED: &str = "printed";
 const ERRORS: &str = "errors";
 
-/// Runs a deck in a folder of its own.
-pub(super) fn run(solver: &Nastran95, deck: &str) -> Result<Answer, FileError> {
-    let mut builder = tempfile::Builder::new();
-    // What is analyzed may be nobody else's business.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    let scratch = builder.prefix("corfem-nastran95-").tempdir();
-    let scratch = scratch.map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
-    let answer = in_scratch(solver, deck, scratch.path());
-    let failed = FileError::of_file(scratch.path(), "remove");
-    let removed = scratch.close();
-    // What went wrong with the run matters more than what went wrong in tidying up.
-    answer.and_then(|answer| removed.map(|()| answer).map_err(failed))
+impl Nastran95 {
+    /// Runs a deck in a temporary folder that is removed, however the run ends.
+    ///
+    /// # Errors
+    /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
+    pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
+        let mut builder = tempfile::Builder::new();
+        // What is analyzed may be nobody else's business.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let scratch = builder.prefix("corfem-nastran95-").tempdir();
+        let scratch = scratch.map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
+        let answer = in_scratch(self, deck, scratch.path());
+        let failed = FileError::of_file(scratch.path(), "remove");
+        let removed = scratch.close();
+        // What went wrong with the run matters more than what went wrong in tidying up.
+        answer.and_then(|answer| removed.map(|()| answer).map_err(failed))
+    }
 }
 
 fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, FileError> {

@@ -92,19 +92,6 @@ impl TestData {
         let phases = self.phase_collinearity.len();
         check_length("phase collinearity", phases, if phases == 0 { 0 } else { count })
     }
-
-    /// The modes of the given places, from zero and in that order, at all sensors.
-    ///
-    /// # Errors
-    /// Those of [`Self::check`]; [`Error::Unknown`] for a mode that is not there; [`Error::Empty`] for none.
-    pub fn mode_set(&self, modes: &[usize]) -> Result<ModeSet, Error> {
-        self.check()?;
-        if let Some(&label) = modes.iter().find(|mode| **mode >= self.frequencies_hz.len()) {
-            return Err(Error::Unknown { owner: "choice of test modes".to_owned(), what: "mode (from zero)", label });
-        }
-        let frequencies: Vec<f64> = modes.iter().map(|&mode| self.frequencies_hz[mode]).collect();
-        ModeSet::from_measured(&frequencies, &self.shapes.select_columns(modes))
-    }
 }
 
 /// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.

@@ -6,7 +6,7 @@ mod modal;
 mod parameters;
 
 pub use analysis::CondensedModel;
-pub(crate) use modal::ONE_WEIGHT;
+pub(crate) use modal::check_weights;
 pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
 pub use parameters::{Parameter, Range, Scaled};
 

@@ -4,7 +4,7 @@
 //! parameter's generalized stiffness or mass. Analysis, scaling of the test modes, pairing and comparison all happen in
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::{Error, at_least_one, setting};
 use crate::method::error_sum::{Errors, ModeWeight, check_error_sum, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
@@ -71,8 +71,15 @@ impl DynamicModel {
     }
 }
 
-/// What weights must be.
-pub(crate) const ONE_WEIGHT: &str = "a finite number from zero up, one of them positive";
+/// Refuses weights that are not one a test mode, are negative or no number, or are all zero.
+pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), Error> {
+    check_length("weights", weights.len(), modes)?;
+    let all = || weights.iter().flat_map(|weight| [weight.frequency, weight.shape]);
+    let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
+    let wrong = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0));
+    let expected = "a finite number from zero up, one of them positive";
+    setting("weight", expected, wrong.unwrap_or(1.0), wrong.is_none())
+}
 
 /// Exact modes compared with the test modes.
 #[derive(Debug, Clone)]
@@ -193,12 +200,7 @@ impl ModalModel {
     /// all are zero.
     #[doc = include_str!("../../../paper/examples/model/modal_model_weighted.md")]
     pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
-        check_length("weights", weights.len(), self.test.len())?;
-        let all = || weights.iter().flat_map(|weight| [weight.frequency, weight.shape]);
-        let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
-        if let Some(found) = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0)) {
-            return Err(Error::Setting { name: "weight", expected: ONE_WEIGHT, found });
-        }
+        check_weights(weights, self.test.len())?;
         self.weights = weights.to_vec();
         self.exact.errors = self.errors_of(&self.exact.modes, &self.exact.pairing)?;
         Ok(self)

@@ -70,9 +70,8 @@ impl BarFigure {
     }
 
     fn on(&self, area: &Area, height: f64) -> Drawn {
-        let series = || self.charts.iter().flat_map(|chart| &chart.series);
-        let values = series().flat_map(|series| &series.values);
-        let ends = ends(values.flat_map(|(value, marked)| [*value, marked.unwrap_or(*value)]));
+        let values = || self.charts.iter().flat_map(|chart| &chart.series).flat_map(|series| &series.values);
+        let ends = ends(values().flat_map(|(value, marked)| [*value, marked.unwrap_or(*value)]));
         for (row, chart) in self.charts.iter().enumerate() {
             let top = HEAD + CHART * row as f64 + HEADING;
             chart.on(area, [top, height - top - (CHART - HEADING)], ends)?;
@@ -87,7 +86,7 @@ impl BarFigure {
             write(area, &series.name, (x + 23.0, 22.0), START)?;
             x += 38.0 + 7.2 * series.name.len() as f64;
         }
-        if series().any(|series| series.values.iter().any(|(_, marked)| marked.is_some())) {
+        if values().any(|(_, marked)| marked.is_some()) {
             marked(area, (x + 8.0, 22.0), PUBLISHED, &self.marked)?;
         }
         Ok(())

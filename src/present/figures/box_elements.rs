@@ -85,7 +85,7 @@ fn draw_layer(area: &Area, fitted: View, mut elements: Vec<&Placed>, (layer, nam
         if element.kind == ElementKind::Rod {
             let (x, y) = view.place(middle);
             rectangle(area, (x - 8.0, y - 6.5), (x + 8.0, y + 6.5), WHITE)?;
-            write(area, &number, (x, y), MIDDLE.small().color(BLUE))?;
+            write(area, &number, (x, y), Letters { color: BLUE, ..MIDDLE.small() })?;
             continue;
         }
         // A web is numbered near its upper edge, which nothing hides.
@@ -93,7 +93,7 @@ fn draw_layer(area: &Area, fitted: View, mut elements: Vec<&Placed>, (layer, nam
             middle.z += 0.42 * corners.iter().map(|corner| corner.z.abs()).sum::<f64>() / 4.0;
         }
         let letter = kind_letter(element.kind);
-        write(area, &format!("{number} {letter}"), view.place(middle), MIDDLE.high(14.0).bold())?;
+        write(area, &format!("{number} {letter}"), view.place(middle), Letters { height: 14.0, ..MIDDLE.bold() })?;
     }
     Ok(())
 }
@@ -103,7 +103,8 @@ fn fill(kind: ElementKind) -> RGBColor {
     if kind == ElementKind::Membrane { between(WHITE, ORANGE, 0.4) } else { between(PALE, SKY, 0.25) }
 }
 
-fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
+/// The mean of corners.
+pub(super) fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
 }
 

@@ -78,11 +78,11 @@ pub(super) enum Form {
 /// How letters look; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
 #[derive(Clone, Copy)]
 pub(super) struct Letters {
-    height: f64,
-    color: RGBColor,
-    weight: FontStyle,
-    across: HPos,
-    upward: bool,
+    pub height: f64,
+    pub color: RGBColor,
+    pub weight: FontStyle,
+    pub across: HPos,
+    pub upward: bool,
 }
 
 const fn letters(across: HPos) -> Letters {
@@ -99,19 +99,7 @@ impl Letters {
     }
 
     pub fn small(self) -> Self {
-        self.high(11.0)
-    }
-
-    pub fn high(self, height: f64) -> Self {
-        Self { height, ..self }
-    }
-
-    pub fn color(self, color: RGBColor) -> Self {
-        Self { color, ..self }
-    }
-
-    pub fn upward(self) -> Self {
-        Self { upward: true, ..self }
+        Self { height: 11.0, ..self }
     }
 
     pub fn style(self) -> TextStyle<'static> {
@@ -137,7 +125,7 @@ pub(super) fn svg(
     {
         let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
-            .and_then(|()| write(&area, &cut(title, 88), (14.0, 16.0), START.high(14.0).bold()))
+            .and_then(|()| write(&area, &cut(title, 88), (14.0, 16.0), Letters { height: 14.0, ..START.bold() }))
             .and_then(|()| draw(&area.split_vertically(units(HEAD)).1))
             .and_then(|()| area.present())
             .map_err(|error| PresentError::Drawing { figure: name.to_owned(), found: error.to_string() })?;
@@ -213,7 +201,7 @@ pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
 
 /// The name of a vertical axis, along the left edge.
 pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
-    write(area, text, (13.0, middle), MIDDLE.upward())
+    write(area, text, (13.0, middle), Letters { upward: true, ..MIDDLE })
 }
 
 /// A published value on a bar.
@@ -225,8 +213,8 @@ pub(super) fn signed(text: String) -> String {
 }
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.
-pub(super) fn name_room(names: &[String], least: f64) -> f64 {
-    let longest = names.iter().map(|name| shortened(name).chars().count()).max().unwrap_or(0);
+pub(super) fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
+    let longest = names.map(|name| shortened(name).chars().count()).max().unwrap_or(0);
     least.max(34.0 + 6.8 * longest as f64)
 }
 

@@ -35,7 +35,7 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
     let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
         the left.";
-    figures.push(Figure::new("cover_gages", caption, cover_gages::draw(&cover_gages::cover_gages(&cases))?));
+    figures.push(Figure::new("cover_gages", caption, cover_gages::draw(&cases)?));
     for result in results {
         add_figures_of(result, &mut figures)?;
     }
@@ -47,15 +47,17 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
     let subject = Subject::of_case(result)?;
     let case = result.case.number;
-    let mut all = subject_figures(&subject)?;
-    let mut kept = |what: &str| {
-        let papers = [("errors", ["5", "7", "8"]), ("node_lines", ["6", "", ""])];
-        let number = papers.iter().find(|(name, _)| *name == what).and_then(|(_, numbers)| numbers.get(case - 1));
-        let at = all.iter().position(|figure| figure.name == format!("case_{case}_{what}"))?;
-        let mut figure = all.swap_remove(at);
-        if let Some(number) = number.filter(|number| !number.is_empty()) {
-            figure.caption = format!("{} (the paper's Figure {number}).", figure.caption.trim_end_matches('.'));
-        }
+    let all = subject_figures(&subject)?;
+    let kept = |what: &str| {
+        let mut figure = all.iter().find(|figure| figure.name == format!("case_{case}_{what}"))?.clone();
+        let number = match (what, case) {
+            ("errors", 1) => 5,
+            ("node_lines", 1) => 6,
+            ("errors", 2) => 7,
+            ("errors", 3) => 8,
+            _ => return Some(figure),
+        };
+        figure.caption = format!("{} (the paper's Figure {number}).", figure.caption.trim_end_matches('.'));
         Some(figure)
     };
     if case == CASES[3] {

@@ -5,7 +5,7 @@ use super::matrices::{HeatMap, draw_by_twos};
 use super::{Figure, growth, linearization, numbers};
 use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
-use crate::present::tables::fewer_modes::costs;
+use crate::present::tables::fewer_modes::COSTS;
 use crate::studies::linearization::{Exact, both_structures};
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
 use nalgebra::DMatrix;
@@ -55,8 +55,8 @@ pub fn comparison_figures(
     ])
 }
 
-/// Titles of the [`costs`].
-const COSTS: [&str; 4] = [
+/// Titles of the [`COSTS`].
+const TITLES: [&str; 4] = [
     "Gages of the shear panels",
     "Gages of the membranes",
     "Frequencies of all nine test modes",
@@ -68,10 +68,10 @@ const COSTS: [&str; 4] = [
 pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
     let most = |count: fn(&FewerModesRun) -> usize| runs.iter().map(count).max().unwrap_or(0);
     let (tests, analyses) = (most(|run| run.test_modes), most(|run| run.analysis_modes));
-    let map = |(at, title): (usize, &str)| {
+    let map = |(title, cost): (&str, fn(&FewerModesRun) -> f64)| {
         let mut values = DMatrix::from_element(tests, analyses, None);
         for run in runs {
-            values[(run.test_modes - 1, run.analysis_modes - 1)] = Some(costs(run)[at]);
+            values[(run.test_modes - 1, run.analysis_modes - 1)] = Some(cost(run));
         }
         HeatMap {
             title: title.to_owned(),
@@ -82,7 +82,7 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
             written: (100.0, 1),
         }
     };
-    COSTS.into_iter().enumerate().map(map).collect()
+    TITLES.into_iter().zip(COSTS.map(|(.., cost)| cost)).map(map).collect()
 }
 
 /// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the

@@ -11,7 +11,7 @@ const ROW: f64 = 24.0;
 const STEPS: f64 = 7.0;
 
 /// A parameter's factor.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Factor {
     /// Name of the parameter.
     pub name: String,
@@ -70,9 +70,8 @@ impl Factors {
     fn on(&self, area: &Area) -> Drawn {
         let [low, high, step] = self.bounds();
         let count = self.rows.len() as f64;
-        let names: Vec<String> = self.rows.iter().map(|row| row.name.clone()).collect();
         let [_, right, top, bottom] = MARGINS;
-        let margins = [name_room(&names, MARGINS[0]), right, top, bottom];
+        let margins = [name_room(self.rows.iter().map(|row| &row.name), MARGINS[0]), right, top, bottom];
         let mut chart = chart(area, margins).build_cartesian_2d(low..high, count..0.0)?;
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         axes(&mut chart)
@@ -90,7 +89,7 @@ impl Factors {
             rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
             let text = format!("limits {:.2} to {:.2}", limits.lower, limits.upper);
             let at = (0.5 * (upper.0 + lower.0), upper.1 - 13.0);
-            write(area, &text, at, MIDDLE.color(BLUE))?;
+            write(area, &text, at, Letters { color: BLUE, ..MIDDLE })?;
             beyond = lower.0;
         } else {
             line(area, &[place(1.0, 0.0), place(1.0, count)], Pen::solid(GRAY, 1.0))?;
@@ -138,7 +137,7 @@ impl Factors {
                     }
                 }
             };
-            write(area, &text, at, letters.color(color))?;
+            write(area, &text, at, Letters { color, ..letters })?;
         }
         if self.rows.iter().any(|factor| factor.published.is_some()) {
             let (x, y) = place(high, 0.0);

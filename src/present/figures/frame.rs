@@ -26,21 +26,28 @@ pub struct Frame {
     pub grids: Vec<Option<usize>>,
 }
 
+/// A place to look others up by.
+pub(super) fn key(at: &Vector3<f64>) -> [i64; 3] {
+    // Zero has one sign.
+    [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64)
+}
+
+pub(super) fn is_finite(at: &Vector3<f64>) -> bool {
+    at.iter().all(|component| component.is_finite())
+}
+
 impl Frame {
     /// The frame of a subject; what is not finite is left out.
     ///
     /// Sensors of a structure in one line that all measure along it are drawn across it, upward.
     pub fn of(subject: &Subject) -> Self {
         let (mut nodes, mut row_of) = (Vec::new(), HashMap::new());
-        // Zero has one sign.
-        let key = |at: &Vector3<f64>| [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits());
         let mut node = |at: &Vector3<f64>| {
             *row_of.entry(key(at)).or_insert_with(|| {
                 nodes.push(*at);
                 nodes.len() - 1
             })
         };
-        let is_finite = |at: &Vector3<f64>| at.iter().all(|component| component.is_finite());
         let pieces = subject.frame.iter().filter(|corners| corners.iter().all(is_finite));
         let pieces: Vec<Vec<usize>> = pieces.map(|corners| corners.iter().map(&mut node).collect()).collect();
         let mut known: BTreeMap<usize, Sensors> = BTreeMap::new();
@@ -115,12 +122,9 @@ impl Frame {
 
     /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.
     pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
-        let mut lines = Vec::new();
-        for panel in &self.panels {
-            let corners: Vec<Corner> = panel.iter().map(|&node| (self.nodes[node], moved[node].dot(along))).collect();
-            cells(corners).iter().for_each(|cell| add_node_lines(cell, &mut lines));
-        }
-        lines
+        let corner = |&node: &usize| (self.nodes[node], moved[node].dot(along));
+        let cells = self.panels.iter().flat_map(|panel| cells(panel.iter().map(corner).collect()));
+        cells.flat_map(|cell| zero_lines(&cell)).collect()
     }
 }
 
@@ -145,20 +149,19 @@ fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
     places.map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]).collect()
 }
 
-/// Adds the zero lines of a displacement that is linear on triangles about the middle of a cell.
-fn add_node_lines(corners: &[Corner], lines: &mut Vec<Segment>) {
+/// The zero lines of a displacement that is linear on triangles about the middle of a cell.
+fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
     let share = 1.0 / corners.len() as f64;
     let middle = mean(&corners.iter().map(|&corner| (share, corner)).collect::<Vec<_>>());
-    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+    let line = |(&a, &b): (&Corner, &Corner)| {
         let sides = [(a, b), (b, middle), (middle, a)].into_iter().filter(|(p, q)| p.1 * q.1 < 0.0);
         let mut points: Vec<_> = sides.map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0)).collect();
         // A corner that is held ends the line that comes from the other side.
         let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
         points.extend(ends.map(|corner| corner.0).take(usize::from(points.len() == 1)));
-        if let [from, to] = points[..] {
-            lines.push([from, to]);
-        }
-    }
+        Segment::try_from(points).ok()
+    };
+    corners.iter().zip(corners.iter().cycle().skip(1)).filter_map(line).collect()
 }
 
 /// Polylines along all lines, each once.

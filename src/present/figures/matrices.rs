@@ -45,7 +45,7 @@ pub fn draw_derivatives(
     [frequency, error_sum]: &[HeatMap; 2],
 ) -> Result<String, PresentError> {
     let down = 64.0 + 26.0 * frequency.values.nrows() as f64;
-    let left = name_room(&frequency.rows.1, 66.0);
+    let left = name_room(frequency.rows.1.iter(), 66.0);
     let wide = (516.0 - left) / frequency.values.ncols().max(9) as f64;
     let error_sum = HeatMap { rows: (String::new(), Vec::new()), ..error_sum.clone() };
     svg(name, title, down + 42.0, |area| {
@@ -84,7 +84,7 @@ impl HeatMap {
         }
         let middle = at(0.5 * rows as f64, 0.5 * columns as f64);
         write(area, &self.columns.0, (middle.0, top - 26.0), small)?;
-        write(area, &self.rows.0, (left - beside, middle.1), small.upward())?;
+        write(area, &self.rows.0, (left - beside, middle.1), Letters { upward: true, ..small })?;
         // A title longer than its matrix does not begin left of the figure.
         let title = middle.0.max(left - 50.0 + 3.8 * self.title.chars().count() as f64);
         write(area, &self.title, (title, top - 46.0), MIDDLE.bold())?;
@@ -98,7 +98,12 @@ impl HeatMap {
                 let fill = between(WHITE, if value < 0.0 { VERMILION } else { BLUE }, strength);
                 rectangle(area, at(row, column), at(row + 1.0, column + 1.0), fill)?;
                 if fits {
-                    write(area, &self.write(value), at(row + 0.5, column + 0.5), small.color(legible_on(fill)))?;
+                    write(
+                        area,
+                        &self.write(value),
+                        at(row + 0.5, column + 0.5),
+                        Letters { color: legible_on(fill), ..small },
+                    )?;
                 }
             }
         }

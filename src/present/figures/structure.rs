@@ -1,11 +1,13 @@
 //! A structure with its grids, supports and sensors (Figure 2).
 
 use super::canvas::*;
-use super::frame::Frame;
+use super::frame::{Frame, is_finite, key};
 use super::view::View;
+use crate::present::render::lines;
 use crate::present::subject::Subject;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
+use std::iter::once;
 
 const SENSOR: Mark = Mark(Form::Square, 3.6, Some(VERMILION), Pen(VERMILION, 1.2, Dash::Solid));
 /// Numbers of more grids than these would hide the structure.
@@ -45,7 +47,7 @@ impl Names {
         if (at.0 - x).hypot(at.1 - y) > 22.0 + 0.5 * wide {
             line(area, &[(x, y), at], Pen::solid(SILVER, 0.6))?;
         }
-        write(area, name, at, MIDDLE.small().color(color))
+        write(area, name, at, Letters { color, ..MIDDLE.small() })
     }
 }
 
@@ -59,10 +61,9 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
     let (view, heights) = View::flat(&all).map_or_else(solid, |(_, view)| (view, 1.0));
     let view = view.fitted(&all, [60.0, 50.0, WIDTH - 120.0, DRAWING - 80.0]);
     let mut places: BTreeMap<[i64; 3], (Vector3<f64>, Vec<&str>)> = BTreeMap::new();
-    let key = |at: &Vector3<f64>| [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64);
     let mut elsewhere = Vec::new();
     for sensor in &subject.sensors {
-        match sensor.place.filter(|at| at.iter().all(|component| component.is_finite())) {
+        match sensor.place.filter(is_finite) {
             Some(at) => places.entry(key(&at)).or_insert((at, Vec::new())).1.push(&sensor.name),
             None => elsewhere.push(sensor.name.as_str()),
         }
@@ -73,12 +74,13 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
         if name.chars().count() <= LONGEST_NAME {
             return (*at, name);
         }
-        list.extend(folded(format!("({})", row + 1), names));
-        (*at, format!("({})", row + 1))
+        let number = format!("({})", row + 1);
+        list.extend(folded(&number, names));
+        (*at, number)
     });
     let named: Vec<_> = named.collect();
     if !elsewhere.is_empty() {
-        list.extend(folded("place unknown:".to_owned(), &elsewhere));
+        list.extend(folded("place unknown:", &elsewhere));
     }
     let height = DRAWING + 30.0 + LINE * list.len() as f64;
     svg(name, title, height, |area| {
@@ -114,14 +116,9 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
 }
 
 /// Names in lines that a figure has room for, after what they have in common.
-fn folded(first: String, names: &[&str]) -> Vec<String> {
-    const MOST: usize = 96;
-    let mut lines = vec![first];
-    for name in names {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + name.chars().count() < MOST => *line += &format!(" {name},"),
-            _ => lines.push(format!("{name},")),
-        }
-    }
+fn folded(first: &str, names: &[&str]) -> Vec<String> {
+    const MOST: usize = 97;
+    let names: Vec<String> = names.iter().map(|name| format!("{name},")).collect();
+    let lines = lines(once(first).chain(names.iter().map(String::as_str)), MOST);
     lines.iter().map(|line| line.trim_end_matches(',').to_owned()).collect()
 }

@@ -101,18 +101,16 @@ fn factors(subject: &Subject) -> Factors {
 /// # Errors
 /// Those of [`Subject::agreement`].
 pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
-    let map = |title: &str, values: DMatrix<f64>| {
+    let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
         let columns = ("test mode".to_owned(), numbers(values.ncols()));
-        HeatMap { title: title.to_owned(), rows, columns, values: values.map(Some), full: 1.0, written: (100.0, 0) }
+        HeatMap { title, rows, columns, values: values.map(Some), full: 1.0, written: (100.0, 0) }
     };
-    let [before, after] = [subject.agreement(&subject.initial)?, subject.agreement(subject.corrected())?];
-    let cross = [("before", before.orthogonality), ("after", after.orthogonality)];
-    let cross = cross
-        .into_iter()
-        .filter_map(|(when, cross)| Some(map(&format!("Cross-orthogonality {when}, mass-weighted"), cross?)));
-    let assurance = [("before", before.assurance), ("after", after.assurance)];
-    let assurance = assurance.map(|(when, assurance)| map(&format!("MAC {when}, not mass-weighted"), assurance));
+    let both = [("before", subject.agreement(&subject.initial)?), ("after", subject.agreement(subject.corrected())?)];
+    let cross = both.iter().filter_map(|(when, found)| {
+        Some(map(format!("Cross-orthogonality {when}, mass-weighted"), found.orthogonality.as_ref()?))
+    });
+    let assurance = both.iter().map(|(when, found)| map(format!("MAC {when}, not mass-weighted"), &found.assurance));
     Ok(cross.chain(assurance).collect())
 }
 
@@ -129,11 +127,9 @@ pub fn derivatives(subject: &Subject) -> Option<[HeatMap; 2]> {
     };
     let (frequency, error_sum) = (derivatives.frequency.clone(), &derivatives.error_sum);
     let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
-    let percent = "Percent of frequency for one percent of the parameter";
-    let modes = numbers(frequency.ncols());
-    let labels = vec!["one percent of it".to_owned()];
+    let (percent, modes) = ("Percent of frequency for one percent of the parameter", numbers(frequency.ncols()));
     Some([
         map(percent, "parameter", "test mode", modes, frequency),
-        map("Error sum", "", "percent points for", labels, error_sum),
+        map("Error sum", "", "percent points for", vec!["one percent of it".to_owned()], error_sum),
     ])
 }

@@ -24,13 +24,16 @@ pub(super) struct View {
     pub scale: f64,
 }
 
+/// The least and the greatest coordinates of points; zeros of none.
+fn ends(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
+    let both = points.map(|point| (point, point));
+    both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point))).unwrap_or_default()
+}
+
 /// Extent of points along each axis.
 pub(super) fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
-    let zero = Vector3::repeat(0.0);
-    let ends = points.iter().fold(None, |ends: Option<(Vector3<f64>, Vector3<f64>)>, point| {
-        Some(ends.map_or((*point, *point), |(low, high)| (low.inf(point), high.sup(point))))
-    });
-    ends.map_or(zero, |(low, high)| high - low)
+    let (low, high) = ends(points.iter().copied());
+    high - low
 }
 
 impl View {
@@ -74,18 +77,12 @@ impl View {
 
     /// A view of no scale yet, scaled to show the given points as large as there is room, in its middle.
     pub fn fitted(self, points: &[Vector3<f64>], [left, top, width, height]: Room) -> Self {
-        let bounds = |coordinate: fn(Place) -> f64| {
-            let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            let values = points.iter().map(|&point| coordinate(self.place(point)));
-            values.fold(ends, |(low, high), value| (value.min(low), value.max(high)))
-        };
-        let ((x_low, x_high), (y_low, y_high)) = (bounds(|place| place.0), bounds(|place| place.1));
-        let scale = (width / (x_high - x_low)).min(height / (y_high - y_low));
+        let (low, high) = ends(points.iter().map(|&point| self.place(point)).map(|(x, y)| Vector3::new(x, y, 0.0)));
+        let scale = (width / (high.x - low.x)).min(height / (high.y - low.y));
         // A single point has no extent.
         let scale = if scale.is_finite() { scale } else { 1.0 };
-        let middle = |low: f64, high: f64| if low <= high { scale * (low + high) } else { 0.0 };
-        let origin = (left + 0.5 * (width - middle(x_low, x_high)), top + 0.5 * (height - middle(y_low, y_high)));
-        Self { origin, scale, ..self }
+        let twice = scale * (low + high);
+        Self { origin: (left + 0.5 * (width - twice.x), top + 0.5 * (height - twice.y)), scale, ..self }
     }
 
     /// Where the axes go, in words.

@@ -17,7 +17,7 @@ use crate::cases::fit::Fit;
 use crate::cases::{Case, CaseResult};
 use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
-use crate::studies::preflight::Specimen;
+use crate::studies::preflight::preflight_of;
 use html::{escaped, figure, figures, prose, section, section_of, table};
 use story::story;
 
@@ -60,13 +60,13 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     ]);
     for result in contents.results {
         let number = result.case.number;
-        let body = part(&tables_of(result)?, contents.figures, &[&format!("case_{number}_")]);
+        let body = part(&tables_of(result)?, contents.figures, &[format!("case_{number}_")]);
         let heading = format!("Tables of Case {number}");
         parts.push(named(&format!("case-{number}"), &heading, &heading, body));
     }
     for wing in contents.wings {
         let tables = [paired_table(wing)?, factor_table(wing), history_table(wing)];
-        let body = part(&tables, contents.figures, &[&format!("{}_", wing.name)]);
+        let body = part(&tables, contents.figures, &[format!("{}_", wing.name)]);
         parts.push(named(&wing.name, &wing.title, &wing.title, body));
     }
     let differences = prose(include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'));
@@ -123,11 +123,10 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
 pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result<String, PresentError> {
     let figures = subject_figures(subject)?;
     let of = |tables: &[Table], whats: &[&str]| {
-        let names: Vec<String> = whats.iter().map(|what| format!("{}_{what}", subject.name)).collect();
-        part(tables, &figures, &names.iter().map(String::as_str).collect::<Vec<_>>())
+        part(tables, &figures, &whats.iter().map(|what| format!("{}_{what}", subject.name)).collect::<Vec<_>>())
     };
-    let class = if subject.converged { "note" } else { "finding" };
-    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words));
+    let class = if subject.converged() { "note" } else { "finding" };
+    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words()));
     let summary = words + &table(&paired_table(subject)?);
     let derivatives: Vec<Table> = derivative_table(subject).into_iter().collect();
     let parts = [
@@ -148,8 +147,8 @@ pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.
-fn part(tables: &[Table], drawn: &[Figure], prefixes: &[&str]) -> String {
-    let starts = |figure: &&Figure| prefixes.iter().any(|prefix| figure.name.starts_with(prefix));
+fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
+    let starts = |figure: &&Figure| prefixes.iter().any(|prefix| figure.name.starts_with(prefix.as_ref()));
     let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
     tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
 }
@@ -182,9 +181,8 @@ fn box_section(contents: &Contents) -> String {
 /// What looks wrong with the cases before anything moves.
 fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     let found = |result: &CaseResult| {
-        let specimen = Specimen::of_case(&result.case)?;
-        let findings = specimen.findings(&result.test)?;
-        Ok((specimen.name, findings))
+        let case = &result.case;
+        Ok((format!("Case {}", case.number), preflight_of(&case.model()?, &result.test, &case.settings)?))
     };
     let found = contents.results.iter().map(found).collect::<Result<Vec<_>, PresentError>>()?;
     Ok(table(&preflight::findings_table(&found)))

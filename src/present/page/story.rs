@@ -20,7 +20,7 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
         body += &outcome(contents.results.iter().find(|result| result.case.number.to_string() == number)?);
     } else if short != "Method" {
         let wing = contents.wings.iter().find(|wing| wing.title.starts_with(short))?;
-        body += &format!("<p class=\"note\">{}</p>\n", escaped(&wing.words));
+        body += &format!("<p class=\"note\">{}</p>\n", escaped(&wing.words()));
     }
     let seen = pieces.filter_map(|piece| {
         let (name, words) = piece.split_once("`: ")?;

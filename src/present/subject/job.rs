@@ -35,25 +35,25 @@ impl Subject {
                 ..Self::of(&stem, &names, &first.test, &first.exact, None)
             },
         };
-        let mass = prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last));
-        Ok(Self {
+        let subject = Self {
             title: prepared.title.clone(),
             ranges: whole.ranges(),
-            // Of the factor itself, from that of its logarithm.
-            deviations: finished.map(|finished| {
-                finished.factors.iter().zip(&finished.seen[1].deviations).map(|(factor, log)| factor * log).collect()
-            }),
             sensors: prepared.placed.iter().map(sensor_point).collect(),
             frame,
             grids: geometry.places.iter().map(|(grid, place)| (*grid, *place)).collect(),
             supports: geometry.places.keys().filter(still).map(|grid| geometry.places[grid]).collect(),
-            mass,
-            moved: finished.and_then(|finished| moved(prepared, finished)),
-            converged: finished.is_some_and(|finished| finished.verdict.is_within),
-            words: finished.map_or_else(String::new, |finished| finished.verdict.in_words(&names)),
-            verdict: finished.map(|finished| finished.verdict.clone()),
+            mass: prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last)),
             derivatives: Some(Derivatives::of(&first)?),
             ..base
+        };
+        let Some(finished) = finished else { return Ok(subject) };
+        let deviations = finished.factors.iter().zip(&finished.seen[1].deviations);
+        Ok(Self {
+            // Of the factor itself, from that of its logarithm.
+            deviations: Some(deviations.map(|(factor, log)| factor * log).collect()),
+            moved: moved(prepared, finished),
+            verdict: Some(finished.verdict.clone()),
+            ..subject
         })
     }
 

@@ -6,7 +6,7 @@ use crate::cases::torque_box::dynamic_points;
 use crate::present::PresentError;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{
-    GROUPS, Recovered, WingCorrelation, correlate_wing, first_model, measured_grids,
+    GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
 };
 use crate::studies::known::recovered;
 use nalgebra::Vector3;
@@ -64,7 +64,7 @@ impl Subject {
             sensors: measured_grids(structure).into_iter().map(sensor).collect(),
             mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
             derivatives: Some(Derivatives::of(&first)?),
-            truth: run.groups.iter().map(Recovered::true_factor).collect(),
+            truth: GROUPS.iter().map(Group::true_factor).collect(),
             ..Self::of("delta_wing", &names, &run.test, &run.correlation.initial, Some(&run.correlation)).on(structure)
         })
     }

@@ -89,12 +89,8 @@ pub struct Subject {
     pub stages: Vec<Stage>,
     /// The stage with the best factors, from zero; none when none is better than the first model.
     pub best: Option<usize>,
-    /// Whether the best is within tolerance.
-    pub converged: bool,
-    /// What it came to, as data where there is such.
+    /// What it came to, once it ran.
     pub verdict: Option<Verdict>,
-    /// The same in words.
-    pub words: String,
     /// Derivatives, where they were taken.
     pub derivatives: Option<Derivatives>,
 }
@@ -158,8 +154,6 @@ impl Subject {
             tolerances: None,
             stages: run.iter().flat_map(|run| &run.passes).map(stage).collect(),
             best: run.and_then(|run| run.best),
-            converged: run.is_some_and(|run| run.converged),
-            words: run.map_or_else(String::new, |run| run.verdict.in_words(parameters)),
             verdict: run.map(|run| run.verdict.clone()),
             derivatives: None,
         }
@@ -172,6 +166,16 @@ impl Subject {
         let fixed = structure.grids().iter().filter(|grid| grid.constrained == [true; 3]);
         self.supports = fixed.map(|grid| grid.position).collect();
         self
+    }
+
+    /// Whether the best is within tolerance.
+    pub fn converged(&self) -> bool {
+        self.verdict.as_ref().is_some_and(|verdict| verdict.is_within)
+    }
+
+    /// What it came to in words.
+    pub fn words(&self) -> String {
+        self.verdict.as_ref().map_or_else(String::new, |verdict| verdict.in_words(&self.parameters))
     }
 
     fn best_stage(&self) -> Option<&Stage> {

@@ -11,9 +11,7 @@ use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::cases::torque_box::gage_rms;
 use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
-use crate::method::inner_loop::InnerSettings;
 use crate::method::model::Check;
-use crate::method::outer_loop::Settings;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
@@ -45,7 +43,7 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let (paper, run) = (published([3, 5, 7], result)?, &result.correlation);
     let checks = std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check)).enumerate();
     let stage = |(pass, check): (usize, &Check)| {
-        Stage::of_pass(pass, &check.frequencies_hz, vec![check.errors.frequency_rms(), check.errors.shape_rms()])
+        Stage::new("pass", pass, &check.frequencies_hz, &[check.errors.frequency_rms(), check.errors.shape_rms()])
     };
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
     let table = table.notes(solver_note(result.solver, "", ", of the test configuration too;"));
@@ -60,8 +58,8 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let kinds = kinds.into_iter().filter(|(_, kind)| panels.iter().any(|panel| panel.kind == *kind));
     let (errors, kinds): (Vec<_>, Vec<_>) = kinds.map(|(label, kind)| ((label, PERCENT), kind)).unzip();
     let gages = std::iter::once(result.case.first_gages()).chain(result.pass_gages.iter().cloned()).enumerate();
-    let rms = |gages: &[f64]| kinds.iter().map(|&kind| gage_rms(panels, gages, kind)).collect();
-    let stages: Vec<Stage> = gages.map(|(pass, gages)| Stage::of_pass(pass, &gages, rms(&gages))).collect();
+    let rms = |gages: &[f64]| kinds.iter().map(|&kind| gage_rms(panels, gages, kind)).collect::<Vec<_>>();
+    let stages: Vec<Stage> = gages.map(|(pass, gages)| Stage::new("pass", pass, &gages, &rms(&gages))).collect();
     let table = named(result, paper.as_ref(), "gages", "Element");
     Ok(stages::fill(table, panels, &[], &stages, &errors, paper.as_ref()))
 }
@@ -100,25 +98,24 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
 
 /// The settings that each case was run with.
 pub fn settings_table(results: &[CaseResult]) -> Table {
-    let of = |words: fn(&Settings, &InnerSettings) -> String| {
-        let settings = results.iter().map(|result| &result.case.settings);
-        settings.map(move |settings| Cell::text(words(settings, &settings.inner)))
-    };
-    Table::new("settings", "Settings of the loops", "Case")
-        .labels(results.iter().map(|result| result.case.number))
-        .column("Step", "", of(|_, inner| inner.step.name().to_owned()))
-        .column(
-            "Changes",
-            "",
-            of(|_, inner| if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" }.into()),
-        )
-        .column("R", "", of(|_, inner| format!("{} {}", inner.first_relaxation, inner.relaxation)))
-        .column("Limits", "", of(|_, inner| format!("{} {}", inner.factor_range.lower, inner.factor_range.upper)))
-        .column("TOLI", "", of(|settings, inner| format!("{} {}", inner.tolerance, settings.later_inner_tolerance)))
-        .column("TOLO", "", of(|settings, _| settings.error_sum_tolerance.to_string()))
-        .column("Iterations", "", of(|_, inner| inner.iterations.to_string()))
-        .column("Passes", "", of(|settings, _| settings.most_passes.to_string()))
-        .notes(["R and TOLI: first, and after. Iterations and passes: at most."])
+    let mut table = Table::new("settings", "Settings of the loops", "Case")
+        .headings(["Step", "Changes", "R", "Limits", "TOLI", "TOLO", "Iterations", "Passes"], "")
+        .notes(["R and TOLI: first, and after. Iterations and passes: at most."]);
+    for CaseResult { case, .. } in results {
+        let (settings, inner) = (&case.settings, &case.settings.inner);
+        let words = [
+            inner.step.name().to_owned(),
+            if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" }.to_owned(),
+            format!("{} {}", inner.first_relaxation, inner.relaxation),
+            format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
+            format!("{} {}", inner.tolerance, settings.later_inner_tolerance),
+            settings.error_sum_tolerance.to_string(),
+            inner.iterations.to_string(),
+            settings.most_passes.to_string(),
+        ];
+        table.row(case.number, words.map(Cell::text));
+    }
+    table
 }
 
 /// How well the reconstructed box reproduces the published frequencies, column by column.
@@ -169,9 +166,7 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
     for result in results {
         tables.extend(tables_of(result)?);
     }
-    tables.push(iteration_table(results)?);
-    tables.push(settings_table(results));
-    tables.push(fit_table(fit));
+    tables.extend([iteration_table(results)?, settings_table(results), fit_table(fit)]);
     Ok(tables)
 }
 

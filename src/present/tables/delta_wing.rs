@@ -6,7 +6,7 @@ use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
 use crate::present::subject::Subject;
 use crate::present::table::{Digits, Table, numbers, percents};
-use crate::studies::delta_wing::correlation::{Recovered, TEST_MODES, WingCorrelation};
+use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
 /// NASTRAN printed seven digits.
@@ -90,13 +90,15 @@ fn group_table(run: &WingCorrelation) -> Table {
     let title = "Delta wing with wrong gages: factors that the correlation finds";
     let note = "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the \
         stiffness of any test mode.";
-    let groups = || run.groups.iter();
+    let found = &run.correlation.best_factors;
+    let first_errors = GROUPS.map(|group| group.first_over_true - 1.0);
+    let errors = GROUPS.iter().zip(found).map(|(group, factor)| factor / group.true_factor() - 1.0);
     Table::new("delta_wing_groups", title, "Group")
-        .labels(groups().map(|found| found.group.name))
-        .column("First gage error", "%", percents(groups().map(Recovered::first_error), PERCENT))
-        .column("True factor", "", numbers(groups().map(Recovered::true_factor), FACTOR))
-        .column("Found", "", numbers(groups().map(|found| found.factor), FACTOR))
-        .column("Last gage error", "%", percents(groups().map(Recovered::error), RMS_PERCENT))
-        .column("Largest share", "%", percents(groups().map(|found| found.share), RMS_PERCENT))
+        .labels(GROUPS.map(|group| group.name))
+        .column("First gage error", "%", percents(first_errors, PERCENT))
+        .column("True factor", "", numbers(GROUPS.iter().map(Group::true_factor), FACTOR))
+        .column("Found", "", numbers(found.iter().copied(), FACTOR))
+        .column("Last gage error", "%", percents(errors, RMS_PERCENT))
+        .column("Largest share", "%", percents(run.shares.iter().copied(), RMS_PERCENT))
         .notes([note])
 }

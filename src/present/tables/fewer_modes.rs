@@ -48,12 +48,6 @@ pub fn published_tables(case: &Case, runs: &[FewerModesRun]) -> Result<Vec<Table
     Ok(tables)
 }
 
-/// A run, or the start of all, in a table of stages.
-fn stage(run: Option<&FewerModesRun>, values: &[f64], errors: &[f64]) -> Stage {
-    let name = run.map_or_else(|| "initial".to_owned(), |run| format!("fem_{}", run.analysis_modes));
-    Stage { name, values: values.to_vec(), errors: errors.to_vec() }
-}
-
 /// Frequencies and their errors at the start and at the end of every run.
 fn frequency_table(
     table: Table,
@@ -64,8 +58,10 @@ fn frequency_table(
     // The run with the most analysis modes knows the most initial frequencies.
     let most = runs.iter().max_by_key(|run| run.analysis_modes);
     let test = most.map_or(&[][..], |run| &run.test_frequencies_hz);
-    let found = most.map(|run| (None, &run.initial)).into_iter().chain(runs.iter().map(|&run| (Some(run), end(run))));
-    let stage = |(run, at): (_, &Agreement)| stage(run, &at.frequencies_hz, &[at.frequency_rms, at.shape_rms]);
+    let start = most.map(|run| (0, &run.initial)).into_iter();
+    let found = start.chain(runs.iter().map(|&run| (run.analysis_modes, end(run))));
+    let stage =
+        |(modes, at): (_, &Agreement)| Stage::new("fem", modes, &at.frequencies_hz, &[at.frequency_rms, at.shape_rms]);
     stages::fill(table, &[], test, &found.map(stage).collect::<Vec<_>>(), &MODE_ERRORS, paper)
 }
 
@@ -73,11 +69,12 @@ fn frequency_table(
 fn gage_table(case: &Case, number: usize, test_modes: usize, runs: &[&FewerModesRun]) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(number)?;
     let found = |&run: &&FewerModesRun| {
-        let FewerModesRun { inner, exact, .. } = run;
+        let FewerModesRun { inner, exact, shear_gage_rms, membrane_gage_rms, .. } = run;
         let modes = [inner.frequency_rms, exact.frequency_rms, inner.shape_rms, exact.shape_rms];
-        stage(Some(run), &run.gages_in, &[&[run.shear_gage_rms, run.membrane_gage_rms], &modes[..]].concat())
+        let errors = [&[*shear_gage_rms, *membrane_gage_rms], &modes[..]].concat();
+        Stage::new("fem", run.analysis_modes, &run.gages_in, &errors)
     };
-    let start = stage(None, &case.first_gages(), &[]);
+    let start = Stage::new("fem", 0, &case.first_gages(), &[]);
     let stages: Vec<Stage> = std::iter::once(start).chain(runs.iter().map(found)).collect();
     let title = format!("Case 2, pass 1, {test_modes} test modes: gages and errors (Table {number})");
     let table = Table::new(format!("table_{number}"), title, "Element");
@@ -106,27 +103,21 @@ pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
         let title = format!("Cost of truncation, Case 2, pass 1: {what}");
         pairs_table(Table::new(format!("truncation_{name}"), title, "Test modes"), unit, runs, cell)
     };
-    let mut tables = vec![table("iterations", "iterations", "", &|run| Cell::count(run.iterations))];
-    for (at, (name, what, digits)) in COSTS.into_iter().enumerate() {
-        let cell = |run: &FewerModesRun| Cell::number(100.0 * costs(run)[at], digits);
-        tables.push(table(name, what, "%", &cell));
-    }
-    tables
+    let iterations = table("iterations", "iterations", "", &|run| Cell::count(run.iterations));
+    let costs =
+        COSTS.map(|(name, what, digits, cost)| table(name, what, "%", &|run| Cell::number(100.0 * cost(run), digits)));
+    [vec![iterations], costs.to_vec()].concat()
 }
 
-/// What is left of the errors after a run, fractions: of the gages of shear panels and of membranes, and of frequencies
-/// and shapes beside all test modes.
-pub(in crate::present) fn costs(run: &FewerModesRun) -> [f64; 4] {
-    let exact = &run.exact_all_modes;
-    [run.shear_gage_rms, run.membrane_gage_rms, exact.frequency_rms, exact.shape_rms]
-}
+/// An error that is left after a run: its name, what it is, its digits in percent, and the fraction.
+type Cost = (&'static str, &'static str, Digits, fn(&FewerModesRun) -> f64);
 
-/// Names, titles and digits of the [`costs`].
-const COSTS: [(&str, &str, Digits); 4] = [
-    ("shear", "gage RMS of the shear panels", PERCENT),
-    ("membrane", "gage RMS of the membranes", PERCENT),
-    ("frequency", "exact frequency RMS over all test modes", RMS_PERCENT),
-    ("shape", "exact shape RMS over all test modes", RMS_PERCENT),
+/// What truncation costs: errors of the gages of shear panels and of membranes, and of frequencies and shapes beside all test modes.
+pub(in crate::present) const COSTS: [Cost; 4] = [
+    ("shear", "gage RMS of the shear panels", PERCENT, |run| run.shear_gage_rms),
+    ("membrane", "gage RMS of the membranes", PERCENT, |run| run.membrane_gage_rms),
+    ("frequency", "exact frequency RMS over all test modes", RMS_PERCENT, |run| run.exact_all_modes.frequency_rms),
+    ("shape", "exact shape RMS over all test modes", RMS_PERCENT, |run| run.exact_all_modes.shape_rms),
 ];
 
 /// Test modes down, analysis modes across.

@@ -70,9 +70,9 @@ pub fn readings_tables(columns: &[ReadingColumn], detections: &[Detection]) -> R
         let mut table = Table::new(format!("readings_{name}"), title, "Column").labels(labels);
         for quantity in quantities {
             for reading in READINGS {
-                let find = |row: &&ReadingColumn| {
-                    let of_row = columns.iter().filter(|other| (other.table, &other.stage) == (row.table, &row.stage));
-                    of_row.into_iter().find(|other| other.reading == reading)
+                let find = |row: &ReadingColumn| {
+                    let wanted = (row.table, &row.stage, reading);
+                    columns.iter().find(|other| (other.table, &other.stage, other.reading) == wanted)
                 };
                 let cells = rows.iter().map(|row| find(row).map_or(Ok(Cell::Blank), |column| cell(quantity, column)));
                 let heading = format!("{} {}", quantity.1, reading.name());

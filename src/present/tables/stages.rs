@@ -14,10 +14,10 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// The first model or what a pass came to.
-    pub fn of_pass(pass: usize, values: &[f64], errors: Vec<f64>) -> Self {
-        let name = if pass == 0 { "initial".to_owned() } else { format!("pass_{pass}") };
-        Self { name, values: values.to_vec(), errors }
+    /// The first model, which has the number zero, or what a pass or a run came to.
+    pub fn new(what: &str, number: usize, values: &[f64], errors: &[f64]) -> Self {
+        let name = if number == 0 { "initial".to_owned() } else { format!("{what}_{number}") };
+        Self { name, values: values.to_vec(), errors: errors.to_vec() }
     }
 }
 

@@ -111,7 +111,7 @@ pub fn history_table(subject: &Subject) -> Table {
     let words = |[pass, test, from, to]: [usize; 4]| format!("in pass {pass} test mode {test} from {from} to {to}");
     let words = swaps(subject).into_iter().map(words).collect::<Vec<_>>().join("; ");
     let swapped = (!words.is_empty()).then(|| format!("Other modes of the model answer: {words}."));
-    table.notes(swapped).notes([&subject.words])
+    table.notes(swapped).notes([subject.words()])
 }
 
 /// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.

@@ -1,24 +1,22 @@
 //! What the first iteration of a case asks of its parameters before any limit, which gives a modeling error away.
 
-use crate::cases::{CaseResult, Grouping, anomaly};
+use crate::cases::{CaseResult, Grouping};
 use crate::present::figures::factors::Factor;
 use crate::present::table::{Cell, Digits, Table};
 
-/// What stands out so far that a modeling error must be looked for ([`anomaly`]).
+/// What stands out so far that a modeling error must be looked for ([`CaseResult::anomaly`]).
 pub const ANOMALY: &str = "anomaly";
 
 /// What the first iteration of a case asks of every parameter, beside what the paper quotes; [`ANOMALY`] is remarked.
 pub fn unlimited_factors(result: &CaseResult) -> Vec<Factor> {
     let (names, factors) = (&result.parameter_names, result.unlimited_factors());
-    let outstanding = anomaly(names, factors);
     let factor = |(name, &value): (&String, &f64)| Factor {
         name: name.clone(),
         value,
-        deviation: None,
         // The paper quotes one factor: about 60, for the faulty cover of Case 4.
         published: ((result.case.number, &name[..]) == (4, "8")).then_some(60.0),
-        bounds: None,
-        remark: outstanding.as_ref().filter(|anomaly| anomaly.parameter == *name).map(|_| ANOMALY),
+        remark: result.anomaly.as_ref().filter(|anomaly| anomaly.parameter == *name).map(|_| ANOMALY),
+        ..Factor::default()
     };
     names.iter().zip(factors).map(factor).collect()
 }

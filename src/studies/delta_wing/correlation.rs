@@ -37,6 +37,13 @@ pub struct Group {
     pub first_over_true: f64,
 }
 
+impl Group {
+    /// The factor that makes the model right.
+    pub fn true_factor(&self) -> f64 {
+        1.0 / self.first_over_true
+    }
+}
+
 const fn group(name: &'static str, elements: &'static [usize], first_over_true: f64) -> Group {
     Group { name, elements, first_over_true }
 }
@@ -133,35 +140,6 @@ pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
     ModeSet::from_measured(&tested.frequencies_hz(), &tested.shapes.select_rows(&rows))
 }
 
-/// What became of one group.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Recovered {
-    /// The group.
-    pub group: Group,
-    /// The factor found on its first gage.
-    pub factor: f64,
-    /// What the test modes can see of it: its largest share of a test mode's generalized stiffness in the first model,
-    /// $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$.
-    pub share: f64,
-}
-
-impl Recovered {
-    /// The factor that makes the model right.
-    pub fn true_factor(&self) -> f64 {
-        1.0 / self.group.first_over_true
-    }
-
-    /// Relative error of the gage found, a fraction.
-    pub fn error(&self) -> f64 {
-        self.factor / self.true_factor() - 1.0
-    }
-
-    /// Relative error of the first gage, a fraction.
-    pub fn first_error(&self) -> f64 {
-        self.group.first_over_true - 1.0
-    }
-}
-
 /// The scenario run to its end.
 #[derive(Debug, Clone)]
 pub struct WingCorrelation {
@@ -171,8 +149,9 @@ pub struct WingCorrelation {
     pub test: ModeSet,
     /// The whole history.
     pub correlation: Correlation,
-    /// Every group, in the order of [`GROUPS`], with the factors of the best pass.
-    pub groups: Vec<Recovered>,
+    /// What the test modes can see of each of the [`GROUPS`]: its largest share of a test mode's generalized stiffness in the first
+    /// model, $\max_i V_{Gi}^t K_e V_{Gi}/\omega_{Gi}^2$.
+    pub shares: Vec<f64>,
 }
 
 /// Corrects the model of wrong gages; `progress` is told of every pass.
@@ -203,11 +182,8 @@ pub fn correlate_wing_with<E: From<Error>>(
     let test = test_modes(wing)?;
     let mut analyze =
         |factors: &[f64]| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) };
-    let shares = analyze(&[1.0; GROUPS.len()])?.test_shares;
+    let first = analyze(&[1.0; GROUPS.len()])?;
+    let shares = first.test_shares.iter().map(|share| share.diagonal().max()).collect();
     let correlation = correlate(analyze, &model.factor_ranges()?, settings, progress)?;
-    let factors = correlation.best_factors.clone();
-    let found = GROUPS.iter().zip(factors).zip(shares);
-    let groups =
-        found.map(|((group, factor), share)| Recovered { group: *group, factor, share: share.diagonal().max() });
-    Ok(WingCorrelation { solver, groups: groups.collect(), test, correlation })
+    Ok(WingCorrelation { solver, test, correlation, shares })
 }

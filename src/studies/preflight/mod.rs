@@ -13,16 +13,14 @@
 mod frequencies;
 mod order;
 mod shapes;
-mod specimen;
 mod words;
 
 pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
 pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
-pub use specimen::Specimen;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::model::{DynamicModel, Range};
+use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
@@ -89,7 +87,16 @@ pub fn coarse_condensation(
     Ok(coarse.map(|(mode, error)| Finding::CoarseCondensation { mode, error }).collect())
 }
 
-/// Looks at model and test before the first step.
+/// Looks at a finite element model and its test before the first step.
+///
+/// # Errors
+/// Those of the model's analysis and of [`preflight`].
+pub fn preflight_of(model: &FiniteElementModel, test: &ModeSet, settings: &Settings) -> Result<Vec<Finding>, Error> {
+    let ranges = model.factor_ranges()?;
+    preflight(&model.matrices(&vec![1.0; ranges.len()])?, test, settings, &ranges)
+}
+
+/// The same of a model given by its matrices.
 ///
 /// `model` has the first stiffness (lbf/in) and mass (lbf·s²/in) at the d points, `test` the modes as measured, of any
 /// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::FiniteElementModel::factor_ranges`] gives

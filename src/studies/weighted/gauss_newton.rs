@@ -1,8 +1,9 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
 use super::identifiability::{Identifiability, identifiability};
-use super::residuals::{Weights, jacobian, residuals};
+use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
+use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::studies::noise::uniform;
@@ -113,7 +114,7 @@ pub fn gauss_newton<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     first: &[f64],
     ranges: &[Option<Range>],
-    weights: &Weights,
+    weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
     positive_setting("prior_deviation", settings.prior_deviation)?;
@@ -139,10 +140,11 @@ pub fn gauss_newton<E: From<Error>>(
     let stop = loop {
         let Place { factors, gradient, curvature, .. } = &place;
         let room = |(range, factor): (&Option<Range>, &f64)| {
-            range.map_or((f64::NEG_INFINITY, f64::INFINITY), |r| ((r.lower / factor).ln(), (r.upper / factor).ln()))
+            let range = range.unwrap_or(Range { lower: 0.0, upper: f64::INFINITY });
+            Range { lower: (range.lower / factor).ln(), upper: (range.upper / factor).ln() }
         };
-        let room: Vec<(f64, f64)> = ranges.iter().zip(factors).map(room).collect();
-        let is_free = |&e: &usize| if gradient[e] > 0.0 { room[e].0 < 0.0 } else { room[e].1 > 0.0 };
+        let room: Vec<Range> = ranges.iter().zip(factors).map(room).collect();
+        let is_free = |&e: &usize| if gradient[e] > 0.0 { room[e].lower < 0.0 } else { room[e].upper > 0.0 };
         let free: Vec<usize> = (0..first.len()).filter(is_free).collect();
         let is_flat = |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
         if free.iter().all(is_flat) {
@@ -180,7 +182,7 @@ fn bounded_step(
     curvature: &DMatrix<f64>,
     gradient: &DVector<f64>,
     mut free: Vec<usize>,
-    room: &[(f64, f64)],
+    room: &[Range],
     damping: f64,
 ) -> Result<DVector<f64>, Error> {
     let mut step = DVector::zeros(gradient.len());
@@ -191,16 +193,13 @@ fn bounded_step(
         (0..free.len()).for_each(|e| left[(e, e)] *= 1.0 + damping);
         let factor = left.cholesky().ok_or(Error::NotPositiveDefinite { what: "damped curvature", dof: 0 })?;
         let solved = factor.solve(&right);
-        let within = |place: &usize| (room[free[*place]].0..=room[free[*place]].1).contains(&solved[*place]);
+        let within = |place: &usize| room[free[*place]].contains(solved[*place]);
         let (inside, beyond): (Vec<usize>, Vec<usize>) = (0..free.len()).partition(within);
         if beyond.is_empty() {
             inside.iter().for_each(|&place| step[free[place]] = solved[place]);
             return Ok(step);
         }
-        for place in beyond {
-            let (lower, upper) = room[free[place]];
-            step[free[place]] = Range { lower, upper }.clamp(solved[place]);
-        }
+        beyond.into_iter().for_each(|place| step[free[place]] = room[free[place]].clamp(solved[place]));
         free = inside.into_iter().map(|place| free[place]).collect();
     }
 }
@@ -213,7 +212,7 @@ fn bounded_step(
 pub fn from_several_starts<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     ranges: &[Option<Range>],
-    weights: &Weights,
+    weights: &[ModeWeight],
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,

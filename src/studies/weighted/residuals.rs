@@ -1,9 +1,10 @@
 //! Residuals between analysis and test, each over its standard deviation, and their Jacobian.
 
 use crate::method::appendix_c::SMALLEST_SEPARATION;
-use crate::method::error::{Error, positive_setting, setting};
-use crate::method::linear_algebra::{check_length, finite, finite_list};
-use crate::method::model::{ModalModel, ONE_WEIGHT, Share};
+use crate::method::error::{Error, positive_setting};
+use crate::method::error_sum::ModeWeight;
+use crate::method::linear_algebra::{finite, finite_list};
+use crate::method::model::{ModalModel, Share, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use crate::studies::noise::Noise;
@@ -13,35 +14,14 @@ use nalgebra::{DMatrix, DVector};
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
 pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
 
-/// Weights of every test mode: one over a standard deviation, or zero for what does not count.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Weights {
-    /// Of its relative frequency error.
-    pub frequency: Vec<f64>,
-    /// Of each component of its shape, of unit largest component.
-    pub shape: Vec<f64>,
-}
-
-impl Weights {
-    /// The same standard deviations for every one of `modes` test modes.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] for a standard deviation that is not positive.
-    pub fn uniform(deviations: Noise, modes: usize) -> Result<Self, Error> {
-        positive_setting("standard deviation of frequencies", deviations.frequency)?;
-        positive_setting("standard deviation of shapes", deviations.shape)?;
-        let weights = |deviation: f64| vec![1.0 / deviation; modes];
-        Ok(Self { frequency: weights(deviations.frequency), shape: weights(deviations.shape) })
-    }
-
-    fn check(&self, modes: usize) -> Result<(), Error> {
-        check_length("weights", self.frequency.len(), modes)?;
-        check_length("weights", self.shape.len(), modes)?;
-        let all = || self.frequency.iter().chain(&self.shape).copied();
-        let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
-        let wrong = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0));
-        setting("weight", ONE_WEIGHT, wrong.unwrap_or(1.0), wrong.is_none())
-    }
+/// The same weights for every one of `modes` test modes: one over the standard deviations.
+///
+/// # Errors
+/// [`Error::Setting`] for a standard deviation that is not positive.
+pub fn equal_weights(deviations: Noise, modes: usize) -> Result<Vec<ModeWeight>, Error> {
+    positive_setting("standard deviation of frequencies", deviations.frequency)?;
+    positive_setting("standard deviation of shapes", deviations.shape)?;
+    Ok(vec![ModeWeight { frequency: 1.0 / deviations.frequency, shape: 1.0 / deviations.shape }; modes])
 }
 
 /// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors.
@@ -58,20 +38,20 @@ impl Weights {
 /// [`Error::WrongShape`] and [`Error::Setting`] for weights that do not fit; [`Error::NotFinite`].
 ///
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
-pub fn residuals(model: &ModalModel, weights: &Weights) -> Result<DVector<f64>, Error> {
-    weights.check(model.test.len())?;
+pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
+    check_weights(weights, model.test.len())?;
     let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, &model.test, weights);
     finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
 }
 
 /// The residuals of any modes, of weights that fit.
-pub(crate) fn residuals_of(modes: &ModeSet, pairing: &Pairing, test: &ModeSet, weights: &Weights) -> DVector<f64> {
+pub(crate) fn residuals_of(modes: &ModeSet, pairing: &Pairing, test: &ModeSet, weights: &[ModeWeight]) -> DVector<f64> {
     let rows = 1 + test.shapes.nrows();
     let mut residuals = DVector::zeros(rows * test.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
-        residuals[rows * j] = weights.frequency[j] * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
+        residuals[rows * j] = weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
         let (_, apart) = scaled(modes, i, test, j);
-        residuals.rows_mut(rows * j + 1, rows - 1).copy_from(&(weights.shape[j] * apart));
+        residuals.rows_mut(rows * j + 1, rows - 1).copy_from(&(weights[j].shape * apart));
     }
     residuals
 }
@@ -98,8 +78,8 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 /// Those of [`residuals`].
 ///
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
-pub fn jacobian(model: &ModalModel, weights: &Weights) -> Result<DMatrix<f64>, Error> {
-    weights.check(model.test.len())?;
+pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
+    check_weights(weights, model.test.len())?;
     let (modes, test) = (&model.exact.modes, &model.test);
     let (k, rows, count) = (&modes.omega_squared, 1 + test.shapes.nrows(), model.shares.len());
     let mut jacobian = DMatrix::zeros(rows * test.len(), count);
@@ -117,10 +97,10 @@ pub fn jacobian(model: &ModalModel, weights: &Weights) -> Result<DMatrix<f64>, E
         let (v, (scale, apart)) = (modes.shapes.column(i), scaled(modes, i, test, j));
         let moved = &modes.shapes * added;
         let along = (scale * v + &apart).transpose() * &moved / v.norm_squared();
-        let shape = weights.shape[j] * (scale * moved - v * along);
+        let shape = weights[j].shape * (scale * moved - v * along);
         jacobian.view_mut((rows * j + 1, 0), (rows - 1, count)).copy_from(&shape);
         for (e, share) in model.shares.iter().enumerate() {
-            jacobian[(rows * j, e)] = weights.frequency[j] * ratio * change(i, share) / (2.0 * k[i]);
+            jacobian[(rows * j, e)] = weights[j].frequency * ratio * change(i, share) / (2.0 * k[i]);
         }
     }
     finite("Jacobian", jacobian)

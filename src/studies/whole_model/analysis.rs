@@ -3,7 +3,7 @@
 use super::{Factor, SparseMatrix, lowest_modes};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
 use crate::method::model::{ModalModel, Pair, Range, Share};
 use crate::method::modes::{ModeSet, Modes};
@@ -59,9 +59,7 @@ impl WholeModel {
         };
         check("stiffness", &stiffness)?;
         check("mass", &mass)?;
-        if parameters.is_empty() {
-            return Err(Error::Empty { what: "parameters" });
-        }
+        at_least_one("parameters", parameters.len())?;
         for WholeParameter { name, share, range } in &parameters {
             match share {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,

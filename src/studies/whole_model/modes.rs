@@ -111,8 +111,8 @@ fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64)
     for _ in 0..RESTARTS {
         while next.ncols() > 0 && basis.ncols() < most {
             let image = times(&next)?;
-            basis = beside(basis, &next);
-            images = beside(images, &image);
+            basis.extend(next.column_iter());
+            images.extend(image.column_iter());
             next = orthonormal(mass, &basis, image)?;
         }
         let is_all = next.ncols() == 0;
@@ -162,13 +162,6 @@ fn orthonormal(mass: &SparseMatrix, basis: &DMatrix<f64>, mut block: DMatrix<f64
         block *= vectors.select_columns(&independent) * DMatrix::from_diagonal(&scale);
     }
     Ok(block)
-}
-
-fn beside(left: DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let (first, count) = (left.ncols(), right.ncols());
-    let mut both = left.resize_horizontally(first + count, 0.0);
-    both.columns_mut(first, count).copy_from(right);
-    both
 }
 
 /// Rayleigh's quotient of every shape of unit generalized mass, which a shift has taken no digits from.

@@ -1,7 +1,8 @@
 //! A real matrix by its nonzero entries.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
+use crate::method::modes::check_count;
 use nalgebra::{DMatrix, DVector};
 
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: what a file's twelve
@@ -30,16 +31,10 @@ impl SparseMatrix {
         columns: usize,
         mut entries: Vec<(usize, usize, f64)>,
     ) -> Result<Self, Error> {
-        if rows == 0 || columns == 0 {
-            return Err(Error::Empty { what });
-        }
+        at_least_one(what, rows.min(columns))?;
         for &(row, column, value) in &entries {
-            if row >= rows {
-                return Err(Error::TooMany { what: "rows of a matrix", available: rows, requested: row + 1 });
-            }
-            if column >= columns {
-                return Err(Error::TooMany { what: "columns of a matrix", available: columns, requested: column + 1 });
-            }
+            check_count("rows of a matrix", row.saturating_add(1), rows)?;
+            check_count("columns of a matrix", column.saturating_add(1), columns)?;
             if !value.is_finite() {
                 return Err(Error::NotFinite { what, row, column, value });
             }

@@ -1,15 +1,14 @@
 //! Structures before their correlation.
 
-use super::{Finding, coarse_condensation, preflight};
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::method::error::Error;
-use crate::method::model::{DynamicModel, FiniteElementModel, Range};
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::Settings;
-use crate::studies::delta_wing::correlation;
-use crate::studies::known::Known;
-use crate::studies::whole_model::WholeModel;
+use corfem::cases::Case;
+use corfem::cases::error::CaseError;
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Range};
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::Settings;
+use corfem::studies::delta_wing::correlation;
+use corfem::studies::known::Known;
+use corfem::studies::preflight::{Finding, preflight};
 
 /// A structure before its correlation, without mistakes.
 #[derive(Debug, Clone)]
@@ -24,8 +23,6 @@ pub struct Specimen {
     pub settings: Settings,
     /// Bounds on its parameters' factors.
     pub ranges: Vec<Option<Range>>,
-    /// What condensation to the measured points does to the modes that are compared.
-    pub condensation: Vec<Finding>,
 }
 
 impl Specimen {
@@ -43,18 +40,14 @@ impl Specimen {
     /// # Errors
     /// Those of the wing and of its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let Known { name, model, test, truth } = Known::delta_wing()?;
-        let (whole, sensors) = WholeModel::of(&model)?;
-        let highest = correlation::TEST_MODES.into_iter().max().unwrap_or(1);
-        let condensation = coarse_condensation(&whole, &vec![1.0; truth.len()], &sensors, highest)?;
-        let specimen = Self::of(&name, &model, test, correlation::settings())?;
-        Ok(Self { condensation, ..specimen })
+        let Known { name, model, test, .. } = Known::delta_wing()?;
+        Self::of(&name, &model, test, correlation::settings())
     }
 
     fn of(name: &str, model: &FiniteElementModel, test: ModeSet, settings: Settings) -> Result<Self, CaseError> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
         let model = model.matrices(&vec![1.0; ranges.len()])?;
-        Ok(Self { name, model, test, settings, ranges, condensation: Vec::new() })
+        Ok(Self { name, model, test, settings, ranges })
     }
 
     /// What the pre-flight finds beside a test.
@@ -62,7 +55,6 @@ impl Specimen {
     /// # Errors
     /// Those of [`preflight`].
     pub fn findings(&self, test: &ModeSet) -> Result<Vec<Finding>, Error> {
-        let found = preflight(&self.model, test, &self.settings, &self.ranges)?;
-        Ok([self.condensation.clone(), found].concat())
+        preflight(&self.model, test, &self.settings, &self.ranges)
     }
 }
