@@ -92,16 +92,16 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
         let i = model.exact.pairing.analysis_mode[j];
         let (v, r) = (model.exact.modes.shapes.column(i), one.rows(10 * j + 1, 9));
         let other = two.rows(10 * j + 1, 9);
-        assert!(v.dot(&r).abs() < MATRIX_ROUND_OFF * v.norm() * weights.shape[j]);
+        assert!(v.dot(&r).abs() < MATRIX_ROUND_OFF * v.norm() * weights[j].shape);
         // The least distance from any multiple of the shape: that of no other scale is less.
         let unit = test.shapes.column(j) / test.shapes.column(j).amax();
         let scale = v.dot(&unit) / v.norm_squared();
         for scale in [0.999 * scale, 1.001 * scale] {
-            assert!((scale * v - &unit).norm() * weights.shape[j] > r.norm());
+            assert!((scale * v - &unit).norm() * weights[j].shape > r.norm());
         }
-        assert!((r + other).amax() < MATRIX_ROUND_OFF * weights.shape[j]);
+        assert!((r + other).amax() < MATRIX_ROUND_OFF * weights[j].shape);
         let ratio = (model.exact.modes.omega_squared[i] / test.omega_squared[j]).sqrt();
-        assert!((one[10 * j] - (ratio - 1.0) * weights.frequency[j]).abs() < ROUND_OFF * weights.frequency[j]);
+        assert!((one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs() < ROUND_OFF * weights[j].frequency);
     }
 }
 
