@@ -4,9 +4,9 @@
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
-use crate::method::linear_algebra::{add_squares, check_shape, cholesky, finite, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{add_squares, cholesky, finite, solve_lower};
 use crate::method::load_distribution::LoadDistribution;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
@@ -39,7 +39,7 @@ pub struct Condensed {
 pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
     let loads = LoadDistribution::of(load_distribution)?;
     let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-    Ok(Condensed { transformation: transposed_deflections(structural, &loads, &stiffness)?.transpose(), stiffness })
+    Ok(Condensed { transformation: structural.solve_transposed(&loads.times(&stiffness))?.transpose(), stiffness })
 }
 
 /// The dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
@@ -51,29 +51,6 @@ pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f6
         .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let inverse_factor = solve_lower(&lower, DMatrix::identity(flexibility.nrows(), flexibility.nrows()));
     finite("dynamic stiffness", inverse_factor.tr_mul(&inverse_factor))
-}
-
-/// Structural deflections $K_S^{-1} T Q_D$ of dynamic loads $Q_D$ (d × m, lbf), transposed (m × free SDOF, in); of
-/// $Q_D = K_D V$ they are $B^t V$.
-///
-/// # Errors
-/// Those of [`FactorizedStiffness::solve`].
-pub(crate) fn transposed_deflections(
-    structural: &FactorizedStiffness,
-    load_distribution: &LoadDistribution,
-    loads: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
-    structural.solve_transposed(&load_distribution.times(loads))
-}
-
-/// The same as [`condense`] from the deflections $K_S^{-1} T$, whatever solved for them.
-///
-/// # Errors
-/// Those of [`condense`].
-pub(crate) fn condense_deflections(t: &DMatrix<f64>, deflections: DMatrix<f64>) -> Result<Condensed, Error> {
-    check_shape("deflections", &deflections, t.nrows(), t.ncols())?;
-    let stiffness = dynamic_stiffness(&symmetric_part(&t.tr_mul(&deflections)))?;
-    Ok(Condensed { transformation: deflections * &stiffness, stiffness })
 }
 
 /// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
@@ -110,7 +87,7 @@ pub(crate) fn generalized_stiffness<'a>(
             if column.iter().any(|entry| entry.abs() > smallest) {
                 let mut force = vec![0.0; count];
                 through(column, size, &mut force);
-                add_upper(&mut sum, 1.0, &force, &shapes[dof * count..][..count]);
+                sum.syger(1.0, &DVector::from_vec(force), &transposed_shapes.column(dof), 1.0);
             }
         }
         if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
@@ -119,7 +96,7 @@ pub(crate) fn generalized_stiffness<'a>(
         }
     }
     add_squares(&mut sum, &amplitudes);
-    sum.fill_lower_triangle_with_upper_triangle();
+    sum.fill_upper_triangle_with_lower_triangle();
     sum
 }
 
@@ -146,17 +123,9 @@ pub(crate) fn generalized_mass<'a>(
     for (ElementMatrix { dof, unit_mass, .. }, size) in members {
         for (&dof, unit) in dof.iter().zip(unit_mass).filter(|(_, unit)| **unit != 0.0) {
             let motion = transposed_shapes.column(dof);
-            add_upper(&mut sum, size * unit, motion.as_slice(), motion.as_slice());
+            sum.syger(size * unit, &motion, &motion, 1.0);
         }
     }
-    sum.fill_lower_triangle_with_upper_triangle();
+    sum.fill_upper_triangle_with_lower_triangle();
     sum
-}
-
-/// Adds the upper triangle of $s f v^t$.
-fn add_upper(sum: &mut DMatrix<f64>, scale: f64, force: &[f64], motion: &[f64]) {
-    for (j, (column, motion)) in sum.as_mut_slice().chunks_mut(force.len().max(1)).zip(motion).enumerate() {
-        let motion = scale * motion;
-        column[..=j].iter_mut().zip(force).for_each(|(entry, force)| *entry += force * motion);
-    }
 }

@@ -3,7 +3,7 @@
 use crate::method::error::{Error, at_least_one};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+use faer::{Accum, MatMut, MatRef, Par, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
@@ -61,16 +61,14 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
-    let pairs = (0..matrix.ncols()).flat_map(|column| (column..matrix.nrows()).map(move |row| (row, column)));
-    let apart = |(row, column): (usize, usize)| (matrix[(row, column)] - matrix[(column, row)]).abs();
-    let Some((row, column)) = pairs.reduce(|worst, pair| if apart(pair) > apart(worst) { pair } else { worst }) else {
-        return Ok(());
-    };
-    let (difference, largest) = (apart((row, column)), matrix.amax());
-    if difference <= LARGEST_ASYMMETRY * largest {
+    if matrix.is_empty() {
         return Ok(());
     }
-    Err(Error::NotSymmetric { what, row, column, difference: difference / largest })
+    let apart = matrix - matrix.transpose();
+    let (row, column) = apart.iamax_full();
+    let (difference, largest) = (apart[(row, column)].abs(), matrix.amax());
+    let refused = Error::NotSymmetric { what, row, column, difference: difference / largest };
+    if difference <= LARGEST_ASYMMETRY * largest { Ok(()) } else { Err(refused) }
 }
 
 /// Hands on a matrix whose entries are all finite.
@@ -83,13 +81,13 @@ pub(crate) fn finite_list(what: &'static str, list: Vec<f64>) -> Result<Vec<f64>
     finite(what, DMatrix::from_vec(list.len(), 1, list)).map(|list| list.data.into())
 }
 
-/// Adds the upper triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
+/// Adds the lower triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
 pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
     let count = sum.nrows();
     let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
     let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
-    let (upper, full) = (BlockStructure::TriangularUpper, BlockStructure::Rectangular);
-    matmul(sum, upper, Accum::Add, columns, full, columns.transpose(), full, 1.0, Par::Seq);
+    let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+    matmul(sum, lower, Accum::Add, columns, full, columns.transpose(), full, 1.0, Par::Seq);
 }
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
@@ -108,7 +106,7 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 #[doc = include_str!("../../paper/examples/linear_algebra/cholesky.md")]
 pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) -> Result<DMatrix<f64>, Error> {
     check_symmetric(what, matrix)?;
-    let lower = match to_faer(matrix).llt(Side::Lower) {
+    let lower = match as_faer(matrix).llt(Side::Lower) {
         Ok(factor) => from_faer(factor.L()),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
             // A pivot before it may have been too small already.
@@ -157,9 +155,8 @@ pub(crate) fn solve_lower<T: Number + faer::traits::ComplexField>(
     mut right: DMatrix<T>,
 ) -> DMatrix<T> {
     let (rows, columns) = right.shape();
-    let lower = MatRef::from_column_major_slice(lower.as_slice(), rows, rows);
     let solved = MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, columns);
-    solve_lower_triangular_in_place(lower, solved, Par::Seq);
+    solve_lower_triangular_in_place(as_faer(lower), solved, Par::Seq);
     right
 }
 
@@ -178,12 +175,8 @@ pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
-    // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
-    let largest = matrix.amax();
-    let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
-    let scaled = matrix / unit;
-    let eigen = to_faer(&scaled).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
-    Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
+    let eigen = as_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
+    Ok((DVector::from_fn(matrix.nrows(), |i, _| eigen.S()[i]), from_faer(eigen.U())))
 }
 
 /// Eigenvalues (ascending) of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, and the vectors of the lowest
@@ -200,9 +193,9 @@ pub(crate) fn pencil_eigen(
     Ok((values, lowest))
 }
 
-/// The same matrix, real or complex, for faer.
-pub(crate) fn to_faer<T: Copy>(matrix: &DMatrix<T>) -> Mat<T> {
-    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| matrix[(row, column)])
+/// A matrix, real or complex, as faer sees it.
+pub(crate) fn as_faer<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
 }
 
 /// The same matrix back from faer.

@@ -59,28 +59,19 @@ pub struct Pass {
 /// The whole history of a correlation.
 #[derive(Debug, Clone)]
 pub struct Correlation {
-    /// Number of parameters.
-    pub parameter_count: usize,
     /// The exact solution before any change.
     pub initial: Check,
     /// The passes made.
     pub passes: Vec<Pass>,
-    /// The pass with the best factors, from zero; none when no pass improved on the start.
+    /// The pass with the lowest exact error sum, of those within tolerance if there are any, from zero; none when no pass improved
+    /// on the start.
     pub best: Option<usize>,
+    /// The factors of that pass; all one when there is none.
+    pub best_factors: Vec<f64>,
     /// Whether an exact solution meets the tolerances.
     pub converged: bool,
     /// What it came to.
     pub verdict: Verdict,
-}
-
-impl Correlation {
-    /// The factors of the pass with the lowest exact error sum, of those within tolerance if there are any; all one when no pass
-    /// improved on the start.
-    #[doc = include_str!("../../paper/examples/outer_loop/correlation_best_factors.md")]
-    pub fn best_factors(&self) -> Vec<f64> {
-        let best = self.best.and_then(|pass| self.passes.get(pass));
-        best.map_or_else(|| vec![1.0; self.parameter_count], |pass| pass.factors.clone())
-    }
 }
 
 /// Corrects a model until its modes agree with the test modes.
@@ -149,9 +140,8 @@ pub(crate) fn correlate_while<E: From<Error>>(
     let ones = vec![1.0; total_ranges.len()];
     let checks = passes.iter().enumerate().map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
     let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
-    let better = |a: (bool, f64), b: (bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_lt();
-    let (best, check, factors) = checks
-        .fold((None, &initial, &ones), |best, next| if better(place(next.1), place(best.1)) { next } else { best });
+    let (best, check, factors) =
+        checks.fold((None, &initial, &ones), |best, next| if place(next.1) < place(best.1) { next } else { best });
     let converged = meets(&check.errors, settings);
     let errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
@@ -162,8 +152,8 @@ pub(crate) fn correlate_while<E: From<Error>>(
         _ => Outcome::Cap,
     };
     let verdict = Verdict::new(outcome, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
-    let parameter_count = total_ranges.len();
-    Ok(Correlation { parameter_count, initial, passes, best, converged, verdict })
+    let best_factors = factors.clone();
+    Ok(Correlation { initial, passes, best, best_factors, converged, verdict })
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.

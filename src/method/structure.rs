@@ -206,8 +206,12 @@ impl Structure {
     /// Positions of an element's grids, in.
     #[doc = include_str!("../../paper/examples/structure/structure_corners.md")]
     pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
-        let rows = element.grids.iter().filter_map(|grid| self.index_of_grid.get(grid));
-        rows.map(|&row| self.grids[row].position).collect()
+        element.grids.iter().filter_map(|&grid| self.position(grid)).collect()
+    }
+
+    /// Position of the grid of a number, in.
+    pub(crate) fn position(&self, grid: usize) -> Option<Vector3<f64>> {
+        self.index_of_grid.get(&grid).map(|&row| self.grids[row].position)
     }
 }
 

@@ -4,7 +4,6 @@
 use crate::method::error_sum::ModeError;
 use crate::method::model::Range;
 use serde::Serialize;
-use std::fmt;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
@@ -24,7 +23,7 @@ pub enum Outcome {
     Nothing,
 }
 
-/// What a correlation came to. It judges the best factors, [`super::outer_loop::Correlation::best_factors`].
+/// What a correlation came to. It judges the best factors, [`best_factors`](super::outer_loop::Correlation::best_factors).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Why it ended.
@@ -110,11 +109,5 @@ impl Verdict {
             };
         }
         words
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(&self.in_words(&[]))
     }
 }

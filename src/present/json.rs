@@ -165,7 +165,7 @@ pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentErro
 /// # Errors
 /// Those of the wing's analyses and of [`document`].
 pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
-    let group = |((group, factor), share): ((&Group, f64), &f64)| {
+    let group = |((group, factor), share): ((&Group, &f64), &f64)| {
         json!({
             "name": group.name,
             "elements": group.elements,
@@ -174,7 +174,7 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
             "largest_share": share,
         })
     };
-    let groups = GROUPS.iter().zip(run.correlation.best_factors()).zip(&run.shares);
+    let groups = GROUPS.iter().zip(&run.correlation.best_factors).zip(&run.shares);
     document(json!({
         "measured_grids": MEASURED_GRIDS,
         "trailing_edge_load_deflections_in": wing.deflections(TipLoad::TrailingEdge)?,

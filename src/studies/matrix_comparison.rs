@@ -101,7 +101,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
     let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &settings, |_, _| {})?;
-    let found = model.sizes(&correlation.best_factors())?[..PANEL_COUNT].to_vec();
+    let found = model.sizes(&correlation.best_factors)?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
     let read = as_read(&test, &start.mass)?;

@@ -118,7 +118,7 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
     let correlation = correlate(|factors| model.analyze(factors, test, None), &ranges, &settings, |_, _| {})?;
-    let factors = correlation.best_factors();
+    let factors = correlation.best_factors.clone();
     let gages = model.sizes(&factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(&factors, exact, None)?.exact.errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();

@@ -52,7 +52,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
         let steps = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
         Ok([
             compared(&known, "none", [0, 1], &ones),
-            compared(&known, "paper", [steps, paper.passes.len() + 1], &paper.best_factors()),
+            compared(&known, "paper", [steps, paper.passes.len() + 1], &paper.best_factors),
             compared(&known, "gauss_newton", [found.iterations.len(), found.analyses], &found.factors),
         ])
     };

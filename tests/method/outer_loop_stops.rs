@@ -15,7 +15,7 @@ fn a_model_that_is_right_needs_no_pass() {
     let found = correlate_chain(&chain, &[1.0; 3], &settings);
     assert!(found.converged);
     assert!(found.passes.is_empty());
-    assert_eq!(found.best_factors(), [1.0; 3]);
+    assert_eq!(found.best_factors, [1.0; 3]);
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn a_pass_without_a_step_is_the_last() {
     assert_eq!(pass.inner.stop, Stop::LocalMinimum);
     assert!(pass.inner.iterations.is_empty());
     assert_eq!(pass.factors, [1.0; 3]);
-    assert_eq!(found.best_factors(), [1.0; 3]);
+    assert_eq!(found.best_factors, [1.0; 3]);
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn the_most_passes_have_the_last_word() {
     let none = Settings { most_passes: 0, ..settings };
     let found = correlate_chain(&Chain::uniform(3), &[1.3, 0.8, 1.1], &none);
     assert!(found.passes.is_empty() && !found.converged);
-    assert_eq!(found.best_factors(), [1.0; 3]);
+    assert_eq!(found.best_factors, [1.0; 3]);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn the_box_needs_a_second_pass_because_b_was_frozen() {
     assert!(second.check.errors.sum() < 1.1 * second.inner.last.errors.sum());
     // Each pass begins with a new exact solution.
     assert!((second.inner.start.sum() - first.check.errors.sum()).abs() <= MATRIX_ROUND_OFF);
-    assert_eq!(found.best_factors(), second.factors);
+    assert_eq!(found.best_factors, second.factors);
 }
 
 #[test]
@@ -176,5 +176,5 @@ fn of_equal_passes_the_first_is_best() {
         assert_eq!(pass.check.errors, found.initial.errors);
         assert_ne!(pass.factors, [1.0; 3]);
     }
-    assert_eq!(found.best_factors(), [1.0; 3]);
+    assert_eq!(found.best_factors, [1.0; 3]);
 }

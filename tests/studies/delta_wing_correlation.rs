@@ -24,7 +24,7 @@ type Groups = Vec<(&'static Group, f64, f64)>;
 
 /// All of them.
 fn recovered() -> Groups {
-    let factors = RUN.correlation.best_factors();
+    let factors = RUN.correlation.best_factors.clone();
     let error = |(group, factor): (&Group, f64)| factor / group.true_factor() - 1.0;
     let errors = GROUPS.iter().zip(factors).map(error);
     GROUPS.iter().zip(&RUN.shares).zip(errors).map(|((group, share), error)| (group, *share, error)).collect()
@@ -68,7 +68,7 @@ fn history_is_three_passes_to_the_tolerances() {
     let last = &passes[2].check;
     assert!(last.errors.sum() < 0.005);
     assert_eq!(last.pairing.analysis_mode, TEST_MODES.map(|mode| mode - 1));
-    assert_eq!(run.correlation.best_factors(), passes[2].factors);
+    assert_eq!(run.correlation.best_factors, passes[2].factors);
     let initial = &run.correlation.initial.errors;
     assert_eq!(format!("{:.4} {:.4}", initial.frequency_rms(), initial.shape_rms()), "0.0169 0.0649");
 }
@@ -101,7 +101,7 @@ fn history_does_not_hang_on_round_off() {
     let run = &*RUN;
     let other = DeltaWing { youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12), ..wing() };
     let other = correlate_wing(&other, |_, _| {}).expect("it runs");
-    for (a, b) in run.correlation.best_factors().into_iter().zip(other.correlation.best_factors()) {
+    for (a, b) in run.correlation.best_factors.clone().into_iter().zip(other.correlation.best_factors) {
         assert_relative_eq!(a, b, max_relative = SAME_HISTORY);
     }
 }
@@ -120,7 +120,7 @@ fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
     assert!(plain.converged);
     assert!(plain.passes.len() > solved.correlation.passes.len());
     assert_eq!(plain.passes[0].inner.stop, Stop::LocalMinimum);
-    for ((group, share), factor) in GROUPS.iter().zip(&solved.shares).zip(plain.best_factors()) {
+    for ((group, share), factor) in GROUPS.iter().zip(&solved.shares).zip(plain.best_factors) {
         if *share > SEEN_SHARE {
             let error = factor / group.true_factor() - 1.0;
             assert!(error.abs() < 2.0 * RECOVERED_GAGE, "{error:.4}");

@@ -32,7 +32,7 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
     let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
-    for (story, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
+    for (story, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
         assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
     }
 }
@@ -145,7 +145,7 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
     assert_eq!(modes.rigid_body.ncols(), 1);
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&modes.vibrations, pair_modes), count - 1);
     let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
-    for (e, (found, truth)) in found.best_factors().iter().zip(&truth).enumerate() {
+    for (e, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
         assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "spring {e}: {found} for {truth}");
     }
 }

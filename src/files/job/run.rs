@@ -168,7 +168,7 @@ pub(super) fn run_from(
             };
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
             let run = correlate_while(|factors| analyze(&total(factors)), &ranges, settings, told)?;
-            let factors = total(&run.best_factors());
+            let factors = total(&run.best_factors);
             (History::Paper(run), factors)
         }
         Method::GaussNewton => {

@@ -79,21 +79,20 @@ impl FactorizedStiffness {
             check_length("elements of the plan", 0, elements.len())?;
         }
         let mut entries = plan.assembled(elements, sizes);
-        let diagonal = DVector::from_fn(count, |turn, _| entries[plan.pattern.col_ptr()[turn]]);
-        let singular = |of: &dyn Fn(usize) -> f64, ratio| {
-            let dof = (0..count).max_by(|&a, &b| of(plan.turn[a]).total_cmp(&of(plan.turn[b])).then(b.cmp(&a)));
-            let StructuralDof { grid, direction } = free[dof.unwrap_or(0)];
+        let singular = |dof: usize, ratio| {
+            let StructuralDof { grid, direction } = free[dof];
             Err(Error::SingularStiffness { grid, direction: *DIRECTIONS.get(direction).unwrap_or(&'?'), ratio })
         };
-        if diagonal.min() <= 0.0 {
-            return singular(&|turn| f64::from(diagonal[turn] <= 0.0), 0.0);
+        let diagonal = &plan.pattern.col_ptr()[..count];
+        if let Some(dof) = (0..count).find(|&dof| entries[diagonal[plan.turn[dof]]] <= 0.0) {
+            return singular(dof, 0.0);
         }
         let scale = plan.scale(&mut entries, |entry| entry);
         let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
         let start = start_vector(count);
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
         for shift in [0.0, SINGULAR_SHIFT] {
-            plan.pattern.col_ptr()[..count].iter().for_each(|&place| entries[place] += shift);
+            diagonal.iter().for_each(|&place| entries[place] += shift);
             let (values, true) = plan.factor(&entries, true)? else { continue };
             let factor = Self { plan: Arc::clone(plan), scale: DVector::from_element(count, 1.0), values };
             let times = |x: &DVector<f64>| plan.times(&entries, x);
@@ -106,7 +105,10 @@ impl FactorizedStiffness {
                 check_solution("structural stiffness", times, |_| both.row(1).transpose(), &start)?;
                 return Ok(Self { scale, ..factor });
             }
-            return singular(&|turn| (motion[turn] * scale[turn]).abs(), smallest - shift);
+            let moved = |dof: usize| (motion[plan.turn[dof]] * scale[plan.turn[dof]]).abs();
+            // Of equal ones the first.
+            let most = (0..count).rev().max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
+            return singular(most.unwrap_or(0), smallest - shift);
         }
         let what = "structural stiffness";
         cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))
@@ -165,7 +167,7 @@ impl FactorizedStiffness {
         {
             add_squares(&mut sum, rows);
         }
-        sum.fill_lower_triangle_with_upper_triangle();
+        sum.fill_upper_triangle_with_lower_triangle();
         finite("dynamic flexibility", sum)
     }
 

@@ -14,7 +14,6 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 use nalgebra::{DVector, Vector3};
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// What does not change with the sizes: in which order the DOF are eliminated, where the stiffness has entries, and where its
@@ -48,9 +47,7 @@ impl FactorizationPlan {
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
     #[doc = include_str!("../../../paper/examples/factorization/plan_new.md")]
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
-        let position: HashMap<usize, Vector3<f64>> =
-            structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
-        Self::of(elements, structure.free_dof(), |grid| position.get(&grid).copied().unwrap_or_default())
+        Self::of(elements, structure.free_dof(), |grid| structure.position(grid).unwrap_or_default())
     }
 
     /// The same with positions of grids, all alike where they are not known.

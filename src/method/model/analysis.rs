@@ -1,7 +1,7 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
 use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Share};
-use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness, transposed_deflections};
+use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness};
 use crate::method::error::Error;
 use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{check_shape, finite};
@@ -39,7 +39,7 @@ impl CondensedModel {
     }
 
     fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        transposed_deflections(&self.structural, &self.loads, &(&self.stiffness * shapes))
+        self.structural.solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
     }
 }
 
@@ -61,7 +61,7 @@ impl FiniteElementModel {
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = point_mass.clone();
         if elements.iter().any(|element| element.unit_mass.amax() > 0.0) {
-            let b = transposed_deflections(&structural, &loads, &stiffness)?;
+            let b = structural.solve_transposed(&loads.times(&stiffness))?;
             mass += generalized_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
         }
         let mass = finite("dynamic mass", mass)?;
@@ -73,19 +73,13 @@ impl FiniteElementModel {
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares(&self, condensed: &CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+    fn shares<'a>(&'a self, condensed: &'a CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
         let transposed = condensed.transposed_shapes(shapes)?;
-        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
-            let member = |row: usize| &self.element_matrices[row];
+        let of_parameter = |(parameter, rows): (&Parameter, &'a Vec<usize>)| {
+            let members = |sizes: &'a [f64]| rows.iter().map(|&row| (&self.element_matrices[row], sizes[row]));
             match parameter.scaled {
-                Scaled::Stiffness => {
-                    let members = rows.iter().map(|&row| (member(row), condensed.sizes[row]));
-                    Share::Stiffness(generalized_stiffness(&transposed, members))
-                }
-                Scaled::ElementMass => {
-                    let members = rows.iter().map(|&row| (member(row), condensed.mass_sizes[row]));
-                    Share::Mass(generalized_mass(&transposed, members))
-                }
+                Scaled::Stiffness => Share::Stiffness(generalized_stiffness(&transposed, members(&condensed.sizes))),
+                Scaled::ElementMass => Share::Mass(generalized_mass(&transposed, members(&condensed.mass_sizes))),
                 // A parameter has at least one member.
                 Scaled::PointMass => {
                     let of = |&row: &usize| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));

@@ -90,9 +90,9 @@ fn group_table(run: &WingCorrelation) -> Table {
     let title = "Delta wing with wrong gages: factors that the correlation finds";
     let note = "Coordinates in inches, x outboard from the center and y forward from the trailing edge. Largest share: of the \
         stiffness of any test mode.";
-    let found = run.correlation.best_factors();
+    let found = &run.correlation.best_factors;
     let first_errors = GROUPS.map(|group| group.first_over_true - 1.0);
-    let errors = GROUPS.iter().zip(&found).map(|(group, factor)| factor / group.true_factor() - 1.0);
+    let errors = GROUPS.iter().zip(found).map(|(group, factor)| factor / group.true_factor() - 1.0);
     Table::new("delta_wing_groups", title, "Group")
         .labels(GROUPS.map(|group| group.name))
         .column("First gage error", "%", percents(first_errors, PERCENT))

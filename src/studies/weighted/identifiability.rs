@@ -1,7 +1,7 @@
 //! What the test modes can see of the parameters, and how sure the factors are.
 
 use crate::method::error::{Error, at_least_one, positive_setting};
-use crate::method::linear_algebra::{check_finite, check_length, to_faer};
+use crate::method::linear_algebra::{as_faer, check_finite, check_length};
 use crate::method::model::Range;
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -76,7 +76,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<
 
 /// Columns in the order of QR with column pivoting, while what those before cannot imitate is longer than `least`.
 fn subset(jacobian: &DMatrix<f64>, least: f64) -> Vec<usize> {
-    let factors = to_faer(jacobian).col_piv_qr();
+    let factors = as_faer(jacobian).col_piv_qr();
     let (order, r) = (factors.P().arrays().0, factors.R());
     let count = r.nrows().min(r.ncols());
     (0..count).take_while(|&e| r[(e, e)].abs() > least).map(|e| order[e]).collect()

@@ -1,10 +1,10 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
 use super::{Factor, SparseMatrix, lowest_modes};
-use crate::method::appendix_a::{Condensed, condense_deflections, generalized_stiffness};
+use crate::method::appendix_a::{Condensed, dynamic_stiffness, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_length, check_symmetric};
+use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
 use crate::method::model::{ModalModel, Pair, Range, Share};
 use crate::method::modes::{ModeSet, Modes};
 use crate::method::structure::positive;
@@ -157,14 +157,17 @@ impl WholeModel {
     /// $B^t$ (DOF × sensors).
     ///
     /// # Errors
-    /// Those of [`Self::at`] and `condense_deflections`; [`Error::NotPositiveDefinite`] for a structure that is not held.
+    /// Those of [`Self::at`]; [`Error::Dependent`] for a sensor that is a combination of those before it;
+    /// [`Error::NotPositiveDefinite`] for a structure that is not held.
     pub fn condensed(&self, factors: &[f64], sensors: &SparseMatrix) -> Result<(Condensed, DMatrix<f64>), Error> {
         let (stiffness, mass) = self.at(factors)?;
         let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;
         let distribution = sensors.dense().transpose();
-        let condensed = condense_deflections(&distribution, factor.solve(&distribution)?)?;
-        let mass = mass.through(&condensed.transformation.transpose())?;
-        Ok((condensed, mass))
+        let deflections = factor.solve(&distribution)?;
+        let stiffness = dynamic_stiffness(&symmetric_part(&distribution.tr_mul(&deflections)))?;
+        let transformation = deflections * &stiffness;
+        let mass = mass.through(&transformation.transpose())?;
+        Ok((Condensed { stiffness, transformation }, mass))
     }
 
     /// The paper's way to the same as [`Self::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.

@@ -44,7 +44,7 @@ pub const LOOPS: &[Entry] = &[
             let (test, ranges) = (d.modes(model.mass.nrows()), vec![None; d.about(model.shares.len())]);
             correlate(|_: &[f64]| model.analyze(&test, None), &ranges, &settings, |_, _| {})?
         };
-        Ok([found.best_factors(), vec![found.verdict.error_sum]].concat())
+        Ok([found.best_factors, vec![found.verdict.error_sum]].concat())
     }),
     ("step::unlimited_factors", |d| {
         let count = d.size();
@@ -109,13 +109,6 @@ pub const LOOPS: &[Entry] = &[
             accumulation.next_share_factor(d.number(), d.number(), d.number());
         }
         Ok(Vec::new())
-    }),
-    ("Correlation::best_factors", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let (settings, ranges) = (Settings { most_passes: 1, ..Settings::default() }, vec![None; model.shares.len()]);
-        let mut found = correlate(|_: &[f64]| Ok::<_, Error>(model.clone()), &ranges, &settings, |_, _| {})?;
-        found.best = Some(d.size());
-        Ok(found.best_factors())
     }),
     ("Verdict::in_words", |d| {
         let outcomes = [Outcome::Tolerance, Outcome::LocalMinimum, Outcome::Cap, Outcome::Nothing];

@@ -2,7 +2,7 @@
 //! aerodynamic terms.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_shape, cholesky, reduced, to_faer};
+use crate::method::linear_algebra::{as_faer, check_finite, check_shape, cholesky, reduced};
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -54,7 +54,7 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
     let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;
     check_finite(what, g)?;
-    let eigen = to_faer(&reduced(&lower, g)).eigen().map_err(|_| Error::NoConvergence(what))?;
+    let eigen = as_faer(&reduced(&lower, g)).eigen().map_err(|_| Error::NoConvergence(what))?;
     let root = |i: usize| eigen.S()[i];
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));
