@@ -21,7 +21,7 @@ fn chain_with(change: impl Fn(&mut Settings)) -> Correlation {
 fn every_outcome_is_said_as_what_it_is() {
     let within = chain_with(|_| {}).verdict;
     assert_eq!((within.outcome, within.is_within), (Outcome::Tolerance, true));
-    assert!(within.in_words(&[]).starts_with("Within tolerance: error sum "));
+    assert!(within.to_string().starts_with("Within tolerance: error sum "));
     let capped = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
@@ -97,8 +97,7 @@ fn advice_goes_by_the_outcome() {
     let says = |outcome, is_within, at_bound: &[usize]| {
         let worst = ModeError { frequency: 0.01, shape: 0.02 };
         let at_bound = at_bound.to_vec();
-        Verdict { outcome, is_within, error_sum: 0.03, worst_mode: 0, worst, at_bound, unseen: Vec::new() }
-            .in_words(&[])
+        Verdict { outcome, is_within, error_sum: 0.03, worst_mode: 0, worst, at_bound, unseen: Vec::new() }.to_string()
     };
     for (outcome, at_bound, advice) in [
         (Outcome::Cap, vec![0], "Try more iterations or passes."),
