@@ -4,6 +4,7 @@
 use crate::method::error_sum::ModeError;
 use crate::method::model::Range;
 use serde::Serialize;
+use std::fmt;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
@@ -109,5 +110,11 @@ impl Verdict {
             };
         }
         words
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str(&self.in_words(&[]))
     }
 }

@@ -66,7 +66,7 @@ fn condensed(name: &str, analysis_modes: usize) -> Finished {
 #[test]
 fn condensed_to_five_floors_the_building_is_not_found() {
     let found = condensed("building", 5);
-    assert!(found.verdict.error_sum > 0.2 && !found.verdict.is_within, "{}", found.verdict.in_words(&[]));
+    assert!(found.verdict.error_sum > 0.2 && !found.verdict.is_within, "{}", found.verdict);
     for pair in found.factors.chunks(2) {
         assert!((pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR, "{pair:?}");
     }

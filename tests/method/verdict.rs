@@ -27,10 +27,10 @@ fn every_outcome_is_said_as_what_it_is() {
         settings.inner.iterations = 1;
     });
     assert_eq!((capped.verdict.outcome, capped.verdict.is_within), (Outcome::Cap, false));
-    assert!(capped.verdict.in_words(&[]).contains("Try more iterations or passes."));
+    assert!(capped.verdict.to_string().contains("Try more iterations or passes."));
     let none = chain_with(|settings| settings.most_passes = 0);
     assert_eq!((none.verdict.outcome, none.verdict.is_within), (Outcome::Nothing, false));
-    assert!(none.verdict.in_words(&[]).starts_with("Nothing could be done"));
+    assert!(none.verdict.to_string().starts_with("Nothing could be done"));
     // Bounds that hold the truth out end in a local minimum at the bound.
     let (chain, ranges) = (Chain::uniform(3), [Some(Range { lower: 0.9, upper: 1.1 }), None, None]);
     let test = chain.modes(&TRUTH);
@@ -82,7 +82,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
     };
     let found = correlate(analyze, &[None; 4], &Settings::default(), |_, _| {}).unwrap();
     assert_eq!(found.verdict.unseen, [3]);
-    assert!(found.verdict.in_words(&[]).contains("Hardly seen by the test modes, and so not to be trusted: 4."));
+    assert!(found.verdict.to_string().contains("Hardly seen by the test modes, and so not to be trusted: 4."));
 }
 
 #[test]
