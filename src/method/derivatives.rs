@@ -118,10 +118,11 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
         let (shape, sign, mut slope) = (shapes.column(i), state.pairing.sign[j], slopes.column_mut(i));
-        unit_shape_difference(shape, sign, model.test.shapes.column(j), slope.as_mut_slice());
-        let largest = shape.iamax();
-        slope[largest] -= slope.dot(&shape) / shape[largest];
-        slope *= model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * shape[largest].abs());
+        let largest = unit_shape_difference(shape, sign, model.test.shapes.column(j), slope.as_mut_slice());
+        if let Some(m) = shape.iter().position(|component| component.abs() == largest) {
+            slope[m] -= slope.dot(&shape) / shape[m];
+        }
+        slope *= model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * largest);
     }
     shapes.tr_mul(&slopes)
 }
@@ -133,7 +134,7 @@ fn sensitivity(
     mut pull: DMatrix<f64>,
     per_change: impl Fn(f64) -> f64,
 ) -> DMatrix<f64> {
-    let k = &state.modes.omega_squared;
+    let k = state.modes.omega_squared.as_slice();
     for i in 0..k.len() {
         pull[(i, i)] = 0.0;
         for r in i + 1..k.len() {

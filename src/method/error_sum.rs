@@ -152,18 +152,20 @@ pub(crate) fn weighted_errors(
     check_error_sum(errors.sum()).map(|()| errors)
 }
 
-/// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component.
+/// $\pm v/\max|v| - w/\max|w|$, the difference (d) of two shapes scaled to unit largest component; returns $\max|v|$.
 pub(crate) fn unit_shape_difference(
     analysis: DVectorView<f64>,
     sign: f64,
     test: DVectorView<f64>,
     difference: &mut [f64],
-) {
+) -> f64 {
     let (v, w) = (analysis.as_slice(), test.as_slice());
     let larger = |a: f64, b: f64| if b > a { b } else { a };
     let largest = |shape: &[f64]| shape.iter().fold(0.0, |largest, component| larger(largest, component.abs()));
-    let (to_unit, to_unit_test) = (sign / largest(v), 1.0 / largest(w));
+    let (most, most_of_test) = (largest(v), largest(w));
+    let (to_unit, to_unit_test) = (sign / most, 1.0 / most_of_test);
     for ((difference, v), w) in difference.iter_mut().zip(v).zip(w) {
         *difference = v * to_unit - w * to_unit_test;
     }
+    most
 }

@@ -49,8 +49,10 @@ pub fn check_shape<T>(
 /// [`Error::WrongShape`] with both lengths as rows of one column.
 #[doc = include_str!("../../paper/examples/linear_algebra/check_length.md")]
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    let refused = Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 };
-    if found == expected { Ok(()) } else { Err(refused) }
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 })
 }
 
 /// Refuses matrices that are not square, finite and symmetric to working precision.
