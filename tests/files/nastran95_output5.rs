@@ -61,6 +61,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     refused(5, "", "reals in line 5");
     refused(5, "   0.20188163729412143X+05", "reals of the format D26.17, as many as rows in line 5");
     refused(4, "       1       1       4", "reals of the format D26.17, as many as rows in line 5");
+    refused(4, "       1       1       7", "reals of the format D26.17, as many as rows in line 6");
     let cut = lines[..4].join("\n");
     let error = read_output5(&cut, 144).expect_err("its end");
     assert!(
