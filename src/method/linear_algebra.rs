@@ -177,8 +177,12 @@ pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>
 pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
-    let eigen = as_faer(matrix).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
-    Ok((DVector::from_fn(matrix.nrows(), |i, _| eigen.S()[i]), from_faer(eigen.U())))
+    // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
+    let largest = matrix.amax();
+    let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
+    let scaled = matrix / unit;
+    let eigen = as_faer(&scaled).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
+    Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
 }
 
 /// Eigenvalues (ascending) of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, and the vectors of the lowest
