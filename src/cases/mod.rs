@@ -152,8 +152,13 @@ impl Case {
     /// # Errors
     /// Those of [`Self::model_with`] and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, CaseError> {
-        let model = self.model_with(&[TEST_GAGE; PANEL_COUNT])?;
+        let model = self.test_model()?;
         Ok(model.modes(&vec![1.0; model.parameters().len()])?)
+    }
+
+    /// The box as it is tested: every panel of the test gage.
+    fn test_model(&self) -> Result<FiniteElementModel, CaseError> {
+        self.model_with(&[TEST_GAGE; PANEL_COUNT])
     }
 }
 

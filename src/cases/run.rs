@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::cases::error::CaseError;
-use crate::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
+use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
@@ -88,7 +88,7 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     progress: impl FnMut(usize, &Pass),
 ) -> Result<CaseResult, E> {
-    let (model, tested) = (case.model()?, case.model_with(&[TEST_GAGE; PANEL_COUNT])?);
+    let (model, tested) = (case.model()?, case.test_model()?);
     let ones = vec![1.0; tested.parameters().len()];
     let test = ModeSet::from(elements(&tested, &ones)?.modes(&ones)?);
     let correlation = correlate(

@@ -118,9 +118,9 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
     let correlation = correlate(|factors| model.analyze(factors, test, None), &ranges, &settings, |_, _| {})?;
-    let factors = correlation.best_factors.clone();
-    let gages = model.sizes(&factors)?[..PANEL_COUNT].to_vec();
-    let truth = model.analyze(&factors, exact, None)?.exact.errors;
+    let factors = &correlation.best_factors;
+    let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
+    let truth = model.analyze(factors, exact, None)?.exact.errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {
         converged: correlation.converged,
@@ -128,7 +128,7 @@ fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &M
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
         gage_rms: rms(&errors),
-        error_sum: model.analyze(&factors, test, None)?.exact.errors.sum(),
+        error_sum: model.analyze(factors, test, None)?.exact.errors.sum(),
         true_frequency_rms: truth.frequency_rms(),
         true_shape_rms: truth.shape_rms(),
         gages_in: gages,

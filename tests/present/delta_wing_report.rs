@@ -101,11 +101,11 @@ fn command_writes_every_format() {
     assert_numbers(&correlation["test_frequencies_hz"], &run.test.frequencies_hz());
     assert_eq!(json["test_modes"], Value::from(TEST_MODES.to_vec()));
     let documents = json["groups"].as_array().expect("a list");
-    let factors = run.correlation.best_factors.clone();
+    let factors = &run.correlation.best_factors;
     for (((document, group), factor), share) in documents.iter().zip(GROUPS).zip(factors).zip(&run.shares) {
         assert_eq!(document["name"], group.name);
         assert_eq!(document["elements"], Value::from(group.elements.to_vec()));
-        for (key, value) in [("true_factor", group.true_factor()), ("factor", factor), ("largest_share", *share)] {
+        for (key, value) in [("true_factor", group.true_factor()), ("factor", *factor), ("largest_share", *share)] {
             assert_numbers(&Value::from(vec![document[key].clone()]), &[value]);
         }
     }

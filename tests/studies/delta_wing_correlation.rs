@@ -24,8 +24,8 @@ type Groups = Vec<(&'static Group, f64, f64)>;
 
 /// All of them.
 fn recovered() -> Groups {
-    let factors = RUN.correlation.best_factors.clone();
-    let error = |(group, factor): (&Group, f64)| factor / group.true_factor() - 1.0;
+    let factors = &RUN.correlation.best_factors;
+    let error = |(group, factor): (&Group, &f64)| factor / group.true_factor() - 1.0;
     let errors = GROUPS.iter().zip(factors).map(error);
     GROUPS.iter().zip(&RUN.shares).zip(errors).map(|((group, share), error)| (group, *share, error)).collect()
 }
@@ -101,7 +101,7 @@ fn history_does_not_hang_on_round_off() {
     let run = &*RUN;
     let other = DeltaWing { youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12), ..wing() };
     let other = correlate_wing(&other, |_, _| {}).expect("it runs");
-    for (a, b) in run.correlation.best_factors.clone().into_iter().zip(other.correlation.best_factors) {
+    for (&a, b) in run.correlation.best_factors.iter().zip(other.correlation.best_factors) {
         assert_relative_eq!(a, b, max_relative = SAME_HISTORY);
     }
 }

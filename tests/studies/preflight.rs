@@ -163,7 +163,7 @@ fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
     test.shapes.row_mut(6).neg_mut();
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
     let run = correlate(analyze, &model.factor_ranges().unwrap(), &case.settings, |_, _| {}).unwrap();
-    let factors = run.best_factors.clone();
+    let factors = &run.best_factors;
     assert!(!run.converged);
     assert!(factors.iter().any(|factor| *factor < 0.01) && factors.iter().any(|factor| *factor > 8.0), "{factors:?}");
 }
