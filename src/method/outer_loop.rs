@@ -85,23 +85,24 @@ pub struct Correlation {
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
 #[doc = include_str!("../../paper/examples/outer_loop/correlate.md")]
 pub fn correlate<E: From<Error>>(
-    analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<Correlation, E> {
-    correlate_while(analyze, total_ranges, settings, |number, pass| {
+    correlate_while(&mut analyze, total_ranges, settings, &mut |number, pass| {
         progress(number, pass);
         true
     })
 }
 
-/// The same, ended after a pass for which `progress` returns false: what was found until then is kept.
+/// The same, ended after a pass for which `progress` returns false: what was found until then is kept. It is compiled once per
+/// type of error, and not once per caller.
 pub(crate) fn correlate_while<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],
     settings: &Settings,
-    mut progress: impl FnMut(usize, &Pass) -> bool,
+    progress: &mut dyn FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
     positive_setting("later_inner_tolerance", settings.later_inner_tolerance)?;
     positive_setting("error_sum_tolerance", settings.error_sum_tolerance)?;

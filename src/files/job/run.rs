@@ -127,16 +127,20 @@ impl Prepared {
 ///
 /// # Errors
 /// Those of the analyses, of the loops and of [`Prepared::weights`].
-pub fn run(prepared: &Prepared, progress: impl FnMut(&str), go_on: impl Fn() -> bool) -> Result<Finished, FileError> {
-    run_from(prepared, &prepared.ones(), progress, go_on)
+pub fn run(
+    prepared: &Prepared,
+    mut progress: impl FnMut(&str),
+    go_on: impl Fn() -> bool,
+) -> Result<Finished, FileError> {
+    run_from(prepared, &prepared.ones(), &mut progress, &go_on)
 }
 
 /// The same from other first factors than one, and then from these alone.
 pub(super) fn run_from(
     prepared: &Prepared,
     start: &[f64],
-    mut progress: impl FnMut(&str),
-    go_on: impl Fn() -> bool,
+    progress: &mut dyn FnMut(&str),
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Finished, FileError> {
     let (compare, settings) = (&prepared.job.compare, &prepared.job.correlation);
     let (weights, ranges) = (prepared.weights()?, prepared.source.whole.ranges());
@@ -155,7 +159,7 @@ pub(super) fn run_from(
     };
     let (history, factors) = match compare.method {
         Method::Paper => {
-            let told = |number: usize, pass: &Pass| {
+            let mut told = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
                 let (frequency, shape) = (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
                 progress(&format!("pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"));
@@ -167,7 +171,7 @@ pub(super) fn run_from(
                 range.map(|range| Range { lower: range.lower / start, upper: range.upper / start })
             };
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
-            let run = correlate_while(|factors| analyze(&total(factors)), &ranges, settings, told)?;
+            let run = correlate_while(&mut |factors| analyze(&total(factors)), &ranges, settings, &mut told)?;
             let factors = total(&run.best_factors);
             (History::Paper(run), factors)
         }

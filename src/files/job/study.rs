@@ -129,7 +129,7 @@ impl Study {
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.
     pub fn run(&self, sample: u64, go_on: impl Fn() -> bool) -> Result<(String, Option<FileError>), FileError> {
-        let run = |(prepared, start): (Prepared, Vec<f64>)| run_from(&prepared, &start, |_| {}, go_on);
+        let run = |(prepared, start): (Prepared, Vec<f64>)| run_from(&prepared, &start, &mut |_| {}, &go_on);
         let (numbers, failure) = match self.draw(sample).and_then(run) {
             Ok(Finished { is_interrupted: true, .. }) => return Err(FileError::Interrupted),
             Ok(Finished { verdict, analyses, factors, .. }) => {
