@@ -17,6 +17,7 @@ pub struct Dd {
 pub const DD_EPSILON: f64 = 4.930_380_657_631_324e-32;
 
 /// The sum of two numbers and what its rounding lost.
+#[inline]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
@@ -24,12 +25,14 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The same for numbers of which the first is the larger.
+#[inline]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
     Dd { high, low: b - (high - a) }
 }
 
 /// The two halves of a number, of 26 bits each.
+#[inline]
 fn split(a: f64) -> (f64, f64) {
     let shifted = 134_217_729.0 * a;
     let high = shifted - (shifted - a);
@@ -38,6 +41,7 @@ fn split(a: f64) -> (f64, f64) {
 
 /// The product of two numbers and what its rounding lost. A fused multiplication has the same, but is a call where the processor
 /// is not known to have one.
+#[inline]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
@@ -85,6 +89,7 @@ impl From<f64> for Dd {
 
 impl Neg for Dd {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
@@ -92,6 +97,7 @@ impl Neg for Dd {
 
 impl Add for Dd {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (high, mut low) = two_sum(self.high, other.high);
         let (lost_high, lost_low) = two_sum(self.low, other.low);
@@ -103,6 +109,7 @@ impl Add for Dd {
 
 impl Sub for Dd {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -110,6 +117,7 @@ impl Sub for Dd {
 
 impl Mul for Dd {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (high, low) = two_product(self.high, other.high);
         quick_two_sum(high, low + (self.high * other.low + self.low * other.high))
@@ -118,6 +126,7 @@ impl Mul for Dd {
 
 impl Div for Dd {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::from(first);
@@ -128,12 +137,14 @@ impl Div for Dd {
 }
 
 impl AddAssign for Dd {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Dd {
+    #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
