@@ -22,10 +22,18 @@ pub struct Machine {
 impl Machine {
     /// The best of some repeats.
     pub fn measured() -> Self {
-        let matrix = Mat::<f64>::from_fn(ORDER, ORDER, |row, column| 1.0 / (1 + row + column) as f64);
+        let matrix =
+            Mat::<f64>::from_fn(ORDER, ORDER, |row, column| 1.0 / (1 + row + column) as f64);
         let mut product = Mat::<f64>::zeros(ORDER, ORDER);
         let multiply = || {
-            matmul(product.as_mut(), Accum::Replace, black_box(matrix.as_ref()), matrix.as_ref(), 1.0, Par::Seq);
+            matmul(
+                product.as_mut(),
+                Accum::Replace,
+                black_box(matrix.as_ref()),
+                matrix.as_ref(),
+                1.0,
+                Par::Seq,
+            );
         };
         let operations = 2.0 * (ORDER as f64).powi(3) / least(multiply);
         let numbers = vec![1.0_f64; NUMBERS];
@@ -33,11 +41,16 @@ impl Machine {
             // Eight sums at once, so that no addition waits for the one before it.
             let mut sums = [0.0; 8];
             for eight in black_box(&numbers).chunks_exact(8) {
-                sums.iter_mut().zip(eight).for_each(|(sum, number)| *sum += number);
+                sums.iter_mut()
+                    .zip(eight)
+                    .for_each(|(sum, number)| *sum += number);
             }
             black_box(sums);
         };
-        Self { operations, bytes: 8.0 * NUMBERS as f64 / least(read) }
+        Self {
+            operations,
+            bytes: 8.0 * NUMBERS as f64 / least(read),
+        }
     }
 }
 
@@ -48,5 +61,7 @@ fn least(mut work: impl FnMut()) -> f64 {
         work();
         start.elapsed().as_secs_f64()
     };
-    (0..REPEATS).map(|_| seconds()).fold(f64::INFINITY, f64::min)
+    (0..REPEATS)
+        .map(|_| seconds())
+        .fold(f64::INFINITY, f64::min)
 }

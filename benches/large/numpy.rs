@@ -9,7 +9,12 @@ use std::io::{BufWriter, Result, Write};
 use std::path::Path;
 
 /// Writes an array, last index fastest; `kind` is `<f8` or `<i8`.
-fn array(path: &Path, kind: &str, shape: &[usize], bytes: impl Iterator<Item = [u8; 8]>) -> Result<()> {
+fn array(
+    path: &Path,
+    kind: &str,
+    shape: &[usize],
+    bytes: impl Iterator<Item = [u8; 8]>,
+) -> Result<()> {
     let shape: String = shape.iter().map(|length| format!("{length}, ")).collect();
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (header.len() + 1 + 10).next_multiple_of(64) - 10;
@@ -17,7 +22,9 @@ fn array(path: &Path, kind: &str, shape: &[usize], bytes: impl Iterator<Item = [
     file.write_all(b"\x93NUMPY\x01\x00")?;
     file.write_all(&(length as u16).to_le_bytes())?;
     file.write_all(format!("{header:<width$}\n", width = length - 1).as_bytes())?;
-    bytes.into_iter().try_for_each(|number| file.write_all(&number))?;
+    bytes
+        .into_iter()
+        .try_for_each(|number| file.write_all(&number))?;
     file.flush()
 }
 
@@ -27,11 +34,20 @@ fn numbers(path: &Path, shape: &[usize], values: impl Iterator<Item = f64>) -> R
 
 fn integers(path: &Path, shape: &[usize], values: impl Iterator<Item = usize>) -> Result<()> {
     // What is not there is -1.
-    array(path, "<i8", shape, values.map(|value| (value as i64).to_le_bytes()))
+    array(
+        path,
+        "<i8",
+        shape,
+        values.map(|value| (value as i64).to_le_bytes()),
+    )
 }
 
 fn matrix(path: &Path, matrix: &DMatrix<f64>) -> Result<()> {
-    numbers(path, &[matrix.nrows(), matrix.ncols()], matrix.transpose().iter().copied())
+    numbers(
+        path,
+        &[matrix.nrows(), matrix.ncols()],
+        matrix.transpose().iter().copied(),
+    )
 }
 
 /// Writes what an analysis begins with, and the frequencies and the sum of shares that it ends with.
@@ -44,11 +60,19 @@ pub fn write(folder: &Path, model: &FiniteElementModel, modal: &ModalModel) -> R
     let structure = model.structure();
     let mut group_of = vec![0; structure.elements().len()];
     for (group, parameter) in model.parameters().iter().enumerate() {
-        parameter.members.iter().for_each(|&label| group_of[label - 1] = group);
+        parameter
+            .members
+            .iter()
+            .for_each(|&label| group_of[label - 1] = group);
     }
     for (name, is_rod) in [("rod", true), ("panel", false)] {
-        let all = (0..).zip(structure.elements()).zip(model.element_matrices());
-        let of_kind = || all.clone().filter(|((_, element), _)| (element.kind == ElementKind::Rod) == is_rod);
+        let all = (0..)
+            .zip(structure.elements())
+            .zip(model.element_matrices());
+        let of_kind = || {
+            all.clone()
+                .filter(|((_, element), _)| (element.kind == ElementKind::Rod) == is_rod)
+        };
         let (count, size) = (of_kind().count(), if is_rod { 6 } else { 12 });
         let units = of_kind().flat_map(|(_, matrices)| {
             let there = matrices.dof.len();
@@ -59,31 +83,70 @@ pub fn write(folder: &Path, model: &FiniteElementModel, modal: &ModalModel) -> R
             })
         });
         numbers(&at(&format!("{name}_unit")), &[count, size, size], units)?;
-        let dof =
-            of_kind().flat_map(|(_, matrices)| (0..size).map(|k| matrices.dof.get(k).copied().unwrap_or(usize::MAX)));
+        let dof = of_kind().flat_map(|(_, matrices)| {
+            (0..size).map(|k| matrices.dof.get(k).copied().unwrap_or(usize::MAX))
+        });
         integers(&at(&format!("{name}_dof")), &[count, size], dof)?;
-        numbers(&at(&format!("{name}_size")), &[count], of_kind().map(|((_, element), _)| element.size))?;
-        integers(&at(&format!("{name}_group")), &[count], of_kind().map(|((row, _), _)| group_of[row]))?;
+        numbers(
+            &at(&format!("{name}_size")),
+            &[count],
+            of_kind().map(|((_, element), _)| element.size),
+        )?;
+        integers(
+            &at(&format!("{name}_group")),
+            &[count],
+            of_kind().map(|((row, _), _)| group_of[row]),
+        )?;
     }
     let columns = model.load_distribution().columns();
-    let entries =
-        || columns.iter().enumerate().flat_map(|(j, terms)| terms.iter().map(move |&(i, value)| (i, j, value)));
+    let entries = || {
+        columns
+            .iter()
+            .enumerate()
+            .flat_map(|(j, terms)| terms.iter().map(move |&(i, value)| (i, j, value)))
+    };
     let count = entries().count();
-    integers(&at("t_place"), &[count, 2], entries().flat_map(|(row, column, _)| [row, column]))?;
+    integers(
+        &at("t_place"),
+        &[count, 2],
+        entries().flat_map(|(row, column, _)| [row, column]),
+    )?;
     numbers(&at("t_value"), &[count], entries().map(|(.., value)| value))?;
     matrix(&at("mass"), model.mass())?;
     matrix(&at("test_shapes"), &modal.test.shapes)?;
     let frequencies = modal.exact.modes.frequencies_hz();
-    numbers(&at("frequencies"), &[frequencies.len()], frequencies.into_iter())?;
+    numbers(
+        &at("frequencies"),
+        &[frequencies.len()],
+        frequencies.into_iter(),
+    )?;
     let (count, modes) = (modal.shares.len(), modal.exact.modes.len());
-    let diagonals = modal.shares.iter().flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
+    let diagonals = modal
+        .shares
+        .iter()
+        .flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
     numbers(&at("shares"), &[count, modes], diagonals)
 }
 
 /// Writes the mass of the whole model, and the frequencies of its lowest modes.
 pub fn write_whole(folder: &Path, mass: &SparseMatrix, frequencies: &[f64]) -> Result<()> {
-    let (at, entries) = (|name: &str| folder.join(format!("{name}.npy")), mass.entries());
-    integers(&at("mass_place"), &[entries.len(), 2], entries.iter().flat_map(|&(row, column, _)| [row, column]))?;
-    numbers(&at("mass_value"), &[entries.len()], entries.iter().map(|entry| entry.2))?;
-    numbers(&at("whole_frequencies"), &[frequencies.len()], frequencies.iter().copied())
+    let (at, entries) = (
+        |name: &str| folder.join(format!("{name}.npy")),
+        mass.entries(),
+    );
+    integers(
+        &at("mass_place"),
+        &[entries.len(), 2],
+        entries.iter().flat_map(|&(row, column, _)| [row, column]),
+    )?;
+    numbers(
+        &at("mass_value"),
+        &[entries.len()],
+        entries.iter().map(|entry| entry.2),
+    )?;
+    numbers(
+        &at("whole_frequencies"),
+        &[frequencies.len()],
+        frequencies.iter().copied(),
+    )
 }

@@ -65,9 +65,15 @@ impl Stages {
             let start = Instant::now();
             let (done, held) = peak(&mut work);
             let took = start.elapsed();
-            (least, total, repeats, bytes) = (least.min(took), total + took, repeats + 1, bytes.max(held));
-            if repeats == MOST_REPEATS || total >= TOO_LONG || (total >= LONG_ENOUGH && repeats > 1) {
-                self.all.push(Stage { name, seconds: least.as_secs_f64(), bytes });
+            (least, total, repeats, bytes) =
+                (least.min(took), total + took, repeats + 1, bytes.max(held));
+            if repeats == MOST_REPEATS || total >= TOO_LONG || (total >= LONG_ENOUGH && repeats > 1)
+            {
+                self.all.push(Stage {
+                    name,
+                    seconds: least.as_secs_f64(),
+                    bytes,
+                });
                 return black_box(done);
             }
         }
@@ -75,14 +81,20 @@ impl Stages {
 
     /// Seconds of a stage.
     pub fn seconds(&self, name: &str) -> f64 {
-        self.all.iter().find(|stage| stage.name == name).map_or(f64::NAN, |stage| stage.seconds)
+        self.all
+            .iter()
+            .find(|stage| stage.name == name)
+            .map_or(f64::NAN, |stage| stage.seconds)
     }
 }
 
 /// Settings of a whole correlation.
 fn settings() -> Settings {
     let usual = correlation::settings();
-    let inner = InnerSettings { tolerance: ERROR, ..usual.inner };
+    let inner = InnerSettings {
+        tolerance: ERROR,
+        ..usual.inner
+    };
     Settings {
         inner,
         later_inner_tolerance: 0.5 * ERROR,
@@ -96,10 +108,18 @@ fn settings() -> Settings {
 /// Times every stage of a wing, and hands it back with what an analysis found.
 pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let machine = Machine::measured();
-    let mut stages = Stages { dof: 0, factor_entries: 0, factor_operations: 0.0, machine, all: Vec::new() };
+    let mut stages = Stages {
+        dof: 0,
+        factor_entries: 0,
+        factor_operations: 0.0,
+        machine,
+        all: Vec::new(),
+    };
     let structure = stages.time("grids and elements", || wing.structure().expect("a wing"));
     stages.dof = structure.free_dof().len();
-    drop(stages.time("element matrices (once)", || element_matrices(&structure).expect("elements")));
+    drop(stages.time("element matrices (once)", || {
+        element_matrices(&structure).expect("elements")
+    }));
     drop(structure);
     let known = planted(wing).expect("a wing");
     let (model, test) = (&known.model, &known.test);
@@ -108,22 +128,33 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
-    (stages.factor_entries, stages.factor_operations) = (plan.factor_entries(), plan.factor_operations());
-    let factorize = || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
+    (stages.factor_entries, stages.factor_operations) =
+        (plan.factor_entries(), plan.factor_operations());
+    let factorize =
+        || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
-    let flexibility = || structural.flexibility(model.load_distribution()).expect("a flexibility");
+    let flexibility = || {
+        structural
+            .flexibility(model.load_distribution())
+            .expect("a flexibility")
+    };
     stages.time("flexibility by forward substitution", flexibility);
     drop((structural, plan));
     let condensed = stages.time(CONDENSED, || model.condense(&ones).expect("it condenses"));
-    let modes = stages.time("modes: 10 of 108", || solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes"));
-    stages
-        .time("shapes of the structure: 10 solutions", || condensed.structural_shapes(&modes.shapes).expect("shapes"));
+    let modes = stages.time("modes: 10 of 108", || {
+        solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes")
+    });
+    stages.time("shapes of the structure: 10 solutions", || {
+        condensed.structural_shapes(&modes.shapes).expect("shapes")
+    });
     drop(condensed);
     let analyze = |factors: &[f64]| model.analyze(factors, test, Some(MODES));
     let modal = stages.time(ANALYSIS, || analyze(&ones).expect("analyzed"));
     let start = ModalState::start(&modal);
     stages.time("gradient", || gradient(&modal, &start).expect("a gradient"));
-    stages.time("derivatives by definition", || by_definition(&modal, &start).expect("derivatives"));
+    stages.time("derivatives by definition", || {
+        by_definition(&modal, &start).expect("derivatives")
+    });
     let (settings, ranges) = (settings(), model.factor_ranges().expect("bounds"));
     let inner = || run(&modal, &ones, &ranges, &settings.inner).expect("it runs");
     let run = stages.time("inner loop of the first pass", inner);
@@ -141,8 +172,16 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
 ///
 /// What an analysis at the points would have, elements by elements, is given away before.
 pub fn whole_modes(wing: &Wing, stages: &mut Stages) -> (SparseMatrix, Vec<f64>) {
-    let material = Material { density: DENSITY, ..wing.material };
-    let model = Wing { material, ..wing.clone() }.model().expect("a wing");
+    let material = Material {
+        density: DENSITY,
+        ..wing.material
+    };
+    let model = Wing {
+        material,
+        ..wing.clone()
+    }
+    .model()
+    .expect("a wing");
     let ones = vec![1.0; model.parameters().len()];
     let (whole, _) = WholeModel::of(&model).expect("a whole model");
     drop(model);
@@ -156,26 +195,48 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     let model = &known.model;
     let ones = vec![1.0; model.parameters().len()];
     let sizes = model.sizes(&ones).expect("sizes");
-    let structural = FactorizedStiffness::new(model.element_matrices(), &sizes, model.structure().free_dof());
+    let structural = FactorizedStiffness::new(
+        model.element_matrices(),
+        &sizes,
+        model.structure().free_dof(),
+    );
     let structural = structural.expect("it is held");
     let stiffness = model.condense(&ones).expect("it condenses").stiffness;
-    let mut now = Stages { all: Vec::new(), ..*stages };
+    let mut now = Stages {
+        all: Vec::new(),
+        ..*stages
+    };
     let identity = DMatrix::identity(stages.dof, stages.dof);
     drop(now.time("K_S", || structural.solve(&identity).expect("an inverse")));
-    drop(now.time("K_D", || stiffness.clone().cholesky().expect("definite").inverse()));
+    drop(now.time("K_D", || {
+        stiffness.clone().cholesky().expect("definite").inverse()
+    }));
     let t = model.load_distribution().dense();
     drop(now.time("B", || condense(&structural, &t).expect("it condenses")));
     drop(now.time("shares", || model.matrices(&ones).expect("shares")));
     let of = |name| stages.seconds(name);
     let (condensed, flexibility) = (of(CONDENSED), of("flexibility by forward substitution"));
-    let shares = (now.seconds("shares") - condensed - (now.seconds("B") - flexibility)) / ones.len() as f64;
+    let shares =
+        (now.seconds("shares") - condensed - (now.seconds("B") - flexibility)) / ones.len() as f64;
     let generalized = of(ANALYSIS) - condensed - of("modes: 10 of 108");
     vec![
-        ("(i) K_S inverted, order 1326 (1458)", 60.0, of("assembly and factorization") + now.seconds("K_S")),
+        (
+            "(i) K_S inverted, order 1326 (1458)",
+            60.0,
+            of("assembly and factorization") + now.seconds("K_S"),
+        ),
         ("(ii) K_D inverted, order 108", 4.5, now.seconds("K_D")),
         ("(iii) B", 53.0, now.seconds("B")),
         ("(iv) B K_S B^t, one substructure", 30.0, shares),
-        ("generalized stiffness, 25 substructures, 10 modes", 7.0, generalized),
-        ("derivatives, 25 substructures, 10 modes", 1.0, of("derivatives by definition")),
+        (
+            "generalized stiffness, 25 substructures, 10 modes",
+            7.0,
+            generalized,
+        ),
+        (
+            "derivatives, 25 substructures, 10 modes",
+            1.0,
+            of("derivatives by definition"),
+        ),
     ]
 }

@@ -21,7 +21,12 @@ use std::time::Duration;
 /// Eigensolutions by every rival.
 fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: &[DMatrix<f64>]) {
     type Solve = fn(&mut Rivals, &[DMatrix<f64>]);
-    let solvers: [Solve; 4] = [Rivals::jacobi, Rivals::nalgebra, Rivals::nalgebra_fixed, Rivals::faer];
+    let solvers: [Solve; 4] = [
+        Rivals::jacobi,
+        Rivals::nalgebra,
+        Rivals::nalgebra_fixed,
+        Rivals::faer,
+    ];
     let mut storage = Rivals::new(NINE);
     for matrix in matrices {
         assert!(storage.disagreement(matrix) < 1e-9, "the rivals disagree");
@@ -38,12 +43,17 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::DERIVATIVES);
     let (problem, state) = (&setting.problem, &setting.state);
     group.bench_function(summary::GRADIENT, |bencher| {
-        bencher.iter(|| gradient(black_box(problem), black_box(state)).expect("a state of the model"));
+        bencher
+            .iter(|| gradient(black_box(problem), black_box(state)).expect("a state of the model"));
     });
     group.bench_function(summary::DEFINITION, |bencher| {
         bencher.iter(|| by_definition(black_box(problem), black_box(state)).expect("separate"));
     });
-    eigensolutions(&mut group, summary::EIGENSOLUTION, &setting.element_matrices);
+    eigensolutions(
+        &mut group,
+        summary::EIGENSOLUTION,
+        &setting.element_matrices,
+    );
     group.finish();
 }
 
@@ -56,7 +66,11 @@ fn update(criterion: &mut Criterion, setting: &Setting) {
             bencher.iter(|| formula(black_box(k), black_box(&setting.beta)).expect("separate"));
         });
     }
-    eigensolutions(&mut group, summary::EIGENSOLUTION, std::slice::from_ref(&setting.step_matrix));
+    eigensolutions(
+        &mut group,
+        summary::EIGENSOLUTION,
+        std::slice::from_ref(&setting.step_matrix),
+    );
     let from_modes = DMatrix::from_diagonal(k) + &setting.beta;
     eigensolutions(&mut group, summary::FROM_MODES, &[from_modes]);
     group.finish();
@@ -68,10 +82,22 @@ fn cases(criterion: &mut Criterion, passes: &[PassSetting]) {
     for pass in passes {
         let label = |what: &str| format!("{} {what}", pass.label());
         group.bench_function(label("inner loop"), |bencher| {
-            bencher.iter(|| run(black_box(&pass.start), &pass.factors, &pass.ranges, &pass.settings).expect("it runs"));
+            bencher.iter(|| {
+                run(
+                    black_box(&pass.start),
+                    &pass.factors,
+                    &pass.ranges,
+                    &pass.settings,
+                )
+                .expect("it runs")
+            });
         });
         group.bench_function(label("analysis"), |bencher| {
-            bencher.iter(|| pass.model.analyze(black_box(&pass.factors), &pass.test, None).expect("analyzed"));
+            bencher.iter(|| {
+                pass.model
+                    .analyze(black_box(&pass.factors), &pass.test, None)
+                    .expect("analyzed")
+            });
         });
     }
     for number in corfem::cases::CASES {
@@ -98,6 +124,7 @@ fn main() {
     criterion.final_summary();
     summary::print(&folder, &passes);
     let k = &setting.problem.exact.modes.omega_squared;
-    let settled = recursive_1_converged(k, &setting.beta, ROOT_TOLERANCE, MOST_ORDERS).expect("it settles");
+    let settled =
+        recursive_1_converged(k, &setting.beta, ROOT_TOLERANCE, MOST_ORDERS).expect("it settles");
     println!("Recursive 1 settles at order {}", settled.order);
 }

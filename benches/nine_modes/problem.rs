@@ -36,18 +36,30 @@ impl Setting {
         // The box's mass is diagonal, so the reduction to a standard problem is a scaling; it is not timed.
         let scale = DMatrix::from_diagonal(&DVector::from_iterator(
             NINE,
-            dynamic.mass.diagonal().iter().map(|mass| mass.sqrt().recip()),
+            dynamic
+                .mass
+                .diagonal()
+                .iter()
+                .map(|mass| mass.sqrt().recip()),
         ));
         let standard = |change: &DMatrix<f64>| &scale * (&dynamic.stiffness + change) * &scale;
-        let shares: Vec<&DMatrix<f64>> = dynamic.shares.iter().map(|share| share.matrix()).collect();
+        let shares: Vec<&DMatrix<f64>> =
+            dynamic.shares.iter().map(|share| share.matrix()).collect();
         let mut change = DMatrix::zeros(NINE, NINE);
         for (e, share) in shares.iter().enumerate() {
             change += if e % 2 == 0 { 0.1 } else { -0.1 } * *share;
         }
         Self {
             state: ModalState::start(&problem),
-            element_matrices: shares.iter().map(|share| standard(&(DERIVATIVE_STEP * *share))).collect(),
-            beta: problem.exact.modes.shapes.tr_mul(&(&change * &problem.exact.modes.shapes)),
+            element_matrices: shares
+                .iter()
+                .map(|share| standard(&(DERIVATIVE_STEP * *share)))
+                .collect(),
+            beta: problem
+                .exact
+                .modes
+                .shapes
+                .tr_mul(&(&change * &problem.exact.modes.shapes)),
             step_matrix: standard(&change),
             problem,
         }
@@ -99,7 +111,9 @@ pub fn passes() -> Vec<PassSetting> {
                 iterations: pass.inner.iterations.len(),
                 ranges: model.factor_ranges().expect("bounds"),
                 test: result.test.clone(),
-                start: model.analyze(&factors, &result.test, None).expect("analyzed"),
+                start: model
+                    .analyze(&factors, &result.test, None)
+                    .expect("analyzed"),
                 factors: factors.clone(),
                 settings: settings.clone(),
                 model: model.clone(),

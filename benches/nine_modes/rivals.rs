@@ -89,7 +89,12 @@ const NINE: usize = 9;
 impl Rivals {
     /// Storage for matrices of a size.
     pub fn new(size: usize) -> Self {
-        let scratch = self_adjoint_evd_scratch::<f64>(size, ComputeEigenvectors::Yes, Par::Seq, Default::default());
+        let scratch = self_adjoint_evd_scratch::<f64>(
+            size,
+            ComputeEigenvectors::Yes,
+            Par::Seq,
+            Default::default(),
+        );
         Self {
             size,
             matrix: vec![0.0; size * size],
@@ -127,7 +132,11 @@ impl Rivals {
     /// By faer, with its scratch memory made beforehand.
     pub fn faer(&mut self, matrices: &[DMatrix<f64>]) {
         for matrix in matrices {
-            let view = faer::MatRef::from_column_major_slice(black_box(matrix).as_slice(), self.size, self.size);
+            let view = faer::MatRef::from_column_major_slice(
+                black_box(matrix).as_slice(),
+                self.size,
+                self.size,
+            );
             self_adjoint_evd(
                 view,
                 self.faer_values.as_mut(),
@@ -145,9 +154,13 @@ impl Rivals {
     pub fn disagreement(&mut self, matrix: &DMatrix<f64>) -> f64 {
         self.jacobi(std::slice::from_ref(matrix));
         self.faer(std::slice::from_ref(matrix));
-        let mut found: Vec<f64> = (0..self.size).map(|i| self.matrix[i * self.size + i]).collect();
+        let mut found: Vec<f64> = (0..self.size)
+            .map(|i| self.matrix[i * self.size + i])
+            .collect();
         found.sort_by(f64::total_cmp);
         let pairs = found.iter().enumerate();
-        pairs.map(|(i, value)| (value / self.faer_values[i] - 1.0).abs()).fold(0.0, f64::max)
+        pairs
+            .map(|(i, value)| (value / self.faer_values[i] - 1.0).abs())
+            .fold(0.0, f64::max)
     }
 }

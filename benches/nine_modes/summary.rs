@@ -46,10 +46,16 @@ pub fn formulae() -> [(&'static str, Formula); 6] {
 /// The fastest of criterion's samples: whatever else the computer does can only add to it.
 fn microseconds(folder: &Path, group: &str, name: &str) -> Option<f64> {
     let file = folder.join(group).join(name).join("new/sample.json");
-    let sample: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
+    let sample: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
     let (times, counts) = (sample["times"].as_array()?, sample["iters"].as_array()?);
-    let per_iteration = times.iter().zip(counts).filter_map(|(time, count)| Some(time.as_f64()? / count.as_f64()?));
-    per_iteration.reduce(f64::min).map(|nanoseconds| nanoseconds / 1000.0)
+    let per_iteration = times
+        .iter()
+        .zip(counts)
+        .filter_map(|(time, count)| Some(time.as_f64()? / count.as_f64()?));
+    per_iteration
+        .reduce(f64::min)
+        .map(|nanoseconds| nanoseconds / 1000.0)
 }
 
 /// Prints every comparison.
@@ -62,23 +68,43 @@ pub fn print(folder: &Path, passes: &[PassSetting]) {
     compare(folder, UPDATE, &names, EIGENSOLUTION);
     compare(folder, UPDATE, &names, FROM_MODES);
     println!("Table 13 today: inner iterations and microseconds\n");
-    println!("{:<14}{:>12}{:>14}{:>14}", "", "iterations", "inner loop", "analysis");
+    println!(
+        "{:<14}{:>12}{:>14}{:>14}",
+        "", "iterations", "inner loop", "analysis"
+    );
     for pass in passes {
         let label = pass.label();
         let time = |what: &str| written(microseconds(folder, CASES, &format!("{label} {what}")));
-        println!("{label:<14}{:>12}{:>14}{:>14}", pass.iterations, time("inner loop"), time("analysis"),);
+        println!(
+            "{label:<14}{:>12}{:>14}{:>14}",
+            pass.iterations,
+            time("inner loop"),
+            time("analysis"),
+        );
     }
     for case in corfem::cases::CASES {
         let label = format!("case {case} whole");
-        println!("{label:<14}{:>26}", written(microseconds(folder, CASES, &label)));
+        println!(
+            "{label:<14}{:>26}",
+            written(microseconds(folder, CASES, &label))
+        );
     }
 }
 
 /// One line per method, one column per rival.
 fn compare(folder: &Path, group: &str, methods: &[&str], prefix: &str) {
     let rivals = RIVALS.map(|rival| microseconds(folder, group, &format!("{prefix}{rival}")));
-    println!("{:<36}{:>10}{}", format!("{group} by"), "us", RIVALS.map(|rival| format!("{rival:>22}")).concat());
-    println!("{:<46}{}", prefix.trim_end_matches(", "), rivals.map(|time| format!("{:>22}", written(time))).concat());
+    println!(
+        "{:<36}{:>10}{}",
+        format!("{group} by"),
+        "us",
+        RIVALS.map(|rival| format!("{rival:>22}")).concat()
+    );
+    println!(
+        "{:<46}{}",
+        prefix.trim_end_matches(", "),
+        rivals.map(|time| format!("{:>22}", written(time))).concat()
+    );
     for &method in methods {
         let own = microseconds(folder, group, method);
         let ratios = rivals.map(|rival| match (rival, own) {

@@ -14,7 +14,10 @@ use std::time::Duration;
 const REPEATS: usize = 3;
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|argument| argument != "--bench")
+        .collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["--instructions"] => instructions(),
         ["--do", structure, row, times] => {
@@ -50,15 +53,25 @@ fn instructions() {
         );
         return;
     };
-    println!("Counted by {}", String::from_utf8_lossy(&version.stdout).trim());
-    println!("| instructions | {} |\n|---|---|---|", STRUCTURES.join(" | "));
+    println!(
+        "Counted by {}",
+        String::from_utf8_lossy(&version.stdout).trim()
+    );
+    println!(
+        "| instructions | {} |\n|---|---|---|",
+        STRUCTURES.join(" | ")
+    );
     let names: Vec<&str> = stages(STRUCTURES[0]).iter().map(|stage| stage.0).collect();
     for (row, name) in names.into_iter().enumerate() {
         let of_one = |structure: &&str| {
             let [once, often] = [1, REPEATS].map(|times| counted(structure, row, times));
             (often - once) / (REPEATS - 1) as u64
         };
-        println!("| {name} | {} | {} |", of_one(&STRUCTURES[0]), of_one(&STRUCTURES[1]));
+        println!(
+            "| {name} | {} | {} |",
+            of_one(&STRUCTURES[0]),
+            of_one(&STRUCTURES[1])
+        );
     }
 }
 
@@ -72,7 +85,9 @@ fn counted(structure: &str, row: usize, times: usize) -> u64 {
         .output()
         .expect("valgrind runs");
     let report = String::from_utf8_lossy(&output.stderr);
-    let collected = report.lines().find_map(|line| line.split("Collected :").nth(1));
+    let collected = report
+        .lines()
+        .find_map(|line| line.split("Collected :").nth(1));
     let count = collected.and_then(|count| count.trim().parse().ok());
     count.unwrap_or_else(|| panic!("valgrind counted nothing: {report}"))
 }

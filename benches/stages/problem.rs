@@ -24,10 +24,23 @@ pub type Stage = (&'static str, Box<dyn FnMut()>);
 fn problem(structure: &str) -> (FiniteElementModel, ModeSet, usize, InnerSettings) {
     if structure == "box" {
         let case = Case::new(2).expect("a case");
-        return (case.model().expect("a model"), case.test_modes().expect("test modes").into(), 9, case.settings.inner);
+        return (
+            case.model().expect("a model"),
+            case.test_modes().expect("test modes").into(),
+            9,
+            case.settings.inner,
+        );
     }
     let known = planted(&Wing::default()).expect("a wing");
-    (known.model, known.test, 10, InnerSettings { tolerance: 0.05, ..correlation::settings().inner })
+    (
+        known.model,
+        known.test,
+        10,
+        InnerSettings {
+            tolerance: 0.05,
+            ..correlation::settings().inner
+        },
+    )
 }
 
 fn stage<T: 'static>(name: &'static str, work: impl Fn() -> T + 'static) -> Stage {
@@ -38,13 +51,15 @@ fn stage<T: 'static>(name: &'static str, work: impl Fn() -> T + 'static) -> Stag
 pub fn stages(structure: &str) -> Vec<Stage> {
     // What the stages share lives as long as the program.
     let (model, test, modes, settings) = problem(structure);
-    let (model, test): (&'static _, &'static _) = (Box::leak(Box::new(model)), Box::leak(Box::new(test)));
+    let (model, test): (&'static _, &'static _) =
+        (Box::leak(Box::new(model)), Box::leak(Box::new(test)));
     let ones: &'static [f64] = vec![1.0; model.parameters().len()].leak();
     let (elements, free) = (model.element_matrices(), model.structure().free_dof());
     let sizes = model.sizes(ones).expect("sizes");
     let plan = move || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let shared = Arc::new(plan());
-    let factorize = move || FactorizedStiffness::planned(&shared, elements, &sizes, free).expect("it is held");
+    let factorize =
+        move || FactorizedStiffness::planned(&shared, elements, &sizes, free).expect("it is held");
     let structural = factorize();
     let condensed = model.condense(ones).expect("it condenses");
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");
@@ -55,19 +70,35 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let factors = inner().factors;
     let pass = inner.clone();
     vec![
-        stage("element matrices", move || element_matrices(model.structure()).expect("elements")),
+        stage("element matrices", move || {
+            element_matrices(model.structure()).expect("elements")
+        }),
         stage("ordering and pattern", plan),
         stage("assembly and factorization", factorize),
-        stage("flexibility", move || structural.flexibility(model.load_distribution()).expect("a flexibility")),
-        stage("condensed model: these two and K_D", move || model.condense(ones).expect("it condenses")),
-        stage("modes", move || solve(&condensed.stiffness, &condensed.mass, modes).expect("modes")),
+        stage("flexibility", move || {
+            structural
+                .flexibility(model.load_distribution())
+                .expect("a flexibility")
+        }),
+        stage("condensed model: these two and K_D", move || {
+            model.condense(ones).expect("it condenses")
+        }),
+        stage("modes", move || {
+            solve(&condensed.stiffness, &condensed.mass, modes).expect("modes")
+        }),
         stage("analysis with all shares", analyze),
-        stage("gradient", move || gradient(modal, start).expect("a gradient")),
-        stage("derivatives by definition", move || by_definition(modal, start).expect("derivatives")),
+        stage("gradient", move || {
+            gradient(modal, start).expect("a gradient")
+        }),
+        stage("derivatives by definition", move || {
+            by_definition(modal, start).expect("derivatives")
+        }),
         stage("inner loop of the first pass", inner),
         stage("pass with its analysis", move || {
             pass();
-            model.analyze(&factors, test, Some(modes)).expect("analyzed")
+            model
+                .analyze(&factors, test, Some(modes))
+                .expect("analyzed")
         }),
     ]
 }

@@ -19,20 +19,40 @@ pub enum CaseError {
     MissingGrid { grid: usize, count: usize },
     /// Data that does not read as TOML of the expected form.
     #[error("{name}: expected {expected}, found an error: {source}")]
-    Toml { name: String, expected: &'static str, source: Box<toml::de::Error> },
+    Toml {
+        name: String,
+        expected: &'static str,
+        source: Box<toml::de::Error>,
+    },
     /// A table that does not read as CSV of the expected form.
     #[error("{name}: expected {expected}, found {found}")]
-    Table { name: String, expected: String, found: String },
+    Table {
+        name: String,
+        expected: String,
+        found: String,
+    },
 }
 
 impl CaseError {
     pub(crate) fn table(name: &str, expected: String, found: impl Into<String>) -> Self {
-        Self::Table { name: name.to_owned(), expected, found: found.into() }
+        Self::Table {
+            name: name.to_owned(),
+            expected,
+            found: found.into(),
+        }
     }
 }
 
 /// Reads TOML text; `name` and what is `expected` of it stand in the error.
-pub(crate) fn read_toml<T: DeserializeOwned>(name: &str, expected: &'static str, text: &str) -> Result<T, CaseError> {
-    let wrong = |source| CaseError::Toml { name: name.to_owned(), expected, source: Box::new(source) };
+pub(crate) fn read_toml<T: DeserializeOwned>(
+    name: &str,
+    expected: &'static str,
+    text: &str,
+) -> Result<T, CaseError> {
+    let wrong = |source| CaseError::Toml {
+        name: name.to_owned(),
+        expected,
+        source: Box::new(source),
+    };
     toml::from_str(text).map_err(wrong)
 }

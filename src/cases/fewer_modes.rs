@@ -21,7 +21,16 @@ use serde::Serialize;
 pub const PUBLISHED_CASE: usize = 2;
 
 /// Test and analysis modes of the paper's runs, in the order of its Tables 10, 11 and 12.
-pub const PUBLISHED_RUNS: [(usize, usize); 8] = [(7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)];
+pub const PUBLISHED_RUNS: [(usize, usize); 8] = [
+    (7, 7),
+    (7, 9),
+    (5, 5),
+    (5, 7),
+    (5, 9),
+    (3, 5),
+    (3, 7),
+    (3, 9),
+];
 
 /// Modes beside the test modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,7 +49,11 @@ impl Agreement {
         let others = (0..all.len()).filter(|mode| !pairing.analysis_mode.contains(mode));
         let order = pairing.analysis_mode.iter().copied().chain(others);
         let frequencies_hz = order.map(|mode| all[mode]).collect();
-        Self { frequencies_hz, frequency_rms: errors.frequency_rms(), shape_rms: errors.shape_rms() }
+        Self {
+            frequencies_hz,
+            frequency_rms: errors.frequency_rms(),
+            shape_rms: errors.shape_rms(),
+        }
     }
 
     fn of(check: &Check) -> Self {
@@ -87,15 +100,30 @@ pub struct FewerModesRun {
 /// # Errors
 /// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
 /// those of the model, the analysis and the loops.
-pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) -> Result<FewerModesRun, CaseError> {
+pub fn fewer_modes_run(
+    case: &Case,
+    test_modes: usize,
+    analysis_modes: usize,
+) -> Result<FewerModesRun, CaseError> {
     let model = case.model()?;
     let all = case.test_modes()?;
     let test = all.lowest(test_modes)?;
-    let settings = Settings { least_passes: 1, most_passes: 1, ..case.settings.clone() };
+    let settings = Settings {
+        least_passes: 1,
+        most_passes: 1,
+        ..case.settings.clone()
+    };
     let ranges = model.factor_ranges()?;
-    let correlation =
-        correlate(|factors| model.analyze(factors, &test, Some(analysis_modes)), &ranges, &settings, |_, _| {})?;
-    let pass = correlation.passes.first().ok_or(Error::Empty { what: "passes" })?;
+    let correlation = correlate(
+        |factors| model.analyze(factors, &test, Some(analysis_modes)),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )?;
+    let pass = correlation
+        .passes
+        .first()
+        .ok_or(Error::Empty { what: "passes" })?;
     let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
     let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
@@ -106,7 +134,12 @@ pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) ->
         test_frequencies_hz: test.frequencies_hz(),
         iterations: pass.inner.iterations.len(),
         stop: pass.inner.stop,
-        inner_error_sums: pass.inner.iterations.iter().map(|iteration| iteration.errors.sum()).collect(),
+        inner_error_sums: pass
+            .inner
+            .iterations
+            .iter()
+            .map(|iteration| iteration.errors.sum())
+            .collect(),
         initial: Agreement::of(&correlation.initial),
         inner: Agreement::new(&last.modes, &last.pairing, &last.errors),
         exact: Agreement::of(&pass.check),
@@ -122,7 +155,10 @@ pub fn fewer_modes_run(case: &Case, test_modes: usize, analysis_modes: usize) ->
 /// # Errors
 /// Those of [`fewer_modes_run`].
 pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
-    PUBLISHED_RUNS.iter().map(|&(test, analysis)| fewer_modes_run(case, test, analysis)).collect()
+    PUBLISHED_RUNS
+        .iter()
+        .map(|&(test, analysis)| fewer_modes_run(case, test, analysis))
+        .collect()
 }
 
 /// Every pair of numbers of modes, 1 ≤ test ≤ analysis ≤ DOF, by test and then by analysis modes.
@@ -132,5 +168,7 @@ pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
 pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     let most = case.reconstruction.masses.len();
     let pairs = (1..=most).flat_map(|test| (test..=most).map(move |analysis| (test, analysis)));
-    pairs.map(|(test, analysis)| fewer_modes_run(case, test, analysis)).collect()
+    pairs
+        .map(|(test, analysis)| fewer_modes_run(case, test, analysis))
+        .collect()
 }

@@ -35,7 +35,10 @@ pub struct FitColumn {
 impl FitColumn {
     /// Relative differences of the computed frequencies from the published.
     pub fn differences(&self) -> impl Iterator<Item = f64> + '_ {
-        self.frequencies_hz.iter().zip(&self.published_hz).map(|(computed, published)| computed / published - 1.0)
+        self.frequencies_hz
+            .iter()
+            .zip(&self.published_hz)
+            .map(|(computed, published)| computed / published - 1.0)
     }
 }
 
@@ -59,16 +62,23 @@ pub struct Fit {
 pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
     let mut columns = Vec::new();
     for (number, frequency_table, gage_table, prefixes) in COLUMNS {
-        let (frequencies, gages) = (PublishedTable::number(frequency_table)?, PublishedTable::number(gage_table)?);
+        let (frequencies, gages) = (
+            PublishedTable::number(frequency_table)?,
+            PublishedTable::number(gage_table)?,
+        );
         let case = Case::on(number, reconstruction.clone())?;
         let test = case.test_modes()?;
         for prefix in prefixes {
             let rows = |table: &PublishedTable, count: usize, unit: &str| {
                 let heading = format!("{prefix}_{unit}");
-                (1..=count).map(|row| table.required(&row.to_string(), &heading)).collect::<Result<Vec<_>, _>>()
+                (1..=count)
+                    .map(|row| table.required(&row.to_string(), &heading))
+                    .collect::<Result<Vec<_>, _>>()
             };
             let model = case.model_with(&rows(&gages, PANEL_COUNT, "in")?)?;
-            let solution = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?.exact;
+            let solution = model
+                .analyze(&vec![1.0; model.parameters().len()], &test, None)?
+                .exact;
             columns.push(FitColumn {
                 case: number,
                 column: prefix.to_owned(),
@@ -80,11 +90,23 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
         }
     }
     let at = |column: &FitColumn, mode| (column.case, column.column.clone(), mode + 1);
-    let of = |column| FitColumn::differences(column).enumerate().map(move |(mode, off)| (off.abs(), at(column, mode)));
+    let of = |column| {
+        FitColumn::differences(column)
+            .enumerate()
+            .map(move |(mode, off)| (off.abs(), at(column, mode)))
+    };
     let all: Vec<_> = columns.iter().flat_map(of).collect();
     let rms = rms(&all.iter().map(|(off, _)| *off).collect::<Vec<_>>());
-    let (largest, largest_at) = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
-    Ok(Fit { columns, rms, largest, largest_at })
+    let (largest, largest_at) = all
+        .into_iter()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or_default();
+    Ok(Fit {
+        columns,
+        rms,
+        largest,
+        largest_at,
+    })
 }
 
 /// Root mean square of a list; NaN of none.

@@ -13,7 +13,9 @@ pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, CaseResult, anomaly, run_case, r
 
 use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{COVERS, PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure};
+use crate::cases::torque_box::{
+    COVERS, PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
+};
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
@@ -38,8 +40,11 @@ pub enum Grouping {
 }
 
 /// The box's substructures and their panels.
-const SUBSTRUCTURES: [(&str, &[usize]); 3] =
-    [("covers", &COVERS), ("spars", &[1, 3, 5, 6, 10, 14]), ("ribs", &[7, 12, 13])];
+const SUBSTRUCTURES: [(&str, &[usize]); 3] = [
+    ("covers", &COVERS),
+    ("spars", &[1, 3, 5, 6, 10, 14]),
+    ("ribs", &[7, 12, 13]),
+];
 
 /// A case: what the structure really is, what the model says it is, and how it is correlated.
 #[derive(Debug, Clone)]
@@ -81,25 +86,40 @@ impl Case {
         let gage_heading = format!("gage_{number}");
         let panel = |label: usize| {
             let row = label.to_string();
-            let grid = |corner: usize| Ok(table.required(&row, &format!("grid_{corner}"))? as usize);
+            let grid =
+                |corner: usize| Ok(table.required(&row, &format!("grid_{corner}"))? as usize);
             let grids = (1..=4).map(grid).collect::<Result<_, CaseError>>()?;
             let kind = match table.text(&row, &format!("type_{number}")) {
                 Some("S") => ElementKind::ShearPanel,
                 Some("M") => ElementKind::Membrane,
                 other => {
                     let expected = format!("S or M for element {label}");
-                    return Err(CaseError::table(&table.name, expected, other.unwrap_or("nothing")));
+                    return Err(CaseError::table(
+                        &table.name,
+                        expected,
+                        other.unwrap_or("nothing"),
+                    ));
                 }
             };
-            Ok(Panel { label, grids, kind, gage: table.required(&row, &gage_heading)? })
+            Ok(Panel {
+                label,
+                grids,
+                kind,
+                gage: table.required(&row, &gage_heading)?,
+            })
         };
         Ok(Self {
             number,
             reconstruction,
-            panels: (1..=PANEL_COUNT).map(panel).collect::<Result<_, CaseError>>()?,
+            panels: (1..=PANEL_COUNT)
+                .map(panel)
+                .collect::<Result<_, CaseError>>()?,
             rod_area: table.required("16-39", &gage_heading)?,
             // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
-            gage_range: (number == 3).then_some(Range { lower: 0.007, upper: 0.013 }),
+            gage_range: (number == 3).then_some(Range {
+                lower: 0.007,
+                upper: 0.013,
+            }),
             grouping: Grouping::Elements,
             settings: published_settings(number),
         })
@@ -107,8 +127,14 @@ impl Case {
 
     /// The case's settings with another reading of the step.
     pub fn settings_by(&self, step: StepRule) -> Settings {
-        let inner = InnerSettings { step, ..self.settings.inner.clone() };
-        Settings { inner, ..self.settings.clone() }
+        let inner = InnerSettings {
+            step,
+            ..self.settings.inner.clone()
+        };
+        Settings {
+            inner,
+            ..self.settings.clone()
+        }
     }
 
     /// The model of this case with other gages than its first, in inches, elements 1 to 15.
@@ -117,20 +143,42 @@ impl Case {
     /// [`crate::method::error::Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
     pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
         check_length("panel gages", gages.len(), self.panels.len())?;
-        let panels = self.panels.iter().zip(gages).map(|(panel, &gage)| Panel { gage, ..panel.clone() });
-        let structure = structure(&self.reconstruction, &panels.collect::<Vec<_>>(), self.rod_area)?;
+        let panels = self.panels.iter().zip(gages).map(|(panel, &gage)| Panel {
+            gage,
+            ..panel.clone()
+        });
+        let structure = structure(
+            &self.reconstruction,
+            &panels.collect::<Vec<_>>(),
+            self.rod_area,
+        )?;
         let t = load_distribution(&self.reconstruction)?;
-        Ok(FiniteElementModel::new(structure, t, self.reconstruction.mass(), self.parameters())?)
+        Ok(FiniteElementModel::new(
+            structure,
+            t,
+            self.reconstruction.mass(),
+            self.parameters(),
+        )?)
     }
 
     fn parameters(&self) -> Vec<Parameter> {
         if self.grouping == Grouping::Elements {
-            return self.panels.iter().map(|panel| Parameter::element(panel.label, self.gage_range)).collect();
+            return self
+                .panels
+                .iter()
+                .map(|panel| Parameter::element(panel.label, self.gage_range))
+                .collect();
         }
         // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
-        let ratio = |range: Range| Range { lower: range.lower / range.upper, upper: range.upper / range.lower };
+        let ratio = |range: Range| Range {
+            lower: range.lower / range.upper,
+            upper: range.upper / range.lower,
+        };
         let factor_range = self.gage_range.map(ratio);
-        let group = |&(name, elements): &(_, _)| Parameter { factor_range, ..Parameter::group(name, elements) };
+        let group = |&(name, elements): &(_, _)| Parameter {
+            factor_range,
+            ..Parameter::group(name, elements)
+        };
         SUBSTRUCTURES.iter().map(group).collect()
     }
 
@@ -173,7 +221,11 @@ pub fn published_passes(case: usize) -> usize {
 
 /// The reading of the step that a case of the paper was run by, as its own tables decide (`paper/interpretation.md`).
 pub fn published_reading(case: usize) -> StepRule {
-    if case == 2 || case == 3 { StepRule::Relative } else { StepRule::Own }
+    if case == 2 || case == 3 {
+        StepRule::Relative
+    } else {
+        StepRule::Own
+    }
 }
 
 /// The paper's tolerances, and by them as many passes as it takes; Case 4 is a single iteration.
@@ -183,6 +235,16 @@ pub fn published_reading(case: usize) -> StepRule {
 fn published_settings(number: usize) -> Settings {
     let (most_passes, iterations) = if number == 4 { (1, 1) } else { (10, 30) };
     let measure = ErrorMeasure::Sum;
-    let inner = InnerSettings { iterations, step: published_reading(number), measure, ..InnerSettings::default() };
-    Settings { error_sum_tolerance: inner.tolerance, inner, most_passes, ..Settings::default() }
+    let inner = InnerSettings {
+        iterations,
+        step: published_reading(number),
+        measure,
+        ..InnerSettings::default()
+    };
+    Settings {
+        error_sum_tolerance: inner.tolerance,
+        inner,
+        most_passes,
+        ..Settings::default()
+    }
 }

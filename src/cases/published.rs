@@ -43,7 +43,11 @@ impl PublishedTable {
         let name = format!("paper/tables/table_{number}.csv");
         match TABLES.iter().find(|(known, _)| *known == number) {
             Some((_, text)) => Self::parse(number, &name, text),
-            None => Err(CaseError::table(&name, "a table from 2 to 13".into(), number.to_string())),
+            None => Err(CaseError::table(
+                &name,
+                "a table from 2 to 13".into(),
+                number.to_string(),
+            )),
         }
     }
 
@@ -53,7 +57,9 @@ impl PublishedTable {
     /// [`CaseError::Table`] for rows of unequal length.
     pub fn parse(number: usize, name: &str, text: &str) -> Result<Self, CaseError> {
         // No cell of these tables holds a comma or a quote.
-        let rows = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
+        let rows = text
+            .lines()
+            .filter(|line| !line.starts_with('#') && !line.is_empty());
         let mut rows = rows.map(|line| line.split(',').map(str::to_owned));
         let headings: Vec<String> = rows.next().into_iter().flatten().skip(1).collect();
         let (mut labels, mut cells) = (Vec::new(), HashMap::new());
@@ -64,20 +70,39 @@ impl PublishedTable {
                 let expected = format!("{} cells in row {label}", headings.len());
                 return Err(CaseError::table(name, expected, row.len().to_string()));
             }
-            let keys = headings.iter().map(|heading| (label.clone(), heading.clone()));
+            let keys = headings
+                .iter()
+                .map(|heading| (label.clone(), heading.clone()));
             cells.extend(keys.zip(row));
             labels.push(label);
         }
-        let title = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned();
+        let title = text
+            .lines()
+            .next()
+            .and_then(|line| line.strip_prefix("# "))
+            .unwrap_or_default()
+            .to_owned();
         let comments = text.lines().filter_map(|line| line.strip_prefix("# "));
-        let remarks = comments.filter(|comment| REMARKS.iter().any(|kind| comment.starts_with(kind)));
+        let remarks =
+            comments.filter(|comment| REMARKS.iter().any(|kind| comment.starts_with(kind)));
         let remarks = remarks.map(str::to_owned).collect();
-        Ok(Self { number, title, remarks, name: name.to_owned(), headings, labels, cells })
+        Ok(Self {
+            number,
+            title,
+            remarks,
+            name: name.to_owned(),
+            headings,
+            labels,
+            cells,
+        })
     }
 
     /// A cell's text; `None` where the paper prints nothing or has no such row or column.
     pub fn text(&self, label: &str, heading: &str) -> Option<&str> {
-        self.cells.get(&(label.to_owned(), heading.to_owned())).map(String::as_str).filter(|cell| !cell.is_empty())
+        self.cells
+            .get(&(label.to_owned(), heading.to_owned()))
+            .map(String::as_str)
+            .filter(|cell| !cell.is_empty())
     }
 
     /// A cell's number; `None` where there is none.
@@ -92,7 +117,11 @@ impl PublishedTable {
     pub fn required(&self, label: &str, heading: &str) -> Result<f64, CaseError> {
         self.value(label, heading).ok_or_else(|| {
             let expected = format!("a number in row {label}, column {heading}");
-            CaseError::table(&self.name, expected, self.text(label, heading).unwrap_or("nothing"))
+            CaseError::table(
+                &self.name,
+                expected,
+                self.text(label, heading).unwrap_or("nothing"),
+            )
         })
     }
 }

@@ -16,7 +16,12 @@ use nalgebra::DVector;
 use serde::Serialize;
 
 /// The readings of the step that the tables are asked about, the library's own first.
-pub const READINGS: [StepRule; 4] = [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage];
+pub const READINGS: [StepRule; 4] = [
+    StepRule::Matrix,
+    StepRule::Own,
+    StepRule::Relative,
+    StepRule::Gage,
+];
 
 /// A column of the paper's gages as one reading has it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,14 +54,19 @@ impl ReadingColumn {
         rms: [f64; 2],
     ) -> Result<Self, CaseError> {
         let paper = PublishedTable::number(table)?;
-        let printed = |panel: usize| Ok(paper.required(&panel.to_string(), &format!("{stage}_in"))? / TEST_GAGE - 1.0);
+        let printed = |panel: usize| {
+            Ok(paper.required(&panel.to_string(), &format!("{stage}_in"))? / TEST_GAGE - 1.0)
+        };
         Ok(Self {
             reading: case.settings.inner.step,
             table,
             gages_in: gages.to_vec(),
-            published_errors: (1..=PANEL_COUNT).map(printed).collect::<Result<_, CaseError>>()?,
+            published_errors: (1..=PANEL_COUNT)
+                .map(printed)
+                .collect::<Result<_, CaseError>>()?,
             iterations,
-            gage_rms: [ElementKind::ShearPanel, ElementKind::Membrane].map(|kind| gage_rms(&case.panels, gages, kind)),
+            gage_rms: [ElementKind::ShearPanel, ElementKind::Membrane]
+                .map(|kind| gage_rms(&case.panels, gages, kind)),
             rms,
             stage,
         })
@@ -73,14 +83,19 @@ impl ReadingColumn {
             let errors = DVector::from_vec(errors);
             errors.add_scalar(-errors.mean())
         };
-        let (found, printed) = (about_mean(self.errors().collect()), about_mean(self.published_errors.clone()));
+        let (found, printed) = (
+            about_mean(self.errors().collect()),
+            about_mean(self.published_errors.clone()),
+        );
         found.dot(&printed) / (found.norm() * printed.norm())
     }
 
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
     pub fn difference(&self) -> f64 {
         let pairs = self.errors().zip(&self.published_errors);
-        rms(&pairs.map(|(error, printed)| error - printed).collect::<Vec<_>>())
+        rms(&pairs
+            .map(|(error, printed)| error - printed)
+            .collect::<Vec<_>>())
     }
 }
 
@@ -90,8 +105,18 @@ impl ReadingColumn {
 /// Those of [`run_case`].
 pub fn run_by_reading(case: &Case, reading: StepRule) -> Result<CaseResult, CaseError> {
     let passes = published_passes(case.number);
-    let settings = Settings { least_passes: passes, most_passes: passes, ..case.settings_by(reading) };
-    run_case(&Case { settings, ..case.clone() }, |_, _| {})
+    let settings = Settings {
+        least_passes: passes,
+        most_passes: passes,
+        ..case.settings_by(reading)
+    };
+    run_case(
+        &Case {
+            settings,
+            ..case.clone()
+        },
+        |_, _| {},
+    )
 }
 
 /// The gages of a run beside the paper's, one column a pass that the paper prints; none for Case 4.
@@ -104,10 +129,24 @@ pub fn columns_of(result: &CaseResult) -> Result<Vec<ReadingColumn>, CaseError> 
         1..=3 => 2 * case.number + 2,
         _ => return Ok(Vec::new()),
     };
-    let passes = result.correlation.passes.iter().zip(&result.pass_gages).take(published_passes(case.number));
+    let passes = result
+        .correlation
+        .passes
+        .iter()
+        .zip(&result.pass_gages)
+        .take(published_passes(case.number));
     let column = |(row, (pass, gages)): (usize, (&Pass, &Vec<f64>))| {
-        let rms = [pass.check.errors.frequency_rms(), pass.check.errors.shape_rms()];
-        ReadingColumn::new(case, (table, format!("pass_{}", row + 1)), gages, pass.inner.iterations.len(), rms)
+        let rms = [
+            pass.check.errors.frequency_rms(),
+            pass.check.errors.shape_rms(),
+        ];
+        ReadingColumn::new(
+            case,
+            (table, format!("pass_{}", row + 1)),
+            gages,
+            pass.inner.iterations.len(),
+            rms,
+        )
     };
     passes.enumerate().map(column).collect()
 }
@@ -132,16 +171,25 @@ const FAULTY_ELEMENT: usize = 8;
 ///
 /// # Errors
 /// Those of [`run_by_reading`].
-pub fn detection(reconstruction: &Reconstruction, reading: StepRule) -> Result<Detection, CaseError> {
+pub fn detection(
+    reconstruction: &Reconstruction,
+    reading: StepRule,
+) -> Result<Detection, CaseError> {
     let result = run_by_reading(&Case::on(4, reconstruction.clone())?, reading)?;
     let factors = result.unlimited_factors().to_vec();
     let faulty = FAULTY_ELEMENT - 1;
-    let others = factors.iter().enumerate().filter(|(element, _)| *element != faulty).map(|(_, factor)| *factor);
+    let others = factors
+        .iter()
+        .enumerate()
+        .filter(|(element, _)| *element != faulty)
+        .map(|(_, factor)| *factor);
     Ok(Detection {
         reading,
         factor: factors[faulty],
         next: others.fold(f64::MIN, f64::max),
-        is_reported: result.anomaly.is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
+        is_reported: result
+            .anomaly
+            .is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
     })
 }
 
@@ -159,11 +207,19 @@ pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>
         let mut case = Case::on(PUBLISHED_CASE, reconstruction.clone())?;
         case.settings = case.settings_by(reading);
         for run in published_runs(&case)? {
-            let table = [(7, 10), (5, 11), (3, 12)].into_iter().find(|(modes, _)| *modes == run.test_modes);
+            let table = [(7, 10), (5, 11), (3, 12)]
+                .into_iter()
+                .find(|(modes, _)| *modes == run.test_modes);
             let table = table.map_or(0, |(_, table)| table);
             let rms = [run.inner.frequency_rms, run.inner.shape_rms];
             let stage = format!("fem_{}", run.analysis_modes);
-            columns.push(ReadingColumn::new(&case, (table, stage), &run.gages_in, run.iterations, rms)?);
+            columns.push(ReadingColumn::new(
+                &case,
+                (table, stage),
+                &run.gages_in,
+                run.iterations,
+                rms,
+            )?);
         }
     }
     Ok(columns)

@@ -51,7 +51,10 @@ pub struct CaseResult {
 impl CaseResult {
     /// Unlimited factors of the first iteration, one per parameter.
     pub fn unlimited_factors(&self) -> &[f64] {
-        self.correlation.passes.first().map_or(&[], |pass| &pass.inner.first_unlimited_factors)
+        self.correlation
+            .passes
+            .first()
+            .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
     /// Whether the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
@@ -63,7 +66,11 @@ impl CaseResult {
     /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
     /// faulty element.
     pub fn succeeded(&self) -> bool {
-        if self.is_detection() { self.anomaly.is_some() } else { self.correlation.converged }
+        if self.is_detection() {
+            self.anomaly.is_some()
+        } else {
+            self.correlation.converged
+        }
     }
 }
 
@@ -92,17 +99,31 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     let ones = vec![1.0; tested.parameters().len()];
     let test = ModeSet::from(elements(&tested, &ones)?.modes(&ones)?);
     let correlation = correlate(
-        |factors| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) },
+        |factors| -> Result<ModalModel, E> {
+            Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+        },
         &model.factor_ranges()?,
         &case.settings,
         progress,
     )?;
-    let pass_gages = correlation.passes.iter().map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
+    let pass_gages = correlation
+        .passes
+        .iter()
+        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
     let pass_gages = pass_gages.collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
     let first = correlation.passes.first();
-    let anomaly = first.and_then(|pass| anomaly(&parameter_names, &pass.inner.first_unlimited_factors));
-    Ok(CaseResult { case: case.clone(), solver, test, correlation, parameter_names, pass_gages, anomaly })
+    let anomaly =
+        first.and_then(|pass| anomaly(&parameter_names, &pass.inner.first_unlimited_factors));
+    Ok(CaseResult {
+        case: case.clone(),
+        solver,
+        test,
+        correlation,
+        parameter_names,
+        pass_gages,
+        anomaly,
+    })
 }
 
 /// The parameter whose unlimited factor stands out from all others, by [`ANOMALY_RATIO`]: in all likelihood it was modeled far too
@@ -112,5 +133,9 @@ pub fn anomaly(names: &[String], unlimited_factors: &[f64]) -> Option<Anomaly> {
     order.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (&(factor, name), others) = order.split_first()?;
     let ratio = factor / others.first().map_or(1.0, |next| next.0.max(1.0));
-    (ratio > ANOMALY_RATIO).then_some(Anomaly { parameter: name.clone(), factor, ratio })
+    (ratio > ANOMALY_RATIO).then_some(Anomaly {
+        parameter: name.clone(),
+        factor,
+        ratio,
+    })
 }

@@ -97,12 +97,19 @@ impl TwoMasses {
 pub fn formulae(orders: usize) -> Vec<Formula> {
     let recursive_1 = (2..=orders).map(|order| Formula::Recursive1 { order });
     let recursive_2 = (2..=orders).map(|order| Formula::Recursive2 { order });
-    [Formula::FirstOrder, Formula::Original].into_iter().chain(recursive_1).chain(recursive_2).collect()
+    [Formula::FirstOrder, Formula::Original]
+        .into_iter()
+        .chain(recursive_1)
+        .chain(recursive_2)
+        .collect()
 }
 
 /// The problems of the printed table: couplings from a quarter to twice a ground spring, changes from −50 to +100 %.
 pub fn problems() -> Vec<TwoMasses> {
     let couplings = [0.25, 0.5, 1.0, 2.0];
     let changes = [-0.5, -0.2, 0.1, 0.2, 0.5, 1.0];
-    couplings.into_iter().flat_map(|coupling| changes.map(|change| TwoMasses { coupling, change })).collect()
+    couplings
+        .into_iter()
+        .flat_map(|coupling| changes.map(|change| TwoMasses { coupling, change }))
+        .collect()
 }

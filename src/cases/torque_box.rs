@@ -50,7 +50,10 @@ impl Reconstruction {
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
     pub fn embedded() -> Result<Self, CaseError> {
-        Self::parse("paper/reconstruction.toml", include_str!("../../paper/reconstruction.toml"))
+        Self::parse(
+            "paper/reconstruction.toml",
+            include_str!("../../paper/reconstruction.toml"),
+        )
     }
 
     /// Reads a box from TOML text; `name` stands in error messages.
@@ -64,16 +67,27 @@ impl Reconstruction {
         check_length("box grids", read.grids.len(), GRID_COUNT)?;
         check_length("box masses", read.masses.len(), 3 * FREE_RIBS)?;
         if let Some(grid) = (1..=GRID_COUNT).find(|grid| !read.grids.contains_key(grid)) {
-            return Err(CaseError::MissingGrid { grid, count: GRID_COUNT });
+            return Err(CaseError::MissingGrid {
+                grid,
+                count: GRID_COUNT,
+            });
         }
         let fraction = read.mid_chord_fraction;
-        setting("mid_chord_fraction", "a number between 0 and 1", fraction, fraction > 0.0 && fraction < 1.0)?;
+        setting(
+            "mid_chord_fraction",
+            "a number between 0 and 1",
+            fraction,
+            fraction > 0.0 && fraction < 1.0,
+        )?;
         Ok(read)
     }
 
     /// Position of a grid, in.
     fn at(&self, grid: usize) -> Result<Vector3<f64>, CaseError> {
-        let position = self.grids.get(&grid).ok_or(CaseError::MissingGrid { grid, count: GRID_COUNT })?;
+        let position = self.grids.get(&grid).ok_or(CaseError::MissingGrid {
+            grid,
+            count: GRID_COUNT,
+        })?;
         Ok(Vector3::from(*position))
     }
 
@@ -98,8 +112,13 @@ pub struct Panel {
 
 /// RMS relative error of the gages of one kind of panel against [`TEST_GAGE`]; NaN when there is none of the kind.
 pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
-    let gages = panels.iter().zip(gages).filter(|(panel, _)| panel.kind == kind);
-    rms(&gages.map(|(_, gage)| gage / TEST_GAGE - 1.0).collect::<Vec<_>>())
+    let gages = panels
+        .iter()
+        .zip(gages)
+        .filter(|(panel, _)| panel.kind == kind);
+    rms(&gages
+        .map(|(_, gage)| gage / TEST_GAGE - 1.0)
+        .collect::<Vec<_>>())
 }
 
 /// The 24 rods, by their end grids, elements 16 to 39: twelve spar caps (rear upper, rear lower, front upper,
@@ -107,7 +126,9 @@ pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
 pub fn rod_ends() -> Vec<[usize; 2]> {
     let mut rods = Vec::new();
     for line in 1..=RIB_GRIDS {
-        rods.extend((0..FREE_RIBS).map(|rib| [line + RIB_GRIDS * rib, line + RIB_GRIDS * (rib + 1)]));
+        rods.extend(
+            (0..FREE_RIBS).map(|rib| [line + RIB_GRIDS * rib, line + RIB_GRIDS * (rib + 1)]),
+        );
     }
     for rib in 0..FREE_RIBS {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
@@ -126,14 +147,31 @@ fn rib_grids(rib: usize) -> [usize; 4] {
 ///
 /// # Errors
 /// Those of [`Material::isotropic`] and [`Structure::new`].
-pub fn structure(reconstruction: &Reconstruction, panels: &[Panel], rod_area: f64) -> Result<Structure, Error> {
-    let material = Material::isotropic(reconstruction.youngs_modulus, reconstruction.poissons_ratio)?;
+pub fn structure(
+    reconstruction: &Reconstruction,
+    panels: &[Panel],
+    rod_area: f64,
+) -> Result<Structure, Error> {
+    let material =
+        Material::isotropic(reconstruction.youngs_modulus, reconstruction.poissons_ratio)?;
     let grids = reconstruction.grids.iter().map(|(&label, &position)| {
         let constrained = [label >= FIRST_FIXED_GRID; 3];
-        Grid { label, position: Vector3::from(position), constrained }
+        Grid {
+            label,
+            position: Vector3::from(position),
+            constrained,
+        }
     });
-    let element = |label, kind, grids, size| Element { label, kind, grids, size, material };
-    let panels = panels.iter().map(|panel| element(panel.label, panel.kind, panel.grids.clone(), panel.gage));
+    let element = |label, kind, grids, size| Element {
+        label,
+        kind,
+        grids,
+        size,
+        material,
+    };
+    let panels = panels
+        .iter()
+        .map(|panel| element(panel.label, panel.kind, panel.grids.clone(), panel.gage));
     let rods = (PANEL_COUNT + 1..).zip(rod_ends());
     let rods = rods.map(|(label, ends)| element(label, ElementKind::Rod, ends.to_vec(), rod_area));
     Structure::new(grids.collect(), panels.chain(rods).collect())
@@ -190,7 +228,11 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
 }
 
 fn nonzero(length: f64) -> Result<f64, Error> {
-    if length > 0.0 { Ok(length) } else { Err(Error::ZeroLength(length)) }
+    if length > 0.0 {
+        Ok(length)
+    } else {
+        Err(Error::ZeroLength(length))
+    }
 }
 
 /// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
@@ -198,11 +240,23 @@ fn nonzero(length: f64) -> Result<f64, Error> {
 /// # Errors
 /// [`CaseError::MissingGrid`] for a box without a grid it must have.
 pub fn dynamic_points(reconstruction: &Reconstruction) -> Result<Vec<Vector3<f64>>, CaseError> {
-    let middle = |one, other| Ok::<_, CaseError>(0.5 * (reconstruction.at(one)? + reconstruction.at(other)?));
+    let middle = |one, other| {
+        Ok::<_, CaseError>(0.5 * (reconstruction.at(one)? + reconstruction.at(other)?))
+    };
     let of_rib = |rib| {
         let [rear_upper, rear_lower, front_upper, front_lower] = rib_grids(rib);
-        let (rear, front) = (middle(rear_upper, rear_lower)?, middle(front_upper, front_lower)?);
-        Ok([rear, rear + reconstruction.mid_chord_fraction * (front - rear), front])
+        let (rear, front) = (
+            middle(rear_upper, rear_lower)?,
+            middle(front_upper, front_lower)?,
+        );
+        Ok([
+            rear,
+            rear + reconstruction.mid_chord_fraction * (front - rear),
+            front,
+        ])
     };
-    Ok((0..FREE_RIBS).map(of_rib).collect::<Result<Vec<_>, CaseError>>()?.concat())
+    Ok((0..FREE_RIBS)
+        .map(of_rib)
+        .collect::<Result<Vec<_>, CaseError>>()?
+        .concat())
 }

@@ -72,7 +72,9 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
     let (xb, yb) = meeting_of_sides_14_23(plane);
     let l = (xa - xb).hypot(yb);
     let d = (xa - xb) / yb;
-    let p = plane.corners.map(|corner| yb / l * (xa - corner.x - d * corner.y));
+    let p = plane
+        .corners
+        .map(|corner| yb / l * (xa - corner.x - d * corner.y));
     let c = l / p[0] - d;
     let b = l / p[3] - c;
     let a = l / p[1] - d;
@@ -81,7 +83,8 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
         odd * (u + v).abs().ln()
     };
     let powers = |n: i32, m: i32| {
-        (a.powi(n) - c.powi(n)) * (b.powi(m) - d.powi(m)) + (b.powi(n) - d.powi(n)) * (a.powi(m) - c.powi(m))
+        (a.powi(n) - c.powi(n)) * (b.powi(m) - d.powi(m))
+            + (b.powi(n) - d.powi(n)) * (a.powi(m) - c.powi(m))
     };
     let f = p.iter().product::<f64>() / (2.0 * l * l)
         * (w(a, b) + w(c, d) - w(b, c) - w(d, a) + 0.1 * powers(2, 3) - 0.2 * powers(1, 4));
@@ -132,7 +135,9 @@ pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) 
         ChainEnds::FixedFree => (2.0 * j - 1.0) / (2.0 * n + 1.0),
         ChainEnds::FreeFree => (j - 1.0) / n,
     };
-    (1..=count).map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2)).collect()
+    (1..=count)
+        .map(|j| 4.0 * spring / mass * (0.5 * PI * share(j as f64)).sin().powi(2))
+        .collect()
 }
 
 /// Frequencies of a uniform rod fixed at one end, vibrating along itself, ascending, Hz.
@@ -142,7 +147,14 @@ pub fn chain_eigenvalues(ends: ChainEnds, count: usize, spring: f64, mass: f64) 
 /// `length` in inches, `youngs_modulus` in lbf/in², `density` (mass per volume) in lbf·s²/in⁴.
 ///
 /// Source: Timoshenko, Young and Weaver, *Vibration Problems in Engineering*.
-pub fn fixed_free_rod_frequencies_hz(length: f64, youngs_modulus: f64, density: f64, count: usize) -> Vec<f64> {
+pub fn fixed_free_rod_frequencies_hz(
+    length: f64,
+    youngs_modulus: f64,
+    density: f64,
+    count: usize,
+) -> Vec<f64> {
     let fundamental = (youngs_modulus / density).sqrt() / (4.0 * length);
-    (1..=count).map(|j| (2 * j - 1) as f64 * fundamental).collect()
+    (1..=count)
+        .map(|j| (2 * j - 1) as f64 * fundamental)
+        .collect()
 }

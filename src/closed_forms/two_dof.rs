@@ -22,7 +22,10 @@ use nalgebra::{DMatrix, DVector, dvector};
 ///
 /// # Errors
 /// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass.
-pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<[f64; 2], Error> {
+pub fn squared_frequencies(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+) -> Result<[f64; 2], Error> {
     check_shape("stiffness", stiffness, 2, 2)?;
     check_symmetric("stiffness", stiffness)?;
     check_shape("mass", mass, 2, 2)?;
@@ -30,7 +33,8 @@ pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Res
     let [k11, k12, k22] = entries(stiffness);
     let [m11, m12, m22] = entries(mass);
     let b = k11 * m22 + k22 * m11 - 2.0 * k12 * m12;
-    let discriminant = (k11 * m22 - k22 * m11).powi(2) + 4.0 * (k12 * m11 - k11 * m12) * (k12 * m22 - k22 * m12);
+    let discriminant =
+        (k11 * m22 - k22 * m11).powi(2) + 4.0 * (k12 * m11 - k11 * m12) * (k12 * m22 - k22 * m12);
     // The discriminant of a symmetric pencil is never negative; round-off may make it so.
     let numerator = (b + discriminant.max(0.0).sqrt().copysign(b)) / 2.0;
     if numerator == 0.0 {
@@ -55,7 +59,10 @@ pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Res
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotAVibration`] for bad input;
 /// [`Error::LostRoot`] when the change leaves no positive root.
-pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
+pub fn perturbed(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
     check_shape("generalized stiffness change", beta, 2, 2)?;
     check_symmetric("generalized stiffness change", beta)?;
     check_input(generalized_stiffness, beta)?;
@@ -63,9 +70,16 @@ pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> R
     let a = generalized_stiffness[0] + beta11;
     let d = generalized_stiffness[1] + beta22;
     let tau = (d - a) / (2.0 * b);
-    let tangent = if b == 0.0 { 0.0 } else { (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau) };
+    let tangent = if b == 0.0 {
+        0.0
+    } else {
+        (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau)
+    };
     let roots = dvector![1.0 / (a - tangent * b), 1.0 / (d + tangent * b)];
-    let perturbed = Perturbed { roots, shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]) };
+    let perturbed = Perturbed {
+        roots,
+        shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]),
+    };
     perturbed.check_roots()?;
     Ok(perturbed)
 }

@@ -16,11 +16,23 @@ pub enum FileError {
     Method(#[from] crate::method::error::Error),
     /// A line of a deck or of a test's file that is not what it must be.
     #[error("{file}, line {line}: expected {expected}, found {found}")]
-    DeckLine { file: String, line: usize, expected: &'static str, found: String },
+    DeckLine {
+        file: String,
+        line: usize,
+        expected: &'static str,
+        found: String,
+    },
     /// A field of a bulk data card that is not what it must be: number 2 to 9 on the card's first line, 12 to 19 on its first
     /// continuation, and so on.
     #[error("{file}, line {line}: card {card}, field {field}: expected {expected}, found {found}")]
-    DeckField { file: String, line: usize, card: String, field: usize, expected: String, found: String },
+    DeckField {
+        file: String,
+        line: usize,
+        card: String,
+        field: usize,
+        expected: String,
+        found: String,
+    },
     /// Cards that may be part of the model and are not understood.
     #[error(
         "{file}: expected cards that are read here, found {}; they may carry stiffness, mass, supports or coordinates: \
@@ -34,7 +46,12 @@ pub enum FileError {
         "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \
          freedom with mass among {free} free ones"
     )]
-    TooManyMasses { most: f64, needed: f64, masses: usize, free: usize },
+    TooManyMasses {
+        most: f64,
+        needed: f64,
+        masses: usize,
+        free: usize,
+    },
     /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness
     /// matrix, lbf/in, with its number.
     #[error(
@@ -42,7 +59,11 @@ pub enum FileError {
          {:.3e} in element {}",
         .stiffest.0, .stiffest.1, .softest.0, .softest.1
     )]
-    StiffnessRange { most: f64, softest: (f64, usize), stiffest: (f64, usize) },
+    StiffnessRange {
+        most: f64,
+        softest: (f64, usize),
+        stiffest: (f64, usize),
+    },
     /// Modes whose frequencies are too far above the lowest for double precision; the smallest and the largest mass, lbf·s²/in,
     /// with its grid and direction.
     #[error(
@@ -50,13 +71,28 @@ pub enum FileError {
          million times the lowest are lost, for the masses go from {:.3e} at {} to {:.3e} at {}",
         .lightest.0, .lightest.1, .heaviest.0, .heaviest.1
     )]
-    LostModes { expected: usize, found: usize, lightest: (f64, String), heaviest: (f64, String) },
+    LostModes {
+        expected: usize,
+        found: usize,
+        lightest: (f64, String),
+        heaviest: (f64, String),
+    },
     /// An element at a degree of freedom that an MPC equation makes dependent.
-    #[error("element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}")]
-    TiedElement { element: usize, grid: usize, direction: char },
+    #[error(
+        "element {element}: expected its grids free of MPC equations, found grid {grid} tied along {direction}"
+    )]
+    TiedElement {
+        element: usize,
+        grid: usize,
+        direction: char,
+    },
     /// A job, what it names, or what else is asked for, that is not what it must be.
     #[error("{of}: expected {expected}, found {found}")]
-    Input { of: String, expected: String, found: String },
+    Input {
+        of: String,
+        expected: String,
+        found: String,
+    },
     /// A request to stop a correlation.
     #[error("correlation: expected to go on, found a request to stop")]
     Interrupted,
@@ -83,30 +119,66 @@ pub enum FileError {
     SolverAnswer { expected: String, found: String },
     /// A file that the operating system refuses to read, write, run or remove.
     #[error("{path}: expected to {action} it, found an error: {source}")]
-    File { path: PathBuf, action: &'static str, source: std::io::Error },
+    File {
+        path: PathBuf,
+        action: &'static str,
+        source: std::io::Error,
+    },
 }
 
 impl FileError {
-    pub(crate) fn line(file: &str, line: usize, expected: &'static str, found: impl Into<String>) -> Self {
-        Self::DeckLine { file: file.to_owned(), line, expected, found: found.into() }
+    pub(crate) fn line(
+        file: &str,
+        line: usize,
+        expected: &'static str,
+        found: impl Into<String>,
+    ) -> Self {
+        Self::DeckLine {
+            file: file.to_owned(),
+            line,
+            expected,
+            found: found.into(),
+        }
     }
 
     /// An error about one of the lines of a file, counted from zero, or about its end.
     pub(crate) fn at(file: &str, lines: &[&str], at: usize, expected: &'static str) -> Self {
-        Self::line(file, at + 1, expected, lines.get(at).map_or("the end of the file", |line| line.trim()))
+        Self::line(
+            file,
+            at + 1,
+            expected,
+            lines
+                .get(at)
+                .map_or("the end of the file", |line| line.trim()),
+        )
     }
 
     pub(crate) fn answer(expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self::SolverAnswer { expected: expected.into(), found: found.into() }
+        Self::SolverAnswer {
+            expected: expected.into(),
+            found: found.into(),
+        }
     }
 
-    pub(crate) fn input(of: impl ToString, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self::Input { of: of.to_string(), expected: expected.into(), found: found.into() }
+    pub(crate) fn input(
+        of: impl ToString,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> Self {
+        Self::Input {
+            of: of.to_string(),
+            expected: expected.into(),
+            found: found.into(),
+        }
     }
 
     /// Turns the operating system's error about a file into this one, for `map_err`.
     pub fn of_file(path: &Path, action: &'static str) -> impl Fn(std::io::Error) -> Self + use<> {
         let path = path.to_owned();
-        move |source| Self::File { path: path.clone(), action, source }
+        move |source| Self::File {
+            path: path.clone(),
+            action,
+            source,
+        }
     }
 }

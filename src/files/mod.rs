@@ -10,5 +10,13 @@ pub mod test_data;
 /// A text with control characters shown as Rust writes them, but for line ends and tabs: a terminal would obey them.
 pub fn escaped(text: &str) -> String {
     let shown = |c: char| c.is_control() && c != '\n' && c != '\t';
-    text.chars().map(|c| if shown(c) { c.escape_default().to_string() } else { c.to_string() }).collect()
+    text.chars()
+        .map(|c| {
+            if shown(c) {
+                c.escape_default().to_string()
+            } else {
+                c.to_string()
+            }
+        })
+        .collect()
 }

@@ -36,10 +36,18 @@ pub struct Condensed {
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
 #[doc = include_str!("../../paper/examples/appendix_a/condense.md")]
-pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f64>) -> Result<Condensed, Error> {
+pub fn condense(
+    structural: &FactorizedStiffness,
+    load_distribution: &DMatrix<f64>,
+) -> Result<Condensed, Error> {
     let loads = LoadDistribution::of(load_distribution)?;
     let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-    Ok(Condensed { transformation: structural.solve_transposed(&loads.times(&stiffness))?.transpose(), stiffness })
+    Ok(Condensed {
+        transformation: structural
+            .solve_transposed(&loads.times(&stiffness))?
+            .transpose(),
+        stiffness,
+    })
 }
 
 /// The dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
@@ -47,9 +55,16 @@ pub fn condense(structural: &FactorizedStiffness, load_distribution: &DMatrix<f6
 /// # Errors
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
 pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    let lower = cholesky("dynamic flexibility", flexibility, SMALLEST_FLEXIBILITY_PIVOT)
-        .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
-    let inverse_factor = solve_lower(&lower, DMatrix::identity(flexibility.nrows(), flexibility.nrows()));
+    let lower = cholesky(
+        "dynamic flexibility",
+        flexibility,
+        SMALLEST_FLEXIBILITY_PIVOT,
+    )
+    .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
+    let inverse_factor = solve_lower(
+        &lower,
+        DMatrix::identity(flexibility.nrows(), flexibility.nrows()),
+    );
     finite("dynamic stiffness", inverse_factor.tr_mul(&inverse_factor))
 }
 
@@ -68,9 +83,16 @@ pub(crate) fn generalized_stiffness<'a>(
     let (mut amplitudes, mut rest, mut deformation) = (Vec::new(), Vec::new(), Vec::new());
     for (ElementMatrix { dof, unit, .. }, size) in members {
         let through = |weights: &[f64], scale: f64, force: &mut [f64]| {
-            for (&dof, &weight) in dof.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            for (&dof, &weight) in dof
+                .iter()
+                .zip(weights)
+                .filter(|(_, weight)| **weight != 0.0)
+            {
                 let (weight, motion) = (scale * weight, &shapes[dof * count..][..count]);
-                force.iter_mut().zip(motion).for_each(|(sum, motion)| *sum += weight * motion);
+                force
+                    .iter_mut()
+                    .zip(motion)
+                    .for_each(|(sum, motion)| *sum += weight * motion);
             }
         };
         rest.clear();
@@ -80,14 +102,23 @@ pub(crate) fn generalized_stiffness<'a>(
         while let Some(pivot) = take_deformation(&mut rest, dof.len(), smallest, &mut deformation) {
             let start = amplitudes.len();
             amplitudes.resize(start + count, 0.0);
-            through(&deformation, (size / pivot).sqrt(), &mut amplitudes[start..]);
+            through(
+                &deformation,
+                (size / pivot).sqrt(),
+                &mut amplitudes[start..],
+            );
         }
         // A matrix that is not semidefinite leaves something that no pivot explains.
         for (&dof, column) in dof.iter().zip(rest.chunks(dof.len().max(1))) {
             if column.iter().any(|entry| entry.abs() > smallest) {
                 let mut force = vec![0.0; count];
                 through(column, size, &mut force);
-                sum.syger(1.0, &DVector::from_vec(force), &transposed_shapes.column(dof), 1.0);
+                sum.syger(
+                    1.0,
+                    &DVector::from_vec(force),
+                    &transposed_shapes.column(dof),
+                    1.0,
+                );
             }
         }
         if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
@@ -101,14 +132,26 @@ pub(crate) fn generalized_stiffness<'a>(
 }
 
 /// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
-fn take_deformation(matrix: &mut [f64], order: usize, smallest: f64, column: &mut Vec<f64>) -> Option<f64> {
+fn take_deformation(
+    matrix: &mut [f64],
+    order: usize,
+    smallest: f64,
+    column: &mut Vec<f64>,
+) -> Option<f64> {
     let diagonal = |at: usize| matrix[at * (order + 1)];
     let pivot = (0..order).max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
     let value = Some(diagonal(pivot)).filter(|value| *value > smallest && value.is_finite())?;
     column.clear();
     column.extend_from_slice(&matrix[pivot * order..][..order]);
-    for (entries, factor) in matrix.chunks_exact_mut(order).zip(column.iter()).filter(|(_, factor)| **factor != 0.0) {
-        entries.iter_mut().zip(column.iter()).for_each(|(entry, of)| *entry -= of * factor / value);
+    for (entries, factor) in matrix
+        .chunks_exact_mut(order)
+        .zip(column.iter())
+        .filter(|(_, factor)| **factor != 0.0)
+    {
+        entries
+            .iter_mut()
+            .zip(column.iter())
+            .for_each(|(entry, of)| *entry -= of * factor / value);
     }
     Some(value)
 }

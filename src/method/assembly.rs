@@ -22,17 +22,29 @@ pub struct ElementMatrix {
 }
 
 /// Refuses elements that do not fit their sizes or the DOF that there are.
-pub(crate) fn check_elements(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<(), Error> {
+pub(crate) fn check_elements(
+    elements: &[ElementMatrix],
+    sizes: &[f64],
+    dof_count: usize,
+) -> Result<(), Error> {
     check_length("element sizes", sizes.len(), elements.len())?;
-    elements.iter().try_for_each(|element| check_element(element, dof_count))
+    elements
+        .iter()
+        .try_for_each(|element| check_element(element, dof_count))
 }
 
 /// Refuses an element that does not fit the DOF that there are.
 pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result<(), Error> {
-    let ElementMatrix { dof, unit, unit_mass, .. } = element;
+    let ElementMatrix {
+        dof,
+        unit,
+        unit_mass,
+        ..
+    } = element;
     check_shape("element stiffness", unit, dof.len(), dof.len())?;
     check_length("element mass", unit_mass.len(), dof.len())?;
-    dof.iter().try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
+    dof.iter()
+        .try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
 }
 
 /// Unit stiffness and mass of every element, restricted to the free DOF, in the structure's order.
@@ -42,16 +54,32 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 #[doc = include_str!("../../paper/examples/assembly/element_matrices.md")]
 pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Error> {
     let of_element = |element: &Element| {
-        let &Element { label, kind, ref grids, material, .. } = element;
+        let &Element {
+            label,
+            kind,
+            ref grids,
+            material,
+            ..
+        } = element;
         let corners = structure.corners(element);
-        let full = unit_stiffness(kind, &corners, &material).map_err(|error| error.in_element(label))?;
+        let full =
+            unit_stiffness(kind, &corners, &material).map_err(|error| error.in_element(label))?;
         let volumes = corner_volumes(kind, &corners)?;
-        let all = grids.iter().flat_map(|&grid| (0..3).map(move |direction| structure.free_dof_index(grid, direction)));
-        let (local, dof): (Vec<usize>, Vec<usize>) =
-            all.enumerate().filter_map(|(local, dof)| Some((local, dof?))).unzip();
+        let all = grids.iter().flat_map(|&grid| {
+            (0..3).map(move |direction| structure.free_dof_index(grid, direction))
+        });
+        let (local, dof): (Vec<usize>, Vec<usize>) = all
+            .enumerate()
+            .filter_map(|(local, dof)| Some((local, dof?)))
+            .unzip();
         let unit_mass = local.iter().map(|&row| material.density * volumes[row / 3]);
         let unit_mass = DVector::from_iterator(local.len(), unit_mass);
-        Ok(ElementMatrix { label, unit_mass, unit: full.select_rows(&local).select_columns(&local), dof })
+        Ok(ElementMatrix {
+            label,
+            unit_mass,
+            unit: full.select_rows(&local).select_columns(&local),
+            dof,
+        })
     };
     structure.elements().iter().map(of_element).collect()
 }
@@ -63,10 +91,17 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF; [`Error::NotFinite`].
 #[doc = include_str!("../../paper/examples/assembly/dense_stiffness.md")]
-pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DMatrix<f64>, Error> {
+pub fn dense_stiffness(
+    elements: &[ElementMatrix],
+    sizes: &[f64],
+    dof_count: usize,
+) -> Result<DMatrix<f64>, Error> {
     check_elements(elements, sizes, dof_count)?;
     let mut stiffness = DMatrix::zeros(dof_count, dof_count);
-    for (row, column, value) in elements.iter().zip(sizes).flat_map(|(element, &size)| stiffness_entries(element, size))
+    for (row, column, value) in elements
+        .iter()
+        .zip(sizes)
+        .flat_map(|(element, &size)| stiffness_entries(element, size))
     {
         stiffness[(row, column)] += value;
     }
@@ -78,7 +113,11 @@ pub fn dense_stiffness(elements: &[ElementMatrix], sizes: &[f64], dof_count: usi
 /// # Errors
 /// Those of [`dense_stiffness`].
 #[doc = include_str!("../../paper/examples/assembly/lumped_mass.md")]
-pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<DVector<f64>, Error> {
+pub fn lumped_mass(
+    elements: &[ElementMatrix],
+    sizes: &[f64],
+    dof_count: usize,
+) -> Result<DVector<f64>, Error> {
     check_elements(elements, sizes, dof_count)?;
     let mut lumped = DVector::zeros(dof_count);
     for (element, size) in elements.iter().zip(sizes) {
@@ -90,7 +129,10 @@ pub fn lumped_mass(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) 
 }
 
 /// Row, column and value of every entry of $s_e K_e$.
-pub(crate) fn stiffness_entries(element: &ElementMatrix, size: f64) -> impl Iterator<Item = (usize, usize, f64)> {
+pub(crate) fn stiffness_entries(
+    element: &ElementMatrix,
+    size: f64,
+) -> impl Iterator<Item = (usize, usize, f64)> {
     let ElementMatrix { dof, unit, .. } = element;
     let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
     (0..dof.len()).flat_map(column)

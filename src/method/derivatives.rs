@@ -40,11 +40,18 @@ pub enum DerivativeRule {
 /// # Errors
 /// Those of [`by_definition`].
 #[doc = include_str!("../../paper/examples/derivatives/error_changes.md")]
-pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRule) -> Result<Vec<f64>, Error> {
+pub fn error_changes(
+    model: &ModalModel,
+    state: &ModalState,
+    rule: DerivativeRule,
+) -> Result<Vec<f64>, Error> {
     if rule == DerivativeRule::Definition {
         return by_definition(model, state);
     }
-    Ok(gradient(model, state)?.into_iter().map(|slope| DERIVATIVE_STEP * slope).collect())
+    Ok(gradient(model, state)?
+        .into_iter()
+        .map(|slope| DERIVATIVE_STEP * slope)
+        .collect())
 }
 
 /// $\Delta e_e = e_f + e_v - e_S$ of every parameter, for $\Delta K = 0.001 c_e K_e$ or $\Delta M = 0.001 c_e M_e$ at the
@@ -60,20 +67,32 @@ pub fn error_changes(model: &ModalModel, state: &ModalState, rule: DerivativeRul
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
-    let are_close = |i: usize, j: usize| i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
+    let are_close =
+        |i: usize, j: usize| i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
     let of_parameter = |(share, factor): (&Share, &f64)| {
         let change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
-        let change = change.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
+        let change =
+            change.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
         let perturbed = match share {
             Share::Stiffness(_) => first_order(k, &change)?,
-            Share::Mass(_) => general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?,
+            Share::Mass(_) => {
+                general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?
+            }
         };
         perturbed.check_roots()?;
         let shapes = &state.modes.shapes * perturbed.shapes;
-        let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes };
+        let modes = ModeSet {
+            omega_squared: perturbed.roots.map(f64::recip),
+            shapes,
+        };
         Ok(model.errors_of(&modes, &state.pairing)?.sum() - state.errors.sum())
     };
-    let changes = model.shares.iter().zip(&state.factors).map(of_parameter).collect::<Result<_, _>>()?;
+    let changes = model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(of_parameter)
+        .collect::<Result<_, _>>()?;
     finite_list("changes of the error sum", changes)
 }
 
@@ -96,14 +115,23 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let pull = shape_pull(model, state);
-    let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
-    let of_mass = has_mass.then(|| in_exact_modes(sensitivity(model, state, pull.clone(), |k| -k), state));
+    let has_mass = model
+        .shares
+        .iter()
+        .any(|share| matches!(share, Share::Mass(_)));
+    let of_mass =
+        has_mass.then(|| in_exact_modes(sensitivity(model, state, pull.clone(), |k| -k), state));
     let of_stiffness = in_exact_modes(sensitivity(model, state, pull, |_| 1.0), state);
     let slope = |share: &Share| match (share, &of_mass) {
         (Share::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
         (share, _) => entries(&of_stiffness).dot(&entries(share.matrix())),
     };
-    let slopes = model.shares.iter().zip(&state.factors).map(|(share, factor)| factor * slope(share)).collect();
+    let slopes = model
+        .shares
+        .iter()
+        .zip(&state.factors)
+        .map(|(share, factor)| factor * slope(share))
+        .collect();
     finite_list("gradient", slopes)
 }
 
@@ -117,12 +145,25 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
     for (j, &i) in paired.filter(|_| state.errors.shape > 0.0) {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
-        let (shape, sign, mut slope) = (shapes.column(i), state.pairing.sign[j], slopes.column_mut(i));
-        let largest = unit_shape_difference(shape, sign, model.test.shapes.column(j), slope.as_mut_slice());
-        if let Some(m) = shape.iter().position(|component| component.abs() == largest) {
+        let (shape, sign, mut slope) = (
+            shapes.column(i),
+            state.pairing.sign[j],
+            slopes.column_mut(i),
+        );
+        let largest = unit_shape_difference(
+            shape,
+            sign,
+            model.test.shapes.column(j),
+            slope.as_mut_slice(),
+        );
+        if let Some(m) = shape
+            .iter()
+            .position(|component| component.abs() == largest)
+        {
             slope[m] -= slope.dot(&shape) / shape[m];
         }
-        slope *= model.weights[j].shape.powi(2) * sign / (dof_count as f64 * state.errors.shape * largest);
+        slope *= model.weights[j].shape.powi(2) * sign
+            / (dof_count as f64 * state.errors.shape * largest);
     }
     shapes.tr_mul(&slopes)
 }

@@ -11,42 +11,94 @@ use thiserror::Error;
 pub enum Error {
     /// A number that must be finite is NaN or infinite; the first such entry, column by column.
     #[error("{what}: expected finite numbers, found {value} at entry ({row}, {column})")]
-    NotFinite { what: &'static str, row: usize, column: usize, value: f64 },
+    NotFinite {
+        what: &'static str,
+        row: usize,
+        column: usize,
+        value: f64,
+    },
     /// A matrix or list has the wrong size.
     #[error("{what}: expected {expected_rows} x {expected_columns}, found {rows} x {columns}")]
-    WrongShape { what: &'static str, expected_rows: usize, expected_columns: usize, rows: usize, columns: usize },
+    WrongShape {
+        what: &'static str,
+        expected_rows: usize,
+        expected_columns: usize,
+        rows: usize,
+        columns: usize,
+    },
     /// A matrix that must be symmetric is not; the worst pair, with its difference over the largest entry.
-    #[error("{what}: expected symmetry, found ({row}, {column}) off its mirror by {difference:.1e} of the largest")]
-    NotSymmetric { what: &'static str, row: usize, column: usize, difference: f64 },
+    #[error(
+        "{what}: expected symmetry, found ({row}, {column}) off its mirror by {difference:.1e} of the largest"
+    )]
+    NotSymmetric {
+        what: &'static str,
+        row: usize,
+        column: usize,
+        difference: f64,
+    },
     /// A quantity that must be positive (gage, area, mass, modulus) is not.
     #[error("{what} of {owner}: expected a positive finite number, found {value}")]
-    NotPositive { what: &'static str, owner: String, value: f64 },
+    NotPositive {
+        what: &'static str,
+        owner: String,
+        value: f64,
+    },
     /// A setting or a constant outside its range.
     #[error("{name}: expected {expected}, found {found}")]
-    Setting { name: &'static str, expected: &'static str, found: f64 },
+    Setting {
+        name: &'static str,
+        expected: &'static str,
+        found: f64,
+    },
     /// Limits that are not positive and finite, or the lower one not below the upper one.
-    #[error("{what}: expected a positive lower limit below a finite upper one, found {lower} and {upper}")]
-    Limits { what: String, lower: f64, upper: f64 },
+    #[error(
+        "{what}: expected a positive lower limit below a finite upper one, found {lower} and {upper}"
+    )]
+    Limits {
+        what: String,
+        lower: f64,
+        upper: f64,
+    },
     /// Limits on a parameter's factor that exclude where it starts, which is one.
     #[error("{what}: expected limits that hold its start, 1, found {lower} to {upper}")]
-    StartOutside { what: String, lower: f64, upper: f64 },
+    StartOutside {
+        what: String,
+        lower: f64,
+        upper: f64,
+    },
     /// No modes, elements or parameters where at least one is needed.
     #[error("{what}: expected at least one, found none")]
     Empty { what: &'static str },
     /// More modes asked for than there are.
     #[error("{what}: expected at most {available}, found {requested}")]
-    TooMany { what: &'static str, available: usize, requested: usize },
+    TooMany {
+        what: &'static str,
+        available: usize,
+        requested: usize,
+    },
     /// Two grids or two elements carry the same number.
     #[error("{what} {label}: expected each {what} once, found it defined again")]
     Duplicate { what: &'static str, label: usize },
     /// A reference to a grid, element or dynamic degree of freedom that does not exist.
     #[error("{owner}: expected an existing {what}, found {what} {label}, which is not defined")]
-    Unknown { owner: String, what: &'static str, label: usize },
+    Unknown {
+        owner: String,
+        what: &'static str,
+        label: usize,
+    },
     /// An element stands in two parameters.
-    #[error("element {element}: expected in one parameter at most, found in {first} and in {second}")]
-    SharedElement { element: usize, first: String, second: String },
+    #[error(
+        "element {element}: expected in one parameter at most, found in {first} and in {second}"
+    )]
+    SharedElement {
+        element: usize,
+        first: String,
+        second: String,
+    },
     /// A point mass to be scaled is coupled to another degree of freedom.
-    #[error("dynamic mass: expected a point mass at degree of freedom {0} (from zero), found it coupled to others")]
+    #[error(
+        "dynamic mass: expected a point mass at degree of freedom {0} (from zero), found it coupled to others"
+    )]
     CoupledMass(usize),
     /// An error inside one element.
     #[error("element {element}: {source}")]
@@ -58,49 +110,97 @@ pub enum Error {
     #[error("expected a rod with length, found length {0:.3e} between its ends")]
     ZeroLength(f64),
     /// A triangle or panel without area: its area over the square of its longest side or diagonal.
-    #[error("expected a panel with area, found {0:.3e} of the square of its longest diagonal or side")]
+    #[error(
+        "expected a panel with area, found {0:.3e} of the square of its longest diagonal or side"
+    )]
     ZeroArea(f64),
     /// A quadrilateral with an angle of 180 degrees or more at a corner, 1 to 4 in the order given.
-    #[error("expected a convex panel, found an interior angle of 180 degrees or more at its corner {0}")]
+    #[error(
+        "expected a convex panel, found an interior angle of 180 degrees or more at its corner {0}"
+    )]
     NotConvex(usize),
     /// Nothing constrains some motion: the grid that moves most in it, its direction (`x`, `y` or `z`), and the smallest
     /// eigenvalue of the stiffness scaled to unit diagonal.
-    #[error("stiffness: expected no free motion, found grid {grid} free along {direction} (ratio {ratio:.1e})")]
-    SingularStiffness { grid: usize, direction: char, ratio: f64 },
+    #[error(
+        "stiffness: expected no free motion, found grid {grid} free along {direction} (ratio {ratio:.1e})"
+    )]
+    SingularStiffness {
+        grid: usize,
+        direction: char,
+        ratio: f64,
+    },
     /// A matrix that must be positive definite is not; the row where the factorization stopped.
-    #[error("{what}: expected a positive definite matrix, found a pivot not positive at row {dof} (from zero)")]
+    #[error(
+        "{what}: expected a positive definite matrix, found a pivot not positive at row {dof} (from zero)"
+    )]
     NotPositiveDefinite { what: &'static str, dof: usize },
     /// A dynamic degree of freedom, rigid-body vector or test mode that is a combination of those before it.
-    #[error("{what} {index} (from zero): expected it independent of those before it, found a combination of them")]
+    #[error(
+        "{what} {index} (from zero): expected it independent of those before it, found a combination of them"
+    )]
     Dependent { what: &'static str, index: usize },
     /// Modes that must be orthonormal with the mass, or biorthogonal with the stiffness, and are not.
     #[error("{what} {first} and {second} (from zero): expected {expected}, found {found}")]
-    NotOrthonormal { what: &'static str, first: usize, second: usize, expected: f64, found: f64 },
+    NotOrthonormal {
+        what: &'static str,
+        first: usize,
+        second: usize,
+        expected: f64,
+        found: f64,
+    },
     /// A model has a mode that is not a vibration; the value is its squared circular frequency.
     #[error("mode {mode} (from zero): expected a positive eigenvalue, found {value:.6e} rad^2/s^2")]
     NotAVibration { mode: usize, value: f64 },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes: that of row `first` for mode
     /// `second`, over the generalized stiffness.
-    #[error("modes {first} and {second} (from zero): expected separate roots, found them {separation:.1e} apart")]
-    CoalescingModes { first: usize, second: usize, separation: f64 },
+    #[error(
+        "modes {first} and {second} (from zero): expected separate roots, found them {separation:.1e} apart"
+    )]
+    CoalescingModes {
+        first: usize,
+        second: usize,
+        separation: f64,
+    },
     /// A change so large that a perturbed root, s², loses its sign.
     #[error("mode {mode} (from zero): expected a positive perturbed root, found {value:.3e}")]
     LostRoot { mode: usize, value: f64 },
     /// A change that takes away a mode's generalized stiffness, so that its root has no finite value.
-    #[error("mode {mode} (from zero): expected generalized stiffness after the change, found {ratio:.1e} of it left")]
+    #[error(
+        "mode {mode} (from zero): expected generalized stiffness after the change, found {ratio:.1e} of it left"
+    )]
     LostStiffness { mode: usize, ratio: f64 },
     /// A pencil without a complete set of modes: the cosine of a mode's left and right shapes in the measure of the stiffness.
-    #[error("mode {mode} (from zero): expected independent modes, found left and right orthogonal to {cosine:.1e}")]
+    #[error(
+        "mode {mode} (from zero): expected independent modes, found left and right orthogonal to {cosine:.1e}"
+    )]
     Defective { mode: usize, cosine: f64 },
     /// A recursion that in the most orders allowed had not reached the largest relative change of a root allowed.
-    #[error("perturbation: expected roots to settle to {largest:.0e} in {orders} orders, found {last_change:.1e}")]
-    UnsettledRoots { largest: f64, orders: usize, last_change: f64 },
+    #[error(
+        "perturbation: expected roots to settle to {largest:.0e} in {orders} orders, found {last_change:.1e}"
+    )]
+    UnsettledRoots {
+        largest: f64,
+        orders: usize,
+        last_change: f64,
+    },
     /// A factorization that does not solve its own matrix to what round-off explains.
-    #[error("{what}: expected a solution to {allowed:.1e} of its loads, found a residual of {residual:.1e}")]
-    WrongSolution { what: &'static str, residual: f64, allowed: f64 },
+    #[error(
+        "{what}: expected a solution to {allowed:.1e} of its loads, found a residual of {residual:.1e}"
+    )]
+    WrongSolution {
+        what: &'static str,
+        residual: f64,
+        allowed: f64,
+    },
     /// Modes found that are not as many as an independent count says there are.
-    #[error("modes below {bound:.6e} rad^2/s^2: expected {counted} by the shifted pencil's inertia, found {found}")]
-    Miscounted { bound: f64, counted: usize, found: usize },
+    #[error(
+        "modes below {bound:.6e} rad^2/s^2: expected {counted} by the shifted pencil's inertia, found {found}"
+    )]
+    Miscounted {
+        bound: f64,
+        counted: usize,
+        found: usize,
+    },
     /// An iterative library routine did not converge.
     #[error("{0}: expected the library's routine to converge, found that it did not")]
     NoConvergence(&'static str),
@@ -116,12 +216,18 @@ pub enum Error {
 impl Error {
     /// Wraps an error with the number of the element it belongs to.
     pub(crate) fn in_element(self, element: usize) -> Self {
-        Self::InElement { element, source: Box::new(self) }
+        Self::InElement {
+            element,
+            source: Box::new(self),
+        }
     }
 
     /// Whether modes come so close under a change that the perturbation cannot follow them.
     pub(crate) fn is_of_close_modes(&self) -> bool {
-        matches!(self, Self::CoalescingModes { .. } | Self::UnsettledRoots { .. })
+        matches!(
+            self,
+            Self::CoalescingModes { .. } | Self::UnsettledRoots { .. }
+        )
     }
 
     /// Says of a bad pivot which of the vectors behind the matrix depends on those before it.
@@ -134,16 +240,38 @@ impl Error {
 }
 
 /// Accepts a setting that is what it must be.
-pub(crate) fn setting(name: &'static str, expected: &'static str, found: f64, is_met: bool) -> Result<(), Error> {
-    if is_met { Ok(()) } else { Err(Error::Setting { name, expected, found }) }
+pub(crate) fn setting(
+    name: &'static str,
+    expected: &'static str,
+    found: f64,
+    is_met: bool,
+) -> Result<(), Error> {
+    if is_met {
+        Ok(())
+    } else {
+        Err(Error::Setting {
+            name,
+            expected,
+            found,
+        })
+    }
 }
 
 /// Accepts a setting that is a positive finite number.
 pub(crate) fn positive_setting(name: &'static str, found: f64) -> Result<(), Error> {
-    setting(name, "a positive finite number", found, found > 0.0 && found.is_finite())
+    setting(
+        name,
+        "a positive finite number",
+        found,
+        found > 0.0 && found.is_finite(),
+    )
 }
 
 /// Refuses to go on with none of something.
 pub(crate) fn at_least_one(what: &'static str, count: usize) -> Result<(), Error> {
-    if count > 0 { Ok(()) } else { Err(Error::Empty { what }) }
+    if count > 0 {
+        Ok(())
+    } else {
+        Err(Error::Empty { what })
+    }
 }

@@ -78,8 +78,17 @@ pub struct ModeError {
 /// moves at none of the DOF compared; [`Error::NotFinite`] for frequencies so far apart, or shapes so small, that their squares are
 /// no number.
 #[doc = include_str!("../../paper/examples/error_sum/mode_errors.md")]
-pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Result<Vec<ModeError>, Error> {
-    check_shape("test mode shapes", &test.shapes, analysis.shapes.nrows(), test.len())?;
+pub fn mode_errors(
+    analysis: &ModeSet,
+    pairing: &Pairing,
+    test: &ModeSet,
+) -> Result<Vec<ModeError>, Error> {
+    check_shape(
+        "test mode shapes",
+        &test.shapes,
+        analysis.shapes.nrows(),
+        test.len(),
+    )?;
     pairing.check(analysis, test.len())?;
     let mut difference = DVector::zeros(test.shapes.nrows());
     let of_mode = |(j, &i): (usize, &usize)| {
@@ -87,15 +96,30 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
         let (analyzed, tested) = (analysis.shapes.column(i), test.shapes.column(j));
         unit_shape_difference(analyzed, pairing.sign[j], tested, difference.as_mut_slice());
         let mean_square = difference.norm_squared() / difference.len() as f64;
-        ModeError { frequency: ratio - 1.0, shape: mean_square.sqrt() }
+        ModeError {
+            frequency: ratio - 1.0,
+            shape: mean_square.sqrt(),
+        }
     };
-    let errors: Vec<ModeError> = pairing.analysis_mode.iter().enumerate().map(of_mode).collect();
-    let sum = errors.iter().map(|error| error.frequency.powi(2) + error.shape.powi(2)).sum();
+    let errors: Vec<ModeError> = pairing
+        .analysis_mode
+        .iter()
+        .enumerate()
+        .map(of_mode)
+        .collect();
+    let sum = errors
+        .iter()
+        .map(|error| error.frequency.powi(2) + error.shape.powi(2))
+        .sum();
     let is_still = |mode: &&usize| analysis.shapes.column(**mode).amax() == 0.0;
     check_error_sum(sum).map_err(|error| match pairing.analysis_mode.iter().find(is_still) {
         Some(mode) => {
             let owner = format!("analysis mode {mode} (from zero)");
-            Error::NotPositive { what: "largest component where it is compared", owner, value: 0.0 }
+            Error::NotPositive {
+                what: "largest component where it is compared",
+                owner,
+                value: 0.0,
+            }
         }
         None => error,
     })?;
@@ -104,7 +128,16 @@ pub fn mode_errors(analysis: &ModeSet, pairing: &Pairing, test: &ModeSet) -> Res
 
 /// Refuses an error sum that is no finite number.
 pub(crate) fn check_error_sum(value: f64) -> Result<(), Error> {
-    if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { what: "error sum", row: 0, column: 0, value }) }
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::NotFinite {
+            what: "error sum",
+            row: 0,
+            column: 0,
+            value,
+        })
+    }
 }
 
 /// What the errors of one test mode are multiplied with in the error sum.
@@ -118,7 +151,10 @@ pub struct ModeWeight {
 
 impl ModeWeight {
     /// The paper's: every test mode counts as much.
-    pub const ONE: Self = Self { frequency: 1.0, shape: 1.0 };
+    pub const ONE: Self = Self {
+        frequency: 1.0,
+        shape: 1.0,
+    };
 }
 
 /// SRSS errors of the paired analysis modes against the test modes.
@@ -145,10 +181,18 @@ pub(crate) fn weighted_errors(
 ) -> Result<Errors, Error> {
     let each = mode_errors(analysis, pairing, test)?;
     let srss = |of: fn(&ModeError, &ModeWeight) -> f64| {
-        each.iter().zip(weights).map(|(error, weight)| of(error, weight).powi(2)).sum::<f64>().sqrt()
+        each.iter()
+            .zip(weights)
+            .map(|(error, weight)| of(error, weight).powi(2))
+            .sum::<f64>()
+            .sqrt()
     };
     let frequency = srss(|error, weight| weight.frequency * error.frequency);
-    let errors = Errors { frequency, shape: srss(|error, weight| weight.shape * error.shape), mode_count: each.len() };
+    let errors = Errors {
+        frequency,
+        shape: srss(|error, weight| weight.shape * error.shape),
+        mode_count: each.len(),
+    };
     check_error_sum(errors.sum()).map(|()| errors)
 }
 
@@ -161,7 +205,11 @@ pub(crate) fn unit_shape_difference(
 ) -> f64 {
     let (v, w) = (analysis.as_slice(), test.as_slice());
     let larger = |a: f64, b: f64| if b > a { b } else { a };
-    let largest = |shape: &[f64]| shape.iter().fold(0.0, |largest, component| larger(largest, component.abs()));
+    let largest = |shape: &[f64]| {
+        shape
+            .iter()
+            .fold(0.0, |largest, component| larger(largest, component.abs()))
+    };
     let (most, most_of_test) = (largest(v), largest(w));
     let (to_unit, to_unit_test) = (sign / most, 1.0 / most_of_test);
     for ((difference, v), w) in difference.iter_mut().zip(v).zip(w) {

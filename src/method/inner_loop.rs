@@ -7,7 +7,9 @@ use crate::method::error_sum::{ErrorMeasure, Errors};
 use crate::method::linear_algebra::{check_length, finite_list};
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
-use crate::method::step::{Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use crate::method::step::{
+    Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
+};
 use serde::{Deserialize, Serialize};
 
 /// How the inner loop steps and when it stops.
@@ -45,7 +47,10 @@ impl Default for InnerSettings {
         Self {
             first_relaxation: 0.8,
             relaxation: 1.0,
-            factor_range: Range { lower: 0.55, upper: 1.50 },
+            factor_range: Range {
+                lower: 0.55,
+                upper: 1.50,
+            },
             tolerance: 0.025,
             halvings: 5,
             iterations: 30,
@@ -125,10 +130,15 @@ pub fn run(
     positive_setting("first_relaxation", settings.first_relaxation)?;
     positive_setting("relaxation", settings.relaxation)?;
     positive_setting("tolerance", settings.tolerance)?;
-    Range::positive("factor limits", settings.factor_range.lower, settings.factor_range.upper)?;
+    Range::positive(
+        "factor limits",
+        settings.factor_range.lower,
+        settings.factor_range.upper,
+    )?;
     check_length("parameter factors", base.len(), model.shares.len())?;
     check_length("parameter limits", total_ranges.len(), model.shares.len())?;
-    let is_range = |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
+    let is_range =
+        |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
     total_ranges.iter().flatten().try_for_each(is_range)?;
     model.check()?;
     let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
@@ -141,20 +151,40 @@ pub fn run(
             break Stop::Iterations;
         }
         let changes = error_changes(model, &state, settings.derivatives)?;
-        let stiffnesses = stiffness_changes(model, &state.factors, &factors, &changes, settings.step)?;
-        let relaxation = if iterations.is_empty() { settings.first_relaxation } else { settings.relaxation };
+        let stiffnesses =
+            stiffness_changes(model, &state.factors, &factors, &changes, settings.step)?;
+        let relaxation = if iterations.is_empty() {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        };
         let unlimited = finite_list(
             "unlimited factors",
-            unlimited_factors(&changes, &stiffnesses, scale * state.errors.sum(), relaxation),
+            unlimited_factors(
+                &changes,
+                &stiffnesses,
+                scale * state.errors.sum(),
+                relaxation,
+            ),
         )?;
         if iterations.is_empty() {
             first_unlimited_factors.clone_from(&unlimited);
         }
-        let step = match lowering_step(model, &state, &factors, &unlimited, base, total_ranges, settings) {
+        let step = match lowering_step(
+            model,
+            &state,
+            &factors,
+            &unlimited,
+            base,
+            total_ranges,
+            settings,
+        ) {
             Ok(Some(step)) => step,
             Ok(None) => break Stop::LocalMinimum,
             // An error in the first step names the modes that prevent any; later ones end the loop where it is.
-            Err(error) if error.is_of_close_modes() && !iterations.is_empty() => break Stop::LocalMinimum,
+            Err(error) if error.is_of_close_modes() && !iterations.is_empty() => {
+                break Stop::LocalMinimum;
+            }
             Err(error) => return Err(error),
         };
         (factors, state) = (step.factors, step.state);
@@ -171,7 +201,14 @@ pub fn run(
             break Stop::Tolerance;
         }
     };
-    Ok(InnerRun { start, iterations, last: state, factors, first_unlimited_factors, stop })
+    Ok(InnerRun {
+        start,
+        iterations,
+        last: state,
+        factors,
+        first_unlimited_factors,
+        stop,
+    })
 }
 
 /// A step that lowers the error sum, and where it leads.
@@ -197,13 +234,33 @@ fn lowering_step(
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let next = |e: usize| {
-            limited_factor(unlimited[e], fraction, factors[e], base[e], settings.factor_range, total_ranges[e])
+            limited_factor(
+                unlimited[e],
+                fraction,
+                factors[e],
+                base[e],
+                settings.factor_range,
+                total_ranges[e],
+            )
         };
         let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(next).unzip();
-        let share_factor = |e: usize| settings.accumulation.next_share_factor(state.factors[e], factors[e], next[e]);
-        match ModalState::at(model, (0..factors.len()).map(share_factor).collect(), settings.update) {
+        let share_factor = |e: usize| {
+            settings
+                .accumulation
+                .next_share_factor(state.factors[e], factors[e], next[e])
+        };
+        match ModalState::at(
+            model,
+            (0..factors.len()).map(share_factor).collect(),
+            settings.update,
+        ) {
             Ok(lower) if lower.errors.sum() < state.errors.sum() => {
-                return Ok(Some(Step { halvings, limits, factors: next, state: lower }));
+                return Ok(Some(Step {
+                    halvings,
+                    limits,
+                    factors: next,
+                    state: lower,
+                }));
             }
             // Uphill, or too far for the perturbation: a shorter step may do.
             Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,

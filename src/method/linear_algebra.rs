@@ -21,10 +21,21 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
 #[doc = include_str!("../../paper/examples/linear_algebra/check_finite.md")]
 pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
-    let Some(index) = matrix.as_slice().iter().position(|value| !value.is_finite()) else { return Ok(()) };
+    let Some(index) = matrix
+        .as_slice()
+        .iter()
+        .position(|value| !value.is_finite())
+    else {
+        return Ok(());
+    };
     let (column, row) = (index / matrix.nrows(), index % matrix.nrows());
     let (real, imaginary) = (matrix[index].real(), matrix[index].imaginary());
-    Err(Error::NotFinite { what, row, column, value: if real.is_finite() { imaginary } else { real } })
+    Err(Error::NotFinite {
+        what,
+        row,
+        column,
+        value: if real.is_finite() { imaginary } else { real },
+    })
 }
 
 /// Refuses matrices, real or complex, of another shape.
@@ -40,7 +51,17 @@ pub fn check_shape<T>(
 ) -> Result<(), Error> {
     let (rows, columns) = matrix.shape();
     let fits = (rows, columns) == (expected_rows, expected_columns);
-    if fits { Ok(()) } else { Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) }
+    if fits {
+        Ok(())
+    } else {
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        })
+    }
 }
 
 /// Refuses lists of another length.
@@ -52,7 +73,13 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
     if found == expected {
         return Ok(());
     }
-    Err(Error::WrongShape { what, expected_rows: expected, expected_columns: 1, rows: found, columns: 1 })
+    Err(Error::WrongShape {
+        what,
+        expected_rows: expected,
+        expected_columns: 1,
+        rows: found,
+        columns: 1,
+    })
 }
 
 /// Refuses matrices that are not square, finite and symmetric to working precision.
@@ -63,14 +90,31 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
-    let pairs = (0..matrix.ncols()).flat_map(|column| (column..matrix.nrows()).map(move |row| (row, column)));
-    let apart = |(row, column): (usize, usize)| (matrix[(row, column)] - matrix[(column, row)]).abs();
-    let Some((row, column)) = pairs.reduce(|worst, pair| if apart(pair) > apart(worst) { pair } else { worst }) else {
+    let pairs = (0..matrix.ncols())
+        .flat_map(|column| (column..matrix.nrows()).map(move |row| (row, column)));
+    let apart =
+        |(row, column): (usize, usize)| (matrix[(row, column)] - matrix[(column, row)]).abs();
+    let Some((row, column)) = pairs.reduce(|worst, pair| {
+        if apart(pair) > apart(worst) {
+            pair
+        } else {
+            worst
+        }
+    }) else {
         return Ok(());
     };
     let (difference, largest) = (apart((row, column)), matrix.amax());
-    let refused = Error::NotSymmetric { what, row, column, difference: difference / largest };
-    if difference <= LARGEST_ASYMMETRY * largest { Ok(()) } else { Err(refused) }
+    let refused = Error::NotSymmetric {
+        what,
+        row,
+        column,
+        difference: difference / largest,
+    };
+    if difference <= LARGEST_ASYMMETRY * largest {
+        Ok(())
+    } else {
+        Err(refused)
+    }
 }
 
 /// Hands on a matrix whose entries are all finite.
@@ -89,14 +133,28 @@ pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
     let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
     let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
     let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-    matmul(sum, lower, Accum::Add, columns, full, columns.transpose(), full, 1.0, Par::Seq);
+    matmul(
+        sum,
+        lower,
+        Accum::Add,
+        columns,
+        full,
+        columns.transpose(),
+        full,
+        1.0,
+        Par::Seq,
+    );
 }
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
 /// has none and comes back as it is.
 #[doc = include_str!("../../paper/examples/linear_algebra/symmetric_part.md")]
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    if matrix.is_square() { 0.5 * matrix + 0.5 * matrix.transpose() } else { matrix.clone() }
+    if matrix.is_square() {
+        0.5 * matrix + 0.5 * matrix.transpose()
+    } else {
+        matrix.clone()
+    }
 }
 
 /// Lower Cholesky factor $L$ of a symmetric positive definite matrix, $A = L L^t$.
@@ -106,18 +164,29 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
 #[doc = include_str!("../../paper/examples/linear_algebra/cholesky.md")]
-pub fn cholesky(what: &'static str, matrix: &DMatrix<f64>, smallest_pivot: f64) -> Result<DMatrix<f64>, Error> {
+pub fn cholesky(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    smallest_pivot: f64,
+) -> Result<DMatrix<f64>, Error> {
     check_symmetric(what, matrix)?;
     let lower = match as_faer(matrix).llt(Side::Lower) {
         Ok(factor) => from_faer(factor.L()),
         Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
             // A pivot before it may have been too small already.
-            cholesky(what, &matrix.view((0, 0), (index, index)).into_owned(), smallest_pivot)?;
+            cholesky(
+                what,
+                &matrix.view((0, 0), (index, index)).into_owned(),
+                smallest_pivot,
+            )?;
             return Err(Error::NotPositiveDefinite { what, dof: index });
         }
     };
-    let bad = (0..matrix.nrows()).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]);
-    bad.map_or(Ok(lower), |dof| Err(Error::NotPositiveDefinite { what, dof }))
+    let bad =
+        (0..matrix.nrows()).find(|&i| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)]);
+    bad.map_or(Ok(lower), |dof| {
+        Err(Error::NotPositiveDefinite { what, dof })
+    })
 }
 
 /// Checks a factorization of a symmetric matrix $A$ by a probe $x$: that it solves $A y = A x$ to
@@ -142,7 +211,15 @@ pub fn check_solution(
     let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
     let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
     let (residual, allowed) = (residual / size, allowed / size);
-    if residual <= allowed { Ok(()) } else { Err(Error::WrongSolution { what, residual, allowed }) }
+    if residual <= allowed {
+        Ok(())
+    } else {
+        Err(Error::WrongSolution {
+            what,
+            residual,
+            allowed,
+        })
+    }
 }
 
 /// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
@@ -163,7 +240,10 @@ pub(crate) fn solve_lower<T: Number + faer::traits::ComplexField>(
 }
 
 /// $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal.
-pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
+pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(
+    lower: &DMatrix<T>,
+    matrix: &DMatrix<T>,
+) -> DMatrix<T> {
     solve_lower(lower, solve_lower(lower, matrix.clone()).transpose()).transpose()
 }
 
@@ -174,15 +254,27 @@ pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(lower: &DMatrix<T>
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
 #[doc = include_str!("../../paper/examples/linear_algebra/symmetric_eigen.md")]
-pub fn symmetric_eigen(what: &'static str, matrix: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+pub fn symmetric_eigen(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
     let largest = matrix.amax();
-    let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
+    let unit = if largest > 0.0 {
+        largest.log2().floor().clamp(-1000.0, 1000.0).exp2()
+    } else {
+        1.0
+    };
     let scaled = matrix / unit;
-    let eigen = as_faer(&scaled).self_adjoint_eigen(Side::Lower).map_err(|_| Error::NoConvergence(what))?;
-    Ok((DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]), from_faer(eigen.U())))
+    let eigen = as_faer(&scaled)
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::NoConvergence(what))?;
+    Ok((
+        DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]),
+        from_faer(eigen.U()),
+    ))
 }
 
 /// Eigenvalues (ascending) of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, and the vectors of the lowest
@@ -206,5 +298,7 @@ pub(crate) fn as_faer<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
 
 /// The same matrix back from faer.
 pub(crate) fn from_faer(matrix: MatRef<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| matrix[(row, column)])
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+        matrix[(row, column)]
+    })
 }

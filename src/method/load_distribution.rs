@@ -23,15 +23,26 @@ impl LoadDistribution {
     #[doc = include_str!("../../paper/examples/load_distribution/new.md")]
     pub fn new(rows: usize, columns: Vec<Vec<(usize, f64)>>) -> Result<Self, Error> {
         at_least_one("dynamic degrees of freedom", columns.len())?;
-        for (column, &(row, value)) in
-            columns.iter().enumerate().flat_map(|(j, terms)| terms.iter().map(move |term| (j, term)))
+        for (column, &(row, value)) in columns
+            .iter()
+            .enumerate()
+            .flat_map(|(j, terms)| terms.iter().map(move |term| (j, term)))
         {
             if row >= rows {
                 let owner = format!("dynamic degree of freedom {column} (from zero)");
-                return Err(Error::Unknown { owner, what: "row of the load distribution", label: row });
+                return Err(Error::Unknown {
+                    owner,
+                    what: "row of the load distribution",
+                    label: row,
+                });
             }
             if !value.is_finite() {
-                return Err(Error::NotFinite { what: "load distribution", row, column, value });
+                return Err(Error::NotFinite {
+                    what: "load distribution",
+                    row,
+                    column,
+                    value,
+                });
             }
         }
         Ok(Self { rows, columns })
@@ -74,7 +85,9 @@ impl LoadDistribution {
         let mut structural = DMatrix::zeros(self.rows, loads.ncols());
         for (terms, loads) in self.columns.iter().zip(loads.row_iter()) {
             terms.iter().for_each(|&(row, coefficient)| {
-                structural.row_mut(row).zip_apply(&loads, |sum, load| *sum += coefficient * load)
+                structural
+                    .row_mut(row)
+                    .zip_apply(&loads, |sum, load| *sum += coefficient * load)
             });
         }
         structural

@@ -2,7 +2,9 @@
 //! Tour: [chapter 1](crate::tour::chapter_01_two_springs).
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, pencil_eigen};
+use crate::method::linear_algebra::{
+    check_finite, check_shape, check_symmetric, cholesky, pencil_eigen,
+};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -30,15 +32,31 @@ impl ModeSet {
     #[doc = include_str!("../../paper/examples/modes/mode_set_from_measured.md")]
     pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
         at_least_one("test modes", frequencies_hz.len())?;
-        check_shape("test mode shapes", shapes, shapes.nrows(), frequencies_hz.len())?;
+        check_shape(
+            "test mode shapes",
+            shapes,
+            shapes.nrows(),
+            frequencies_hz.len(),
+        )?;
         check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || test_mode(mode), frequency)?;
-            positive("squared frequency", || test_mode(mode), (2.0 * PI * frequency).powi(2))?;
-            positive("largest component", || test_mode(mode), shapes.column(mode).amax())?;
+            positive(
+                "squared frequency",
+                || test_mode(mode),
+                (2.0 * PI * frequency).powi(2),
+            )?;
+            positive(
+                "largest component",
+                || test_mode(mode),
+                shapes.column(mode).amax(),
+            )?;
         }
         let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
-        Ok(Self { omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared), shapes: shapes.clone() })
+        Ok(Self {
+            omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared),
+            shapes: shapes.clone(),
+        })
     }
 
     /// Number of modes.
@@ -56,12 +74,18 @@ impl ModeSet {
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz.
     #[doc = include_str!("../../paper/examples/modes/mode_set_frequencies_hz.md")]
     pub fn frequencies_hz(&self) -> Vec<f64> {
-        self.omega_squared.iter().map(|omega_squared| omega_squared.sqrt() / (2.0 * PI)).collect()
+        self.omega_squared
+            .iter()
+            .map(|omega_squared| omega_squared.sqrt() / (2.0 * PI))
+            .collect()
     }
 
     /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
     pub(crate) fn select(&self, places: &[usize]) -> Self {
-        Self { omega_squared: self.omega_squared.select_rows(places), shapes: self.shapes.select_columns(places) }
+        Self {
+            omega_squared: self.omega_squared.select_rows(places),
+            shapes: self.shapes.select_columns(places),
+        }
     }
 
     /// Generalized masses $v_i^t M v_i$ of test modes (n), after refusing modes that have none.
@@ -73,7 +97,11 @@ impl ModeSet {
         let of_mode = |mode: usize| {
             let shape = self.shapes.column(mode);
             let generalized_mass = shape.dot(&(mass * shape));
-            positive("squared frequency", || test_mode(mode), self.omega_squared[mode])?;
+            positive(
+                "squared frequency",
+                || test_mode(mode),
+                self.omega_squared[mode],
+            )?;
             positive("generalized mass", || test_mode(mode), generalized_mass)?;
             Ok(generalized_mass)
         };
@@ -89,7 +117,11 @@ impl ModeSet {
     #[doc = include_str!("../../paper/examples/modes/mode_set_scaled_with.md")]
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
         let mut scaled = self.clone();
-        for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(self.generalized_masses(mass)?) {
+        for (mut shape, generalized_mass) in scaled
+            .shapes
+            .column_iter_mut()
+            .zip(self.generalized_masses(mass)?)
+        {
             shape /= generalized_mass.sqrt();
         }
         Ok(scaled)
@@ -128,7 +160,10 @@ impl Modes {
     /// Orthonormal modes in ascending order, their signs by the rule.
     pub(crate) fn ascending(omega_squared: DVector<f64>, mut shapes: DMatrix<f64>) -> Self {
         apply_sign_rule(&mut shapes);
-        Self(ModeSet { omega_squared, shapes })
+        Self(ModeSet {
+            omega_squared,
+            shapes,
+        })
     }
 
     /// The lowest `count` modes.
@@ -143,10 +178,18 @@ impl Modes {
 }
 
 /// Refuses to take none of something, or more of it than there is.
-pub(crate) fn check_count(what: &'static str, requested: usize, available: usize) -> Result<(), Error> {
+pub(crate) fn check_count(
+    what: &'static str,
+    requested: usize,
+    available: usize,
+) -> Result<(), Error> {
     match requested {
         0 => Err(Error::Empty { what }),
-        _ if requested > available => Err(Error::TooMany { what, available, requested }),
+        _ if requested > available => Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }),
         _ => Ok(()),
     }
 }
@@ -166,9 +209,15 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
     let lower = cholesky("dynamic mass", mass, 0.0)?;
     let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower, count)?;
     if let Some(mode) = omega_squared.iter().position(|&value| value <= 0.0) {
-        return Err(Error::NotAVibration { mode, value: omega_squared[mode] });
+        return Err(Error::NotAVibration {
+            mode,
+            value: omega_squared[mode],
+        });
     }
-    Ok(Modes::ascending(omega_squared.rows(0, count).into_owned(), shapes))
+    Ok(Modes::ascending(
+        omega_squared.rows(0, count).into_owned(),
+        shapes,
+    ))
 }
 
 /// Makes the first of the largest components of every column positive.
@@ -176,7 +225,9 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
 pub fn apply_sign_rule(shapes: &mut DMatrix<f64>) {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
-        let first = shape.iter().find(|component| component.abs() >= (1.0 - SIGN_TIE) * largest);
+        let first = shape
+            .iter()
+            .find(|component| component.abs() >= (1.0 - SIGN_TIE) * largest);
         if first.is_some_and(|&component| component < 0.0) {
             shape.neg_mut();
         }

@@ -20,11 +20,16 @@ pub(crate) struct Mesh {
 impl Mesh {
     /// The points in their order of elimination: both sides of a cut, then what lies next to it.
     pub(crate) fn nested_dissection(&self) -> Vec<usize> {
-        let (mut order, mut mark): (Vec<usize>, _) = ((0..self.points.len()).collect(), vec![0; self.points.len()]);
+        let (mut order, mut mark): (Vec<usize>, _) =
+            ((0..self.points.len()).collect(), vec![0; self.points.len()]);
         let (mut last, mut parts) = (0, Vec::from_iter(Some(0..order.len())));
         while let Some(range) = parts.pop() {
             let part = &mut order[range.clone()];
-            let directions = if part.len() > SMALLEST_PART { 0..4 } else { 0..0 };
+            let directions = if part.len() > SMALLEST_PART {
+                0..4
+            } else {
+                0..0
+            };
             let cuts = directions.filter_map(|direction| {
                 let keys: Vec<f64> = match direction {
                     3 => self.distances(part, &mut mark, &mut last),
@@ -32,11 +37,17 @@ impl Mesh {
                 };
                 self.cut(part, &keys, &mut mark, &mut last)
             });
-            let Some((sides, _)) = cuts.min_by_key(|cut| cut.1) else { continue };
-            let mut sorted: Vec<(u8, usize)> = sides.into_iter().zip(part.iter().copied()).collect();
+            let Some((sides, _)) = cuts.min_by_key(|cut| cut.1) else {
+                continue;
+            };
+            let mut sorted: Vec<(u8, usize)> =
+                sides.into_iter().zip(part.iter().copied()).collect();
             sorted.sort_by_key(|pair| pair.0);
-            part.iter_mut().zip(&sorted).for_each(|(point, pair)| *point = pair.1);
-            let [first, both] = [1, 2].map(|side| range.start + sorted.partition_point(|pair| pair.0 < side));
+            part.iter_mut()
+                .zip(&sorted)
+                .for_each(|(point, pair)| *point = pair.1);
+            let [first, both] =
+                [1, 2].map(|side| range.start + sorted.partition_point(|pair| pair.0 < side));
             parts.extend([range.start..first, first..both]);
         }
         order
@@ -44,29 +55,51 @@ impl Mesh {
 
     /// Cuts a part at the median of the keys of its points: for every point 0 or 1 for its side and 2 next to the cut, and how many
     /// those are. None when all keys are alike.
-    fn cut(&self, part: &[usize], keys: &[f64], mark: &mut [usize], last: &mut usize) -> Option<(Vec<u8>, usize)> {
+    fn cut(
+        &self,
+        part: &[usize],
+        keys: &[f64],
+        mark: &mut [usize],
+        last: &mut usize,
+    ) -> Option<(Vec<u8>, usize)> {
         let mut sorted = keys.to_vec();
         let (below, &mut median, _) = sorted.select_nth_unstable_by(part.len() / 2, f64::total_cmp);
         // Points on one line of the mesh stay together; where the median is the lowest key, its line is the first side.
         let is_lowest = below.iter().all(|&key| key >= median);
-        let mut sides: Vec<u8> =
-            keys.iter().map(|&key| u8::from(key > median || key == median && !is_lowest)).collect();
+        let mut sides: Vec<u8> = keys
+            .iter()
+            .map(|&key| u8::from(key > median || key == median && !is_lowest))
+            .collect();
         if sides.iter().all(|&side| side == sides[0]) {
             return None;
         }
         let marks = [*last + 1, *last + 2];
         *last += 2;
-        part.iter().zip(&sides).for_each(|(&point, &side)| mark[point] = marks[usize::from(side)]);
+        part.iter()
+            .zip(&sides)
+            .for_each(|(&point, &side)| mark[point] = marks[usize::from(side)]);
         let next_to = |side: u8| -> Vec<usize> {
-            let is_next =
-                |point: usize| self.near[point].iter().any(|&near| mark[near] == marks[usize::from(1 - side)]);
-            (0..part.len()).filter(|&place| sides[place] == side && is_next(part[place])).collect()
+            let is_next = |point: usize| {
+                self.near[point]
+                    .iter()
+                    .any(|&near| mark[near] == marks[usize::from(1 - side)])
+            };
+            (0..part.len())
+                .filter(|&place| sides[place] == side && is_next(part[place]))
+                .collect()
         };
         let (first, second) = (next_to(0), next_to(1));
-        let separator = if first.len() < second.len() { first } else { second };
+        let separator = if first.len() < second.len() {
+            first
+        } else {
+            second
+        };
         separator.iter().for_each(|&place| sides[place] = 2);
         // A cut that leaves nearly everything on one side is paid for by the next cuts.
-        let smaller = [0, 1].map(|side| sides.iter().filter(|&&found| found == side).count()).into_iter().min()?;
+        let smaller = [0, 1]
+            .map(|side| sides.iter().filter(|&&found| found == side).count())
+            .into_iter()
+            .min()?;
         let lopsided = part.len() / (4 * smaller + 1);
         Some((sides, separator.len() * (1 + lopsided)))
     }
@@ -99,6 +132,8 @@ impl Mesh {
                 }
             }
         }
-        part.iter().map(|&point| (mark[point] - first) as f64).collect()
+        part.iter()
+            .map(|&point| (mark[point] - first) as f64)
+            .collect()
     }
 }

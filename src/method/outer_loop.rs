@@ -113,11 +113,17 @@ pub(crate) fn correlate_while<E: From<Error>>(
     check_length("parameter factors", total_ranges.len(), model.shares.len())?;
     model.check()?;
     let (test, initial) = (model.test.clone(), model.exact.clone());
-    let seen: Vec<f64> = model.test_shares.iter().map(|share| share.diagonal().amax()).collect();
+    let seen: Vec<f64> = model
+        .test_shares
+        .iter()
+        .map(|share| share.diagonal().amax())
+        .collect();
     let mut passes: Vec<Pass> = Vec::new();
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&initial.errors, settings);
-    while passes.len() < settings.most_passes && (passes.len() < settings.least_passes || !converged) {
+    while passes.len() < settings.most_passes
+        && (passes.len() < settings.least_passes || !converged)
+    {
         let inner = match run(&model, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
@@ -128,7 +134,11 @@ pub(crate) fn correlate_while<E: From<Error>>(
             *factor *= step;
         }
         model = analyze(&factors)?;
-        let pass = Pass { check: model.exact.clone(), factors: factors.clone(), inner };
+        let pass = Pass {
+            check: model.exact.clone(),
+            factors: factors.clone(),
+            inner,
+        };
         converged = meets(&pass.check.errors, settings);
         let goes_on = progress(passes.len() + 1, &pass) && !pass.inner.iterations.is_empty();
         passes.push(pass);
@@ -139,10 +149,18 @@ pub(crate) fn correlate_while<E: From<Error>>(
     }
     // The start stands before the passes. Whether it is within tolerance comes before how large its error sum is.
     let ones = vec![1.0; total_ranges.len()];
-    let checks = passes.iter().enumerate().map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
+    let checks = passes
+        .iter()
+        .enumerate()
+        .map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
     let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
-    let (best, check, factors) =
-        checks.fold((None, &initial, &ones), |best, next| if place(next.1) < place(best.1) { next } else { best });
+    let (best, check, factors) = checks.fold((None, &initial, &ones), |best, next| {
+        if place(next.1) < place(best.1) {
+            next
+        } else {
+            best
+        }
+    });
     let converged = meets(&check.errors, settings);
     let errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
@@ -152,9 +170,23 @@ pub(crate) fn correlate_while<E: From<Error>>(
         _ if converged => Outcome::Tolerance,
         _ => Outcome::Cap,
     };
-    let verdict = Verdict::new(outcome, (check.errors.sum(), &errors), factors, &seen, total_ranges, converged);
+    let verdict = Verdict::new(
+        outcome,
+        (check.errors.sum(), &errors),
+        factors,
+        &seen,
+        total_ranges,
+        converged,
+    );
     let best_factors = factors.clone();
-    Ok(Correlation { initial, passes, best, best_factors, converged, verdict })
+    Ok(Correlation {
+        initial,
+        passes,
+        best,
+        best_factors,
+        converged,
+        verdict,
+    })
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.

@@ -19,10 +19,21 @@ pub struct Pairing {
 impl Pairing {
     /// Refuses analysis modes other than those paired, and another number of test modes.
     pub(crate) fn check(&self, analysis: &ModeSet, test_count: usize) -> Result<(), Error> {
-        check_shape("analysis mode shapes", &analysis.shapes, analysis.shapes.nrows(), analysis.len())?;
+        check_shape(
+            "analysis mode shapes",
+            &analysis.shapes,
+            analysis.shapes.nrows(),
+            analysis.len(),
+        )?;
         check_length("paired modes", self.analysis_mode.len(), test_count)?;
         check_length("signs of paired modes", self.sign.len(), test_count)?;
-        let place = |&mode: &usize| check_count("paired analysis modes", mode.saturating_add(1), analysis.len());
+        let place = |&mode: &usize| {
+            check_count(
+                "paired analysis modes",
+                mode.saturating_add(1),
+                analysis.len(),
+            )
+        };
         self.analysis_mode.iter().try_for_each(place)
     }
 }
@@ -34,10 +45,19 @@ impl Pairing {
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
 #[doc = include_str!("../../paper/examples/pairing/cross_orthogonality.md")]
-pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub fn cross_orthogonality(
+    analysis: &ModeSet,
+    test: &ModeSet,
+    mass: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     let dof_count = mass.nrows();
     check_shape("dynamic mass", mass, dof_count, dof_count)?;
-    check_shape("analysis mode shapes", &analysis.shapes, dof_count, analysis.len())?;
+    check_shape(
+        "analysis mode shapes",
+        &analysis.shapes,
+        dof_count,
+        analysis.len(),
+    )?;
     check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
     Ok(analysis.shapes.tr_mul(&(mass * &test.shapes)))
 }
@@ -52,32 +72,52 @@ pub fn cross_orthogonality(analysis: &ModeSet, test: &ModeSet, mass: &DMatrix<f6
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero;
 /// [`Error::NotFinite`].
 #[doc = include_str!("../../paper/examples/pairing/modal_assurance.md")]
-pub fn modal_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub fn modal_assurance(
+    shapes: &DMatrix<f64>,
+    others: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     for (of, shapes) in [("mode shape", shapes), ("other mode shape", others)] {
         for (mode, shape) in shapes.column_iter().enumerate() {
-            positive("largest component", || format!("{of} {mode} (from zero)"), shape.amax())?;
+            positive(
+                "largest component",
+                || format!("{of} {mode} (from zero)"),
+                shape.amax(),
+            )?;
         }
     }
     Ok(signed_assurance(shapes, others)?.abs())
 }
 
 /// The same with the sign of the product $v_i^t w_j$, and zero for a shape that is zero.
-pub(crate) fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub(crate) fn signed_assurance(
+    shapes: &DMatrix<f64>,
+    others: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     check_shape("mode shapes", others, shapes.nrows(), others.ncols())?;
     // Of a largest component of one to two: squares of very large or small ones leave the range of numbers. A power of two is
     // exact.
     let unit = |shapes: &DMatrix<f64>| {
         let mut unit = shapes.clone();
-        let scale = |largest: f64| if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 };
-        unit.column_iter_mut().for_each(|mut shape| shape /= scale(shape.amax()));
+        let scale = |largest: f64| {
+            if largest > 0.0 {
+                largest.log2().floor().exp2()
+            } else {
+                1.0
+            }
+        };
+        unit.column_iter_mut()
+            .for_each(|mut shape| shape /= scale(shape.amax()));
         unit
     };
     let (shapes, others) = (unit(shapes), unit(others));
     let cross = shapes.tr_mul(&others);
     let assurance = DMatrix::from_fn(cross.nrows(), cross.ncols(), |i, j| match cross[(i, j)] {
         0.0 => 0.0,
-        product => product * product.abs() / (shapes.column(i).norm_squared() * others.column(j).norm_squared()),
+        product => {
+            product * product.abs()
+                / (shapes.column(i).norm_squared() * others.column(j).norm_squared())
+        }
     });
     finite("modal assurance", assurance)
 }
@@ -97,7 +137,9 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     check_count("test modes", test_count, analysis_count)?;
     check_finite("cross-orthogonality", cross)?;
     let from_one = |(i, j): (usize, usize)| (1.0 - cross[(i, j)].abs()).abs();
-    let mut pairs: Vec<_> = (0..test_count).flat_map(|j| (0..analysis_count).map(move |i| (i, j))).collect();
+    let mut pairs: Vec<_> = (0..test_count)
+        .flat_map(|j| (0..analysis_count).map(move |i| (i, j)))
+        .collect();
     // The sort is stable, so ties stay in the order of test modes, then analysis modes.
     pairs.sort_by(|&a, &b| from_one(a).total_cmp(&from_one(b)));
     let mut partner: Vec<Option<usize>> = vec![None; test_count];
@@ -108,8 +150,13 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     }
     let analysis_mode: Vec<usize> = partner.into_iter().flatten().collect();
     let pairs = analysis_mode.iter().enumerate();
-    let sign = pairs.map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 }).collect();
-    Ok(Pairing { analysis_mode, sign })
+    let sign = pairs
+        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
+        .collect();
+    Ok(Pairing {
+        analysis_mode,
+        sign,
+    })
 }
 
 /// The paired analysis modes, in the order and with the signs of the test modes.
@@ -123,5 +170,8 @@ pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> Result<ModeSet, Error> {
     for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&pairing.sign) {
         shape *= sign;
     }
-    Ok(ModeSet { shapes: finite("paired mode shapes", paired.shapes)?, ..paired })
+    Ok(ModeSet {
+        shapes: finite("paired mode shapes", paired.shapes)?,
+        ..paired
+    })
 }

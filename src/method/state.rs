@@ -64,7 +64,12 @@ impl ModalState {
         model.check()?;
         let count = model.exact.modes.len();
         check_length("parameter factors", self.factors.len(), model.shares.len())?;
-        check_shape("shapes of the state", &self.modes.shapes, model.test.shapes.nrows(), count)?;
+        check_shape(
+            "shapes of the state",
+            &self.modes.shapes,
+            model.test.shapes.nrows(),
+            count,
+        )?;
         check_shape("generalized shapes", &self.generalized_shapes, count, count)?;
         self.pairing.check(&self.modes, model.test.len())
     }
@@ -90,21 +95,35 @@ impl ModalState {
             }
         }
         let k = &exact.omega_squared;
-        let has_mass = model.shares.iter().any(|share| matches!(share, Share::Mass(_)));
+        let has_mass = model
+            .shares
+            .iter()
+            .any(|share| matches!(share, Share::Mass(_)));
         let whole = || ModalChange::of_vibrations(k, beta.clone(), alpha.clone());
         let perturbed = match rule {
             UpdateRule::Eigensolution => eigensolution(&whole())?,
             UpdateRule::Recursive1 if has_mass => {
                 general::recursive_1_converged(&whole(), ROOT_TOLERANCE, MOST_ORDERS)?.perturbed
             }
-            UpdateRule::Recursive1 => recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed,
+            UpdateRule::Recursive1 => {
+                recursive_1_converged(k, &beta, ROOT_TOLERANCE, MOST_ORDERS)?.perturbed
+            }
         };
         perturbed.check_roots()?;
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = (model.pair)(&shapes.tr_mul(&model.cross))?;
-        let modes = ModeSet { omega_squared: perturbed.roots.map(f64::recip), shapes: &exact.shapes * &shapes };
+        let modes = ModeSet {
+            omega_squared: perturbed.roots.map(f64::recip),
+            shapes: &exact.shapes * &shapes,
+        };
         let errors = model.errors_of(&modes, &pairing)?;
-        Ok(Self { factors, modes, generalized_shapes: shapes, pairing, errors })
+        Ok(Self {
+            factors,
+            modes,
+            generalized_shapes: shapes,
+            pairing,
+            errors,
+        })
     }
 }

@@ -53,9 +53,20 @@ pub fn stiffness_changes(
     rule: StepRule,
 ) -> Result<Vec<f64>, Error> {
     model.check()?;
-    let is_whole = |list: &&[f64]| check_length("parameter factors or changes", list.len(), model.shares.len());
-    [share_factors, size_factors, error_changes].iter().try_for_each(is_whole)?;
-    let squared_slopes: f64 = error_changes.iter().map(|change| (change / DERIVATIVE_STEP).powi(2)).sum();
+    let is_whole = |list: &&[f64]| {
+        check_length(
+            "parameter factors or changes",
+            list.len(),
+            model.shares.len(),
+        )
+    };
+    [share_factors, size_factors, error_changes]
+        .iter()
+        .try_for_each(is_whole)?;
+    let squared_slopes: f64 = error_changes
+        .iter()
+        .map(|change| (change / DERIVATIVE_STEP).powi(2))
+        .sum();
     let of_parameter = |e: usize| match rule {
         StepRule::Matrix => share_factors[e] * model.test_shares[e].norm(),
         StepRule::Own => share_factors[e] * model.test_shares[e].diagonal().norm(),
@@ -64,7 +75,9 @@ pub fn stiffness_changes(
         StepRule::Sum => share_factors[e] * model.test_shares[e].trace(),
         StepRule::SteepestDescent => squared_slopes,
     };
-    let changes = (0..model.shares.len()).map(|e| DERIVATIVE_STEP * of_parameter(e)).collect();
+    let changes = (0..model.shares.len())
+        .map(|e| DERIVATIVE_STEP * of_parameter(e))
+        .collect();
     finite_list("changes of stiffness", changes)
 }
 
@@ -86,7 +99,11 @@ pub fn unlimited_factors(
         true => (1.0 - relaxation * error_sum * error / stiffness).clamp(-f64::MAX, f64::MAX),
         false => 1.0,
     };
-    error_changes.iter().zip(stiffness_changes).map(factor).collect()
+    error_changes
+        .iter()
+        .zip(stiffness_changes)
+        .map(factor)
+        .collect()
 }
 
 /// What limited a parameter's factor in an iteration.
@@ -118,8 +135,17 @@ pub fn limited_factor(
     let factor = factor_range.clamp(unlimited);
     let next = total * (1.0 + fraction * (factor - 1.0));
     match total_range {
-        Some(range) if !range.contains(base * next) => (range.clamp(base * next) / base, Limit::Total),
-        _ => (next, if factor == unlimited { Limit::None } else { Limit::Factor }),
+        Some(range) if !range.contains(base * next) => {
+            (range.clamp(base * next) / base, Limit::Total)
+        }
+        _ => (
+            next,
+            if factor == unlimited {
+                Limit::None
+            } else {
+                Limit::Factor
+            },
+        ),
     }
 }
 

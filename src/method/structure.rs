@@ -41,7 +41,12 @@ impl Material {
     #[doc = include_str!("../../paper/examples/structure/material_isotropic.md")]
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
-        let material = Self { youngs_modulus, poissons_ratio, shear_modulus, density: 0.0 };
+        let material = Self {
+            youngs_modulus,
+            poissons_ratio,
+            shear_modulus,
+            density: 0.0,
+        };
         material.check().map(|()| material)
     }
 
@@ -58,9 +63,18 @@ impl Material {
     fn check(&self) -> Result<(), Error> {
         positive("Young's modulus", material, self.youngs_modulus)?;
         let nu = self.poissons_ratio;
-        setting("Poisson's ratio", "more than -1 and at most 0.5", nu, nu > -1.0 && nu <= 0.5)?;
+        setting(
+            "Poisson's ratio",
+            "more than -1 and at most 0.5",
+            nu,
+            nu > -1.0 && nu <= 0.5,
+        )?;
         positive("shear modulus", material, self.shear_modulus)?;
-        if self.density == 0.0 { Ok(()) } else { positive("density", material, self.density) }
+        if self.density == 0.0 {
+            Ok(())
+        } else {
+            positive("density", material, self.density)
+        }
     }
 }
 
@@ -115,11 +129,29 @@ impl Element {
             return Err(Error::WrongCornerCount { expected, found }.in_element(self.label));
         }
         let owner = || format!("element {}", self.label);
-        if let Some(&label) = self.grids.iter().find(|grid| !index_of_grid.contains_key(grid)) {
-            return Err(Error::Unknown { owner: owner(), what: "grid", label });
+        if let Some(&label) = self
+            .grids
+            .iter()
+            .find(|grid| !index_of_grid.contains_key(grid))
+        {
+            return Err(Error::Unknown {
+                owner: owner(),
+                what: "grid",
+                label,
+            });
         }
-        self.material.check().map_err(|error| error.in_element(self.label))?;
-        positive(if self.kind == ElementKind::Rod { "area" } else { "gage" }, owner, self.size)
+        self.material
+            .check()
+            .map_err(|error| error.in_element(self.label))?;
+        positive(
+            if self.kind == ElementKind::Rod {
+                "area"
+            } else {
+                "gage"
+            },
+            owner,
+            self.size,
+        )
     }
 }
 
@@ -154,29 +186,58 @@ impl Structure {
     #[doc = include_str!("../../paper/examples/structure/structure_new.md")]
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         at_least_one("elements", elements.len())?;
-        let (mut index_of_grid, mut free, mut free_index) = (HashMap::new(), Vec::new(), HashMap::new());
-        for (row, &Grid { label, position, constrained }) in grids.iter().enumerate() {
+        let (mut index_of_grid, mut free, mut free_index) =
+            (HashMap::new(), Vec::new(), HashMap::new());
+        for (
+            row,
+            &Grid {
+                label,
+                position,
+                constrained,
+            },
+        ) in grids.iter().enumerate()
+        {
             if index_of_grid.insert(label, row).is_some() {
-                return Err(Error::Duplicate { what: "grid", label });
+                return Err(Error::Duplicate {
+                    what: "grid",
+                    label,
+                });
             }
             for (direction, (&value, constrained)) in position.iter().zip(constrained).enumerate() {
                 if !value.is_finite() {
-                    return Err(Error::NotFinite { what: "grid coordinates", row, column: direction, value });
+                    return Err(Error::NotFinite {
+                        what: "grid coordinates",
+                        row,
+                        column: direction,
+                        value,
+                    });
                 }
                 if !constrained {
                     free_index.insert((label, direction), free.len());
-                    free.push(StructuralDof { grid: label, direction });
+                    free.push(StructuralDof {
+                        grid: label,
+                        direction,
+                    });
                 }
             }
         }
         let mut seen = HashSet::new();
         for element in &elements {
             if !seen.insert(element.label) {
-                return Err(Error::Duplicate { what: "element", label: element.label });
+                return Err(Error::Duplicate {
+                    what: "element",
+                    label: element.label,
+                });
             }
             element.check(&index_of_grid)?;
         }
-        Ok(Self { grids, elements, index_of_grid, free, free_index })
+        Ok(Self {
+            grids,
+            elements,
+            index_of_grid,
+            free,
+            free_index,
+        })
     }
 
     /// The grids, in the order given.
@@ -206,16 +267,34 @@ impl Structure {
     /// Positions of an element's grids, in.
     #[doc = include_str!("../../paper/examples/structure/structure_corners.md")]
     pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
-        element.grids.iter().filter_map(|&grid| self.position(grid)).collect()
+        element
+            .grids
+            .iter()
+            .filter_map(|&grid| self.position(grid))
+            .collect()
     }
 
     /// Position of the grid of a number, in.
     pub(crate) fn position(&self, grid: usize) -> Option<Vector3<f64>> {
-        self.index_of_grid.get(&grid).map(|&row| self.grids[row].position)
+        self.index_of_grid
+            .get(&grid)
+            .map(|&row| self.grids[row].position)
     }
 }
 
 /// Accepts a positive finite number.
-pub(crate) fn positive(what: &'static str, owner: impl Fn() -> String, value: f64) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::NotPositive { what, owner: owner(), value }) }
+pub(crate) fn positive(
+    what: &'static str,
+    owner: impl Fn() -> String,
+    value: f64,
+) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::NotPositive {
+            what,
+            owner: owner(),
+            value,
+        })
+    }
 }

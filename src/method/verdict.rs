@@ -55,7 +55,9 @@ impl Verdict {
         is_within: bool,
     ) -> Self {
         let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
-        let worst_mode = (0..errors.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+        let worst_mode = (0..errors.len())
+            .max_by(|a, b| size(a).total_cmp(&size(b)))
+            .unwrap_or(0);
         let at_end = |e: &usize| ranges[*e].is_some_and(|range| range.has_end_at(factors[*e]));
         let is_unseen = |e: &usize| factors[*e] * seen[*e] < UNSEEN_SHARE;
         Self {
@@ -76,14 +78,23 @@ impl Verdict {
             let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
             indices.iter().map(name).collect::<Vec<_>>().join(", ")
         };
-        let within = if self.is_within { "within tolerance" } else { "outside tolerance" };
+        let within = if self.is_within {
+            "within tolerance"
+        } else {
+            "outside tolerance"
+        };
         let mut words = match self.outcome {
             Outcome::Tolerance => "Within tolerance".to_owned(),
             Outcome::LocalMinimum => format!("Stopped at a local minimum, {within}"),
-            Outcome::Cap => "Stopped by the number of iterations or passes allowed, outside tolerance".to_owned(),
-            Outcome::Nothing => "Nothing could be done, outside tolerance: no step from the first model lowers the \
+            Outcome::Cap => {
+                "Stopped by the number of iterations or passes allowed, outside tolerance"
+                    .to_owned()
+            }
+            Outcome::Nothing => {
+                "Nothing could be done, outside tolerance: no step from the first model lowers the \
                                  error sum, or none was allowed"
-                .to_owned(),
+                    .to_owned()
+            }
         };
         words += &format!(
             ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
@@ -97,16 +108,23 @@ impl Verdict {
             words += &format!(" At a bound: {}.", named(&self.at_bound));
         }
         if !self.unseen.is_empty() {
-            words += &format!(" Hardly seen by the test modes, and so not to be trusted: {}.", named(&self.unseen));
+            words += &format!(
+                " Hardly seen by the test modes, and so not to be trusted: {}.",
+                named(&self.unseen)
+            );
         }
         if !self.is_within {
             words += match self.outcome {
                 Outcome::Cap => " Try more iterations or passes.",
-                Outcome::Nothing => " Look for a mistake in the test's units, sensors or order of modes.",
+                Outcome::Nothing => {
+                    " Look for a mistake in the test's units, sensors or order of modes."
+                }
                 _ if !self.at_bound.is_empty() => {
                     " Try wider bounds, or look at how the elements at a bound are modeled."
                 }
-                _ => " Try other parameters or groups, or look at how the elements of the worst mode are modeled.",
+                _ => {
+                    " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
+                }
             };
         }
         words

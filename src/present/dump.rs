@@ -33,26 +33,42 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let (model, result) = (case.model()?, run_case(case, |_, _| {})?);
     let (names, passes) = (&result.parameter_names, &result.correlation.passes);
     let first = vec![1.0; names.len()];
-    let mut matrices = vec![file("T", &model.load_distribution().dense())?, file("V_G", &result.test.shapes)?];
+    let mut matrices = vec![
+        file("T", &model.load_distribution().dense())?,
+        file("V_G", &result.test.shapes)?,
+    ];
     let mut analyses = Vec::new();
-    for (number, factors) in (1..).zip(once(&first).chain(passes.iter().map(|pass| &pass.factors))) {
+    for (number, factors) in (1..).zip(once(&first).chain(passes.iter().map(|pass| &pass.factors)))
+    {
         let (dynamic, condensed) = (model.matrices(factors)?, model.condense(factors)?);
         let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
         let points = DMatrix::identity(dynamic.mass.nrows(), dynamic.mass.nrows());
         let b = condensed.structural_shapes(&points)?.transpose();
-        let mut analysis =
-            json!({"factors": factors, "sizes": model.sizes(factors)?, "frequencies_hz": modes.frequencies_hz()});
-        for (name, matrix) in [("K_D", &dynamic.stiffness), ("M", &dynamic.mass), ("V", &modes.shapes), ("B", &b)] {
+        let mut analysis = json!({"factors": factors, "sizes": model.sizes(factors)?, "frequencies_hz": modes.frequencies_hz()});
+        for (name, matrix) in [
+            ("K_D", &dynamic.stiffness),
+            ("M", &dynamic.mass),
+            ("V", &modes.shapes),
+            ("B", &b),
+        ] {
             analysis[name] = rows(matrix);
             matrices.push(file(&format!("analysis_{number}_{name}"), matrix)?);
         }
-        analysis["shares"] = dynamic.shares.iter().map(|share| rows(share.matrix())).collect();
+        analysis["shares"] = dynamic
+            .shares
+            .iter()
+            .map(|share| rows(share.matrix()))
+            .collect();
         for (name, share) in names.iter().zip(&dynamic.shares) {
-            matrices.push(file(&format!("analysis_{number}_share_{name}"), share.matrix())?);
+            matrices.push(file(
+                &format!("analysis_{number}_share_{name}"),
+                share.matrix(),
+            )?);
         }
         analyses.push(analysis);
     }
-    let dof = |dof: &StructuralDof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]});
+    let dof =
+        |dof: &StructuralDof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]});
     let json = document(json!({
         "case": case.number,
         "settings": case.settings,
@@ -68,7 +84,13 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
 
 /// A matrix as a file: its name and its text.
 fn file(name: &str, matrix: &DMatrix<f64>) -> Result<(String, String), PresentError> {
-    let place = |index: usize| (index % matrix.nrows(), index / matrix.nrows(), matrix[index]);
+    let place = |index: usize| {
+        (
+            index % matrix.nrows(),
+            index / matrix.nrows(),
+            matrix[index],
+        )
+    };
     let entries = (0..matrix.len()).map(place).collect();
     let sparse = SparseMatrix::new("matrix of a case", matrix.nrows(), matrix.ncols(), entries)?;
     Ok((format!("{name}.mtx"), write_matrix_market(&sparse)))

@@ -83,7 +83,10 @@ fn agreement(subject: &Subject, check: &Check) -> Result<Value, PresentError> {
 }
 
 pub(super) fn rows(matrix: &DMatrix<f64>) -> Value {
-    matrix.row_iter().map(|row| row.iter().copied().collect::<Vec<_>>()).collect()
+    matrix
+        .row_iter()
+        .map(|row| row.iter().copied().collect::<Vec<_>>())
+        .collect()
 }
 
 fn check(check: &Check) -> Value {
@@ -144,19 +147,25 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 }
 
 /// Every reading of the step beside the print.
-pub fn readings(columns: &[ReadingColumn], detections: &[Detection]) -> Result<String, PresentError> {
+pub fn readings(
+    columns: &[ReadingColumn],
+    detections: &[Detection],
+) -> Result<String, PresentError> {
     let column = |column: &ReadingColumn| {
         let mut value = json!(column);
         value["correlation"] = json!(column.correlation());
         value["difference"] = json!(column.difference());
         value
     };
-    document(json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }))
+    document(
+        json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }),
+    )
 }
 
 /// What the pre-flight finds in structures; places count from zero.
 pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentError> {
-    let structure = |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
+    let structure =
+        |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
     document(json!({ "structures": found.iter().map(structure).collect::<Value>() }))
 }
 
@@ -174,7 +183,10 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
             "largest_share": share,
         })
     };
-    let groups = GROUPS.iter().zip(&run.correlation.best_factors).zip(&run.shares);
+    let groups = GROUPS
+        .iter()
+        .zip(&run.correlation.best_factors)
+        .zip(&run.shares);
     document(json!({
         "measured_grids": MEASURED_GRIDS,
         "trailing_edge_load_deflections_in": wing.deflections(TipLoad::TrailingEdge)?,
@@ -190,7 +202,10 @@ pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, Pre
 /// `dof`.
 pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
     let (masses, shapes) = unit_shapes(modes, count);
-    let dof = modes.dof.iter().map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
+    let dof = modes
+        .dof
+        .iter()
+        .map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
     document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,

@@ -19,7 +19,10 @@ pub fn text(tables: &[Table]) -> String {
     let head = "Computed numbers, the published ones in rows of their own below them.";
     paragraphs(tables, head, |table| {
         let notes = table.notes.iter().map(|note| wrapped(note));
-        std::iter::once(wrapped(&table.title)).chain(grids(table)).chain(notes).collect()
+        std::iter::once(wrapped(&table.title))
+            .chain(grids(table))
+            .chain(notes)
+            .collect()
     })
 }
 
@@ -33,7 +36,10 @@ pub fn markdown(tables: &[Table]) -> String {
         });
         let line = |label: &str, cells: Vec<String>| format!("| {label} | {} |", cells.join(" | "));
         let rule = vec!["---:".to_owned(); table.columns.len()];
-        let mut lines = vec![line(table.label_heading, headings.collect()), line("---", rule)];
+        let mut lines = vec![
+            line(table.label_heading, headings.collect()),
+            line("---", rule),
+        ];
         for row in &table.rows {
             let cells = row.cells.iter().map(|cell| match cell.published() {
                 Some(published) => format!("{} ({published})", cell.computed()),
@@ -42,13 +48,20 @@ pub fn markdown(tables: &[Table]) -> String {
             lines.push(line(&row.label, cells.collect()));
         }
         let notes = table.notes.iter().cloned();
-        [format!("## {}", table.title), lines.join("\n")].into_iter().chain(notes).collect()
+        [format!("## {}", table.title), lines.join("\n")]
+            .into_iter()
+            .chain(notes)
+            .collect()
     })
 }
 
 /// Paragraphs of every table, below a line about published numbers where there are any.
 fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) -> String {
-    let head = tables.iter().flat_map(|table| &table.rows).any(Row::is_published).then(|| head.to_owned());
+    let head = tables
+        .iter()
+        .flat_map(|table| &table.rows)
+        .any(Row::is_published)
+        .then(|| head.to_owned());
     let paragraphs: Vec<String> = head.into_iter().chain(tables.iter().flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
 }
@@ -64,11 +77,23 @@ pub fn csv(tables: &[Table]) -> String {
                     Cell::Blank => continue,
                     Cell::Text(words) => (words.clone(), String::new()),
                     Cell::Printed(words) => (String::new(), words.clone()),
-                    Cell::Number { computed, published, .. } => {
-                        (ten_digits(*computed), published.map_or_else(String::new, |value| value.to_string()))
-                    }
+                    Cell::Number {
+                        computed,
+                        published,
+                        ..
+                    } => (
+                        ten_digits(*computed),
+                        published.map_or_else(String::new, |value| value.to_string()),
+                    ),
                 };
-                let fields = [&table.name, &row.label, &column.name, column.unit, &computed, &published];
+                let fields = [
+                    &table.name,
+                    &row.label,
+                    &column.name,
+                    column.unit,
+                    &computed,
+                    &published,
+                ];
                 out += &(fields.map(quoted).join(",") + "\n");
             }
         }
@@ -79,7 +104,11 @@ pub fn csv(tables: &[Table]) -> String {
 /// A field of CSV, in quotes if it holds what would end it.
 fn quoted(field: &str) -> String {
     let ends = field.contains([',', '"', '\n', '\r']);
-    if ends { format!("\"{}\"", field.replace('"', "\"\"")) } else { field.to_owned() }
+    if ends {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
 }
 
 /// Ten significant digits in the shortest form that keeps them.
@@ -97,25 +126,44 @@ struct TextColumn {
 impl TextColumn {
     fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
         let least = if name.contains(' ') { LEAST } else { 0 };
-        let words = cells.iter().map(String::as_str).chain(name.split(' ')).chain([unit]);
-        let width = words.map(|word| word.chars().count()).fold(least, usize::max);
+        let words = cells
+            .iter()
+            .map(String::as_str)
+            .chain(name.split(' '))
+            .chain([unit]);
+        let width = words
+            .map(|word| word.chars().count())
+            .fold(least, usize::max);
         let mut heading = lines(name.split(' '), width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
-        Self { heading, cells, width }
+        Self {
+            heading,
+            cells,
+            width,
+        }
     }
 }
 
 /// The table, in as many parts side by side as its width asks for.
 fn grids(table: &Table) -> Vec<String> {
     let column = |name: &str, unit: &str, both: &dyn Fn(&Row) -> [String; 2]| {
-        let cells = table.rows.iter().flat_map(|row| both(row).into_iter().take(1 + usize::from(row.is_published())));
+        let cells = table.rows.iter().flat_map(|row| {
+            both(row)
+                .into_iter()
+                .take(1 + usize::from(row.is_published()))
+        });
         TextColumn::new(name, unit, cells.collect())
     };
-    let label = column(table.label_heading, "", &|row| [row.label.clone(), PUBLISHED.to_owned()]);
+    let label = column(table.label_heading, "", &|row| {
+        [row.label.clone(), PUBLISHED.to_owned()]
+    });
     let (mut parts, mut room): (Vec<Vec<TextColumn>>, _) = (Vec::new(), 0);
     for (at, Column { name, unit }) in table.columns.iter().enumerate() {
         let both = |row: &Row| {
-            row.cells.get(at).map(|cell| [cell.computed(), cell.published().unwrap_or_default()]).unwrap_or_default()
+            row.cells
+                .get(at)
+                .map(|cell| [cell.computed(), cell.published().unwrap_or_default()])
+                .unwrap_or_default()
         };
         let column = column(name, unit, &both);
         if GAP + column.width > room {
@@ -133,20 +181,40 @@ fn grids(table: &Table) -> Vec<String> {
 /// One part: headings, rows, and a rule below each.
 fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
     let line = |text: &dyn Fn(&TextColumn) -> String| {
-        let cells = columns.iter().map(|column| format!("{:>width$}", text(column), width = GAP + column.width));
-        let line = format!("{:<width$}", text(label), width = label.width) + &cells.collect::<String>();
+        let cells = columns
+            .iter()
+            .map(|column| format!("{:>width$}", text(column), width = GAP + column.width));
+        let line =
+            format!("{:<width$}", text(label), width = label.width) + &cells.collect::<String>();
         line.trim_end().to_owned()
     };
-    let high = columns.iter().chain([label]).map(|column| column.heading.len()).max().unwrap_or(0);
+    let high = columns
+        .iter()
+        .chain([label])
+        .map(|column| column.heading.len())
+        .max()
+        .unwrap_or(0);
     // Headings stand on the rule: the shorter ones begin lower.
-    let heading = |column: &TextColumn, at: usize| match (at + column.heading.len()).checked_sub(high) {
-        Some(row) => column.heading[row].clone(),
-        None => String::new(),
-    };
-    let rule = "─".repeat(label.width + columns.iter().map(|column| GAP + column.width).sum::<usize>());
+    let heading =
+        |column: &TextColumn, at: usize| match (at + column.heading.len()).checked_sub(high) {
+            Some(row) => column.heading[row].clone(),
+            None => String::new(),
+        };
+    let rule = "─".repeat(
+        label.width
+            + columns
+                .iter()
+                .map(|column| GAP + column.width)
+                .sum::<usize>(),
+    );
     let headings = (0..high).map(|at| line(&|column| heading(column, at)));
     let rows = (0..label.cells.len()).map(|row| line(&|column| column.cells[row].clone()));
-    headings.chain([rule.clone()]).chain(rows).chain([rule.clone()]).collect::<Vec<_>>().join("\n")
+    headings
+        .chain([rule.clone()])
+        .chain(rows)
+        .chain([rule.clone()])
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// A paragraph in lines of at most [`WIDTH`].
@@ -159,7 +227,9 @@ pub(super) fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) 
     let mut lines: Vec<String> = Vec::new();
     for word in words {
         match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                *line += &format!(" {word}")
+            }
             _ => lines.push(word.to_owned()),
         }
     }

@@ -72,8 +72,18 @@ pub struct Table {
 
 impl Cell {
     /// A number, or nothing, beside the published one if there is any.
-    pub fn beside(computed: impl Into<Option<f64>>, digits: Digits, published: Option<f64>) -> Self {
-        computed.into().map_or(Self::Blank, |computed| Self::Number { computed, published, digits })
+    pub fn beside(
+        computed: impl Into<Option<f64>>,
+        digits: Digits,
+        published: Option<f64>,
+    ) -> Self {
+        computed
+            .into()
+            .map_or(Self::Blank, |computed| Self::Number {
+                computed,
+                published,
+                digits,
+            })
     }
 
     /// A number, or nothing, with nothing published for it.
@@ -94,7 +104,9 @@ impl Cell {
     /// The published number behind it.
     pub fn published(&self) -> Option<String> {
         match self {
-            Self::Number { published, digits, .. } => published.map(|value| digits.write(value)),
+            Self::Number {
+                published, digits, ..
+            } => published.map(|value| digits.write(value)),
             _ => None,
         }
     }
@@ -104,7 +116,9 @@ impl Cell {
         match self {
             Self::Blank => String::new(),
             Self::Text(words) | Self::Printed(words) => words.clone(),
-            Self::Number { computed, digits, .. } => digits.write(*computed),
+            Self::Number {
+                computed, digits, ..
+            } => digits.write(*computed),
         }
     }
 }
@@ -119,7 +133,12 @@ impl Row {
 impl Table {
     /// A table without columns and rows.
     pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
-        Self { name: name.into(), title: title.into(), label_heading: label, ..Self::default() }
+        Self {
+            name: name.into(),
+            title: title.into(),
+            label_heading: label,
+            ..Self::default()
+        }
     }
 
     /// The table with empty rows of these labels, for columns to fill.
@@ -135,22 +154,37 @@ impl Table {
         unit: &'static str,
         cells: impl IntoIterator<Item = Cell>,
     ) -> Self {
-        self.columns.push(Column { name: name.into(), unit });
+        self.columns.push(Column {
+            name: name.into(),
+            unit,
+        });
         let cells = cells.into_iter().chain(std::iter::repeat(Cell::Blank));
-        self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.cells.push(cell));
+        self.rows
+            .iter_mut()
+            .zip(cells)
+            .for_each(|(row, cell)| row.cells.push(cell));
         self
     }
 
     /// The table with the headings of more columns of one unit, for rows to fill.
-    pub fn headings<N: Into<String>>(self, names: impl IntoIterator<Item = N>, unit: &'static str) -> Self {
-        names.into_iter().fold(self, |table, name| table.column(name, unit, []))
+    pub fn headings<N: Into<String>>(
+        self,
+        names: impl IntoIterator<Item = N>,
+        unit: &'static str,
+    ) -> Self {
+        names
+            .into_iter()
+            .fold(self, |table, name| table.column(name, unit, []))
     }
 
     /// Adds a row; columns beyond the last cell stay blank.
     pub fn row(&mut self, label: impl ToString, cells: impl IntoIterator<Item = Cell>) {
         let mut cells: Vec<Cell> = cells.into_iter().collect();
         cells.resize(self.columns.len(), Cell::Blank);
-        self.rows.push(Row { label: label.to_string(), cells });
+        self.rows.push(Row {
+            label: label.to_string(),
+            cells,
+        });
     }
 
     /// The table with more sentences under it.
@@ -177,7 +211,11 @@ impl Digits {
             }
         };
         let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-        if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+        if is_zero {
+            text.trim_start_matches('-').to_owned()
+        } else {
+            text
+        }
     }
 }
 
@@ -186,7 +224,9 @@ pub fn numbers<N: Into<Option<f64>>>(
     values: impl IntoIterator<Item = N>,
     digits: Digits,
 ) -> impl Iterator<Item = Cell> {
-    values.into_iter().map(move |value| Cell::number(value, digits))
+    values
+        .into_iter()
+        .map(move |value| Cell::number(value, digits))
 }
 
 /// Fractions, or nothing, as cells in percent.
@@ -194,7 +234,12 @@ pub fn percents<N: Into<Option<f64>>>(
     fractions: impl IntoIterator<Item = N>,
     digits: Digits,
 ) -> impl Iterator<Item = Cell> {
-    numbers(fractions.into_iter().map(|fraction| fraction.into().map(|fraction| 100.0 * fraction)), digits)
+    numbers(
+        fractions
+            .into_iter()
+            .map(|fraction| fraction.into().map(|fraction| 100.0 * fraction)),
+        digits,
+    )
 }
 
 /// A number of things in words: `1 iteration`, `2 iterations`.

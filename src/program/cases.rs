@@ -40,15 +40,31 @@ fn case_number(word: &str) -> Result<usize, String> {
         Some(command) => format!("; did you mean corfem {command}?"),
         None => String::new(),
     };
-    word.parse().map_err(|_| format!("expected the number of a case, 1 to 4, found {word}{}", meant()))
+    word.parse().map_err(|_| {
+        format!(
+            "expected the number of a case, 1 to 4, found {word}{}",
+            meant()
+        )
+    })
 }
 
 /// The cases asked for, each once.
-fn chosen(arguments: &CasesArguments, reconstruction: &Reconstruction) -> Result<Vec<Case>, PresentError> {
-    let numbers = if arguments.cases.is_empty() { &CASES[..] } else { &arguments.cases };
+fn chosen(
+    arguments: &CasesArguments,
+    reconstruction: &Reconstruction,
+) -> Result<Vec<Case>, PresentError> {
+    let numbers = if arguments.cases.is_empty() {
+        &CASES[..]
+    } else {
+        &arguments.cases
+    };
     let case = |(row, &number): (usize, &usize)| {
         if numbers[..row].contains(&number) {
-            return Err(Error::Duplicate { what: "case", label: number }.into());
+            return Err(Error::Duplicate {
+                what: "case",
+                label: number,
+            }
+            .into());
         }
         let mut case = Case::on(number, reconstruction.clone())?;
         arguments.settings.apply(&mut case.settings)?;
@@ -88,6 +104,8 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
     if let Some(last) = tables.last_mut() {
         last.notes.push(held);
     }
-    arguments.output.write(&tables, || json::cases(&results, &fit))?;
+    arguments
+        .output
+        .write(&tables, || json::cases(&results, &fit))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

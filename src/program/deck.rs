@@ -49,12 +49,19 @@ pub struct ModesArguments {
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
-    let case = Case::on(arguments.case, reconstruction(arguments.box_file.as_deref())?)?;
+    let case = Case::on(
+        arguments.case,
+        reconstruction(arguments.box_file.as_deref())?,
+    )?;
     let model = case.model()?;
     let mut factors = vec![1.0; model.parameters().len()];
     if arguments.pass > 0 {
         let passes = run_case(&case, |_, _| ())?.correlation.passes;
-        let none = Error::TooMany { what: "pass", available: passes.len(), requested: arguments.pass };
+        let none = Error::TooMany {
+            what: "pass",
+            available: passes.len(),
+            requested: arguments.pass,
+        };
         factors = passes.get(arguments.pass - 1).ok_or(none)?.factors.clone();
     }
     let modes = model.modes(&factors)?;
@@ -67,13 +74,17 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     };
     let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    put(arguments.output.as_deref(), &deck::write(&bulk, &title, &task)?)
+    put(
+        arguments.output.as_deref(),
+        &deck::write(&bulk, &title, &task)?,
+    )
 }
 
 /// Prints the modes of a deck.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let name = arguments.deck.display().to_string();
-    let bytes = std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
+    let bytes =
+        std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
     let deck = deck::read(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
         say(format_args!("corfem: {name}: {}", not_read(card)));
@@ -82,8 +93,15 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     let found = modes.modes.len();
     let count = arguments.count.map_or(found, NonZeroUsize::get);
     if count > found {
-        return Err(Error::TooMany { what: "modes of finite frequency", available: found, requested: count }.into());
+        return Err(Error::TooMany {
+            what: "modes of finite frequency",
+            available: found,
+            requested: count,
+        }
+        .into());
     }
     let tables = deck_tables(&deck, &modes, count);
-    arguments.output.write(&tables, || json::deck_modes(&deck, &modes, count))
+    arguments
+        .output
+        .write(&tables, || json::deck_modes(&deck, &modes, count))
 }

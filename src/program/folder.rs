@@ -25,7 +25,10 @@ const NEW: &str = "new";
 /// Refuses a folder that files could not be written into, before there are any.
 pub fn check_folder(folder: &Path) -> std::result::Result<(), PresentError> {
     let check = || match fs::metadata(folder) {
-        _ if folder.as_os_str() == "-" => Err(Error::new(ErrorKind::InvalidInput, "standard output is no folder")),
+        _ if folder.as_os_str() == "-" => Err(Error::new(
+            ErrorKind::InvalidInput,
+            "standard output is no folder",
+        )),
         Ok(_) => probe(folder),
         Err(_) => probe(folder.parent().unwrap_or(folder)),
     };
@@ -33,7 +36,10 @@ pub fn check_folder(folder: &Path) -> std::result::Result<(), PresentError> {
 }
 
 /// Writes the files, by name and text, into a folder, made if it is new: all of them or none.
-pub fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> std::result::Result<(), PresentError> {
+pub fn put_all(
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+) -> std::result::Result<(), PresentError> {
     let failed = |path: &Path| FileError::of_file(path, "write");
     let made = fs::create_dir(folder).is_ok();
     // Two runs into one folder take turns, where the file system can lock; the lock ends with this run.
@@ -64,7 +70,10 @@ pub fn put_all(folder: &Path, files: &[(String, Vec<u8>)]) -> std::result::Resul
 /// Writes the new file of a place where nobody looks.
 fn stage(path: &Path, new: &Path, text: &[u8]) -> Result<()> {
     if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
-        return Err(Error::new(ErrorKind::AlreadyExists, "something else than a file stands there"));
+        return Err(Error::new(
+            ErrorKind::AlreadyExists,
+            "something else than a file stands there",
+        ));
     }
     let old = old_file(path)?;
     let mut file = File::create(new)?;
@@ -90,7 +99,9 @@ fn switch(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
             fs::copy(&path, &old).and_then(|_| File::open(&old)?.sync_all())?;
         }
     }
-    [&stage.join(OLD), &stage.join(NEW), &stage, folder].into_iter().for_each(sync_folder);
+    [&stage.join(OLD), &stage.join(NEW), &stage, folder]
+        .into_iter()
+        .for_each(sync_folder);
     for (name, _) in files {
         link(&format!("{STAGE}/{CURRENT}/{name}"), &next)?;
         fs::rename(&next, folder.join(name))?;
@@ -111,7 +122,9 @@ fn settle(folder: &Path) -> Result<()> {
     }
     let entries: Vec<_> = fs::read_dir(folder)?.collect::<Result<_>>()?;
     for path in entries.into_iter().map(|entry| entry.path()) {
-        let Ok(target) = fs::read_link(&path) else { continue };
+        let Ok(target) = fs::read_link(&path) else {
+            continue;
+        };
         if target.starts_with(STAGE) {
             match fs::rename(folder.join(target), &path) {
                 // Nothing stood here before.

@@ -61,17 +61,34 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
         let found = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
         return Err(FileError::of_file(path, "write")(found).into());
     }
-    put(arguments.output.as_deref(), if arguments.test { TEST_TEMPLATE } else { TEMPLATE })
+    put(
+        arguments.output.as_deref(),
+        if arguments.test {
+            TEST_TEMPLATE
+        } else {
+            TEMPLATE
+        },
+    )
 }
 
 /// Says everything doubtful of a job and ranks its parameters, without a step.
-pub fn check_job(CheckArguments { job, output }: &CheckArguments, quiet: bool) -> Result<(), PresentError> {
-    let Some(path) = job else { return super::studies::check(output) };
+pub fn check_job(
+    CheckArguments { job, output }: &CheckArguments,
+    quiet: bool,
+) -> Result<(), PresentError> {
+    let Some(path) = job else {
+        return super::studies::check(output);
+    };
     let tables = progress::during(quiet, "looking at the job", || {
         let prepared = Prepared::new(path)?;
         let subject = Subject::of_job(&prepared, None)?;
         let [doubts, suspects] = [doubts_table(&prepared)?, suspects_table(&prepared)?];
-        Ok::<_, PresentError>([doubts, places_table(&prepared, None)?, paired_table(&subject)?, suspects])
+        Ok::<_, PresentError>([
+            doubts,
+            places_table(&prepared, None)?,
+            paired_table(&subject)?,
+            suspects,
+        ])
     })?;
     output.write(&tables, || json::document(json!({ "tables": tables })))
 }
@@ -85,8 +102,17 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         compare.starts = Some(starts as usize);
         compare.seed = arguments.seed.unwrap_or(compare.seed);
     }
-    for card in prepared.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
-        say(format_args!("corfem: {}: {}", prepared.title, not_read(card)));
+    for card in prepared
+        .source
+        .deck
+        .iter()
+        .flat_map(|(_, deck)| &deck.unread)
+    {
+        say(format_args!(
+            "corfem: {}: {}",
+            prepared.title,
+            not_read(card)
+        ));
     }
     let bar = progress::spinner(quiet);
     let stop = Arc::new(AtomicBool::new(false));
@@ -99,22 +125,42 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let finished = finished?;
     let subject = Subject::of_job(&prepared, Some(&finished))?;
     // The verdict stands under the history, at the end.
-    let [paired, factors, history] = [paired_table(&subject)?, factor_table(&subject), history_table(&subject)];
+    let [paired, factors, history] = [
+        paired_table(&subject)?,
+        factor_table(&subject),
+        history_table(&subject),
+    ];
     let tables = [paired, factors, seen_table(&prepared, &finished)?, history];
     let document = || json::document(json::subject(&subject)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
         let [.., seen, _] = &tables;
-        let extra = [seen.clone(), places_table(&prepared, Some(&finished))?, doubts_table(&prepared)?];
+        let extra = [
+            seen.clone(),
+            places_table(&prepared, Some(&finished))?,
+            doubts_table(&prepared)?,
+        ];
         let command = format!("corfem correlate {}", arguments.job.display());
         let mut files = vec![
-            ("report.html".to_owned(), subject_page(&subject, &extra, &command)?.into_bytes()),
-            ("factors.csv".to_owned(), render::csv(&[factor_table(&subject)]).into_bytes()),
+            (
+                "report.html".to_owned(),
+                subject_page(&subject, &extra, &command)?.into_bytes(),
+            ),
+            (
+                "factors.csv".to_owned(),
+                render::csv(&[factor_table(&subject)]).into_bytes(),
+            ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
         // The report of a long correlation is not lost with a deck that cannot be written.
         let deck = prepared.corrected_deck(&finished.factors);
-        files.extend(deck.as_ref().ok().cloned().flatten().map(|deck| ("corrected.bdf".to_owned(), deck)));
+        files.extend(
+            deck.as_ref()
+                .ok()
+                .cloned()
+                .flatten()
+                .map(|deck| ("corrected.bdf".to_owned(), deck)),
+        );
         put_all(folder, &files)?;
         deck?;
     }

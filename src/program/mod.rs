@@ -97,7 +97,14 @@ enum Command {
 pub fn run() -> ExitCode {
     let matches = Arguments::command().try_get_matches();
     let parsed = matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
-    let (Arguments { command, cases, quiet }, matches) = match parsed {
+    let (
+        Arguments {
+            command,
+            cases,
+            quiet,
+        },
+        matches,
+    ) = match parsed {
         Ok(parsed) => parsed,
         Err(error) if error.use_stderr() => {
             let _ = error.print();
@@ -106,7 +113,11 @@ pub fn run() -> ExitCode {
         Err(asked) => {
             let is_version = asked.kind() == ErrorKind::DisplayVersion;
             // A command's own would have the command's name in it.
-            let text = if is_version { Arguments::command().render_version() } else { asked.render().to_string() };
+            let text = if is_version {
+                Arguments::command().render_version()
+            } else {
+                asked.render().to_string()
+            };
             return status(put(None, &text).map(|()| true));
         }
     };
@@ -114,7 +125,9 @@ pub fn run() -> ExitCode {
         None => cases::cases(&cases, quiet),
         Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
-        Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet).map(|()| true),
+        Some(Command::FewerModes(arguments)) => {
+            studies::fewer_modes(&arguments, quiet).map(|()| true)
+        }
         Some(Command::Readings(arguments)) => studies::readings(&arguments, quiet).map(|()| true),
         Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
@@ -122,8 +135,12 @@ pub fn run() -> ExitCode {
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
         Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments, quiet),
-        Some(Command::Figures(arguments)) => pictures::pictures(&arguments, false, quiet).map(|()| true),
-        Some(Command::Report(arguments)) => pictures::pictures(&arguments, true, quiet).map(|()| true),
+        Some(Command::Figures(arguments)) => {
+            pictures::pictures(&arguments, false, quiet).map(|()| true)
+        }
+        Some(Command::Report(arguments)) => {
+            pictures::pictures(&arguments, true, quiet).map(|()| true)
+        }
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Dump(arguments)) => pictures::dump(&arguments, quiet).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
@@ -151,7 +168,8 @@ fn status(done: Result<bool, PresentError>) -> ExitCode {
 
 /// The command that a word was meant for, if it is or nearly is one.
 fn command_meant(word: &str) -> Option<String> {
-    let commands = Command::augment_subcommands(clap::Command::new("corfem")).subcommand_required(true);
+    let commands =
+        Command::augment_subcommands(clap::Command::new("corfem")).subcommand_required(true);
     if commands.find_subcommand(word).is_some() {
         return Some(word.to_owned());
     }

@@ -56,7 +56,9 @@ impl OutputArguments {
 
 /// The box of a file, or the reconstructed one.
 pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, PresentError> {
-    let Some(path) = box_file else { return Ok(Reconstruction::embedded()?) };
+    let Some(path) = box_file else {
+        return Ok(Reconstruction::embedded()?);
+    };
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
     Ok(Reconstruction::parse(&path.display().to_string(), &text)?)
 }

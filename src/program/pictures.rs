@@ -26,12 +26,19 @@ pub struct FolderArguments {
 
 /// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
 /// tables.
-pub fn pictures(FolderArguments { folder }: &FolderArguments, as_page: bool, quiet: bool) -> Result<(), PresentError> {
+pub fn pictures(
+    FolderArguments { folder }: &FolderArguments,
+    as_page: bool,
+    quiet: bool,
+) -> Result<(), PresentError> {
     let say = |words: String| (!quiet).then(|| tell(words));
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
-        say(format!("case {number}: {}", counted(result.correlation.passes.len(), "pass", "passes")));
+        say(format!(
+            "case {number}: {}",
+            counted(result.correlation.passes.len(), "pass", "passes")
+        ));
         results.push(result);
     }
     let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
@@ -39,7 +46,13 @@ pub fn pictures(FolderArguments { folder }: &FolderArguments, as_page: bool, qui
     let mut figures = case_figures(&results)?;
     figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes, &matrices)?);
     let wings = Subject::wings()?;
-    figures.extend(wings.iter().map(subject_figures).collect::<Result<Vec<_>, _>>()?.concat());
+    figures.extend(
+        wings
+            .iter()
+            .map(subject_figures)
+            .collect::<Result<Vec<_>, _>>()?
+            .concat(),
+    );
     if as_page {
         let html = page(&Contents {
             results: &results,
@@ -53,7 +66,10 @@ pub fn pictures(FolderArguments { folder }: &FolderArguments, as_page: bool, qui
         put_all(folder, &[("report.html".to_owned(), html.into_bytes())])?;
         say(folder.join("report.html").display().to_string());
     } else {
-        let files: Vec<_> = figures.into_iter().map(|figure| (figure.name + ".svg", figure.svg.into_bytes())).collect();
+        let files: Vec<_> = figures
+            .into_iter()
+            .map(|figure| (figure.name + ".svg", figure.svg.into_bytes()))
+            .collect();
         put_all(folder, &files)?;
         say(format!("{} files in {}", files.len(), folder.display()));
     }
@@ -74,12 +90,22 @@ pub struct DumpArguments {
 /// Runs a case and writes its matrices and every iteration.
 pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> {
     let dump = open(&Case::new(arguments.case)?)?;
-    let Some(folder) = &arguments.folder else { return put(None, &dump.json) };
+    let Some(folder) = &arguments.folder else {
+        return put(None, &dump.json);
+    };
     let mut files = vec![("dump.json".to_owned(), dump.json.into_bytes())];
-    files.extend(dump.matrices.into_iter().map(|(name, text)| (name, text.into_bytes())));
+    files.extend(
+        dump.matrices
+            .into_iter()
+            .map(|(name, text)| (name, text.into_bytes())),
+    );
     put_all(folder, &files)?;
     if !quiet {
-        tell(format_args!("{} files in {}", files.len(), folder.display()));
+        tell(format_args!(
+            "{} files in {}",
+            files.len(),
+            folder.display()
+        ));
     }
     Ok(())
 }

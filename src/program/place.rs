@@ -40,12 +40,17 @@ pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
 }
 
 fn named(path: Option<&Path>) -> &Path {
-    path.filter(|path| path.as_os_str() != "-").unwrap_or(Path::new("standard output"))
+    path.filter(|path| path.as_os_str() != "-")
+        .unwrap_or(Path::new("standard output"))
 }
 
 /// Whether files can be made in a folder: one without a name is, for a moment.
 pub fn probe(folder: &Path) -> io::Result<()> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     tempfile::tempfile_in(folder).map(drop)
 }
 
@@ -94,7 +99,11 @@ fn place(path: Option<&Path>) -> io::Result<Place> {
     if path.file_name().is_none() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(ErrorKind::IsADirectory.into());
     }
-    let old = if found.is_some() { old_file(&path)? } else { None };
+    let old = if found.is_some() {
+        old_file(&path)?
+    } else {
+        None
+    };
     Ok(Place::File(path, old))
 }
 
@@ -107,7 +116,10 @@ fn is_descriptor(path: &Path) -> bool {
 #[cfg(unix)]
 fn is_standard_output(found: &Metadata) -> bool {
     use std::os::{fd::AsFd, unix::fs::MetadataExt};
-    let own = std::io::stdout().as_fd().try_clone_to_owned().and_then(|own| File::from(own).metadata());
+    let own = std::io::stdout()
+        .as_fd()
+        .try_clone_to_owned()
+        .and_then(|own| File::from(own).metadata());
     own.is_ok_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino()))
 }
 
@@ -138,7 +150,10 @@ fn replace(path: &Path, old: Option<&Metadata>, text: &str) -> io::Result<()> {
     sync(staged.as_file())?;
     match staged.persist(path) {
         Err(_) if old.is_some() => write_over(path, text),
-        done => done.map(drop).map_err(io::Error::from).map(|()| sync_folder(path.parent().unwrap_or(path))),
+        done => done
+            .map(drop)
+            .map_err(io::Error::from)
+            .map(|()| sync_folder(path.parent().unwrap_or(path))),
     }
 }
 
@@ -149,7 +164,13 @@ fn write_over(path: &Path, text: &str) -> io::Result<()> {
 
 /// Waits until a file is on the disk, where there is one: files of the system itself have none.
 pub fn sync(file: &File) -> io::Result<()> {
-    file.sync_all().or_else(|error| if error.kind() == ErrorKind::InvalidInput { Ok(()) } else { Err(error) })
+    file.sync_all().or_else(|error| {
+        if error.kind() == ErrorKind::InvalidInput {
+            Ok(())
+        } else {
+            Err(error)
+        }
+    })
 }
 
 /// Waits until the names in a folder are on the disk, where the platform can say so.
@@ -163,5 +184,7 @@ fn new_file_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     // A bare name has an empty parent, which is the present folder.
-    builder.prefix(".corfem-").tempfile_in(path.parent().unwrap_or(Path::new("")))
+    builder
+        .prefix(".corfem-")
+        .tempfile_in(path.parent().unwrap_or(Path::new("")))
 }

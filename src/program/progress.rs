@@ -5,7 +5,11 @@ use std::time::Duration;
 
 /// Work of unknown length: time and words.
 pub fn spinner(quiet: bool) -> ProgressBar {
-    shown(ProgressBar::new_spinner(), "{spinner} {elapsed} {msg}", quiet)
+    shown(
+        ProgressBar::new_spinner(),
+        "{spinner} {elapsed} {msg}",
+        quiet,
+    )
 }
 
 /// Does work with words beside its time.
@@ -19,14 +23,20 @@ pub fn during<T>(quiet: bool, words: &'static str, work: impl FnOnce() -> T) -> 
 
 /// So many things to do.
 pub fn bar(quiet: bool, count: u64) -> ProgressBar {
-    shown(ProgressBar::new(count), "{wide_bar} {pos} of {len}, {eta} left", quiet)
+    shown(
+        ProgressBar::new(count),
+        "{wide_bar} {pos} of {len}, {eta} left",
+        quiet,
+    )
 }
 
 fn shown(bar: ProgressBar, template: &str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
     }
-    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    bar.set_style(
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner()),
+    );
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
 }

@@ -57,8 +57,12 @@ impl SettingsArguments {
         if let Some((lower, upper)) = pair("--limits", self.limits.as_deref())? {
             inner.factor_range = Range::positive("--limits", lower, upper)?;
         }
-        inner.iterations = self.iterations.map_or(inner.iterations, |most| most as usize);
-        settings.most_passes = self.passes.map_or(settings.most_passes, |most| most as usize);
+        inner.iterations = self
+            .iterations
+            .map_or(inner.iterations, |most| most as usize);
+        settings.most_passes = self
+            .passes
+            .map_or(settings.most_passes, |most| most as usize);
         settings.least_passes = settings.least_passes.min(settings.most_passes);
         Ok(())
     }
@@ -66,7 +70,9 @@ impl SettingsArguments {
 
 /// The two numbers of an option.
 fn pair(option: &'static str, values: Option<&[f64]>) -> Result<Option<(f64, f64)>, PresentError> {
-    let Some(values) = values else { return Ok(None) };
+    let Some(values) = values else {
+        return Ok(None);
+    };
     check_length(option, values.len(), 2)?;
     Ok(Some((values[0], values[1])))
 }

@@ -41,8 +41,16 @@ impl Solver {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self(None));
         }
-        let set = || std::env::var_os("NASTRAN95").filter(|folder| !folder.is_empty()).map(PathBuf::from);
-        let folder = arguments.nastran.clone().or_else(set).unwrap_or_else(default_folder);
+        let set = || {
+            std::env::var_os("NASTRAN95")
+                .filter(|folder| !folder.is_empty())
+                .map(PathBuf::from)
+        };
+        let folder = arguments
+            .nastran
+            .clone()
+            .or_else(set)
+            .unwrap_or_else(default_folder);
         let mut nastran = Nastran95::in_folder(&folder)?;
         nastran.time_limit = Duration::from_secs(arguments.time_limit.into());
         signals::tell(&nastran.stop);
@@ -55,7 +63,11 @@ impl Solver {
     }
 
     /// The model with the solver's elements, at the given factors on the parameters.
-    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, PresentError> {
+    pub fn elements(
+        &self,
+        model: &FiniteElementModel,
+        factors: &[f64],
+    ) -> Result<FiniteElementModel, PresentError> {
         let Some(nastran) = &self.0 else {
             return Ok(model.clone());
         };

@@ -59,9 +59,14 @@ pub struct FewerModesArguments {
 /// Runs every reading of the step against the printed gages.
 pub fn readings(output: &OutputArguments, quiet: bool) -> Result<(), PresentError> {
     let reconstruction = Reconstruction::embedded()?;
-    let columns = during(quiet, "readings of the step", || all_columns(&reconstruction))?;
+    let columns = during(quiet, "readings of the step", || {
+        all_columns(&reconstruction)
+    })?;
     let detection = |reading| detection(&reconstruction, reading);
-    let detections = READINGS.into_iter().map(detection).collect::<Result<Vec<_>, _>>()?;
+    let detections = READINGS
+        .into_iter()
+        .map(detection)
+        .collect::<Result<Vec<_>, _>>()?;
     let tables = tables::readings::readings_tables(&columns, &detections)?;
     output.write(&tables, || json::readings(&columns, &detections))
 }
@@ -69,13 +74,19 @@ pub fn readings(output: &OutputArguments, quiet: bool) -> Result<(), PresentErro
 /// Writes Table 1, computed anew, and the paper's other tables as printed.
 pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
     let all: Vec<u8> = (1..=13).collect();
-    let numbers = if arguments.numbers.is_empty() { &all } else { &arguments.numbers };
+    let numbers = if arguments.numbers.is_empty() {
+        &all
+    } else {
+        &arguments.numbers
+    };
     let table = |&number: &u8| match number {
         1 => tables::published::root_error_table(),
         _ => tables::published::published_table(number.into()),
     };
     let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;
-    arguments.output.write(&tables, || json::document(json!({ "tables": tables })))
+    arguments
+        .output
+        .write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
@@ -85,7 +96,9 @@ pub fn fewer_modes(
 ) -> Result<(), PresentError> {
     let mut case = Case::new(PUBLISHED_CASE)?;
     settings.apply(&mut case.settings)?;
-    let (published, all) = during(quiet, "runs with fewer modes", || (published_runs(&case), all_runs(&case)));
+    let (published, all) = during(quiet, "runs with fewer modes", || {
+        (published_runs(&case), all_runs(&case))
+    });
     let (published, all) = (published?, all?);
     let mut tables = tables::fewer_modes::published_tables(&case, &published)?;
     tables.extend(tables::fewer_modes::truncation_tables(&all));
@@ -97,7 +110,9 @@ pub fn matrices(arguments: &MatricesArguments) -> Result<(), PresentError> {
     let case = Case::new(arguments.case)?;
     let comparison = compare_matrices(&case, arguments.test_modes)?;
     let tables = tables::matrices::matrix_tables(&case, &comparison);
-    arguments.output.write(&tables, || json::document(json!({ "comparison": comparison })))
+    arguments.output.write(&tables, || {
+        json::document(json!({ "comparison": comparison }))
+    })
 }
 
 /// Looks at the paper's cases and the delta wing before the first step, and writes what is found.
@@ -106,12 +121,17 @@ pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
     for number in CASES {
         let case = Case::new(number)?;
         let test = case.test_modes()?;
-        found.push((format!("Case {number}"), preflight_of(&case.model()?, &test, &case.settings)?));
+        found.push((
+            format!("Case {number}"),
+            preflight_of(&case.model()?, &test, &case.settings)?,
+        ));
     }
     let wing = Known::delta_wing()?;
     let findings = preflight_of(&wing.model, &wing.test, &settings())?;
     found.push((wing.name, findings));
-    output.write(&[tables::preflight::findings_table(&found)], || json::preflight(&found))
+    output.write(&[tables::preflight::findings_table(&found)], || {
+        json::preflight(&found)
+    })
 }
 
 /// Writes the wing's answers beside others' and the correlation of its gages; whether it converged.
@@ -121,12 +141,17 @@ pub fn delta_wing(arguments: &DeltaWingArguments, quiet: bool) -> Result<bool, P
     let mut settings = settings();
     arguments.settings.apply(&mut settings)?;
     let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
-    let run =
-        during(quiet, "the delta wing", || correlate_wing_with(&wing, &settings, solver.name(), elements, |_, _| {}))?;
+    let run = during(quiet, "the delta wing", || {
+        correlate_wing_with(&wing, &settings, solver.name(), elements, |_, _| {})
+    })?;
     let tables = tables::delta_wing::delta_wing_tables(&wing, &run)?;
-    arguments.output.write(&tables, || json::delta_wing(&wing, &run))?;
+    arguments
+        .output
+        .write(&tables, || json::delta_wing(&wing, &run))?;
     if !run.correlation.converged {
-        say("corfem: the correlation did not converge within its limits; the best found is in the report");
+        say(
+            "corfem: the correlation did not converge within its limits; the best found is in the report",
+        );
     }
     Ok(run.correlation.converged)
 }

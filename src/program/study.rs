@@ -54,7 +54,9 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     let _held = signals::hold();
     let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
-        failure.into_iter().for_each(|failure| say(format_args!("corfem: {failure}")));
+        failure
+            .into_iter()
+            .for_each(|failure| say(format_args!("corfem: {failure}")));
         return arguments.output.put(&line);
     };
     if !folder.is_dir() {
@@ -70,9 +72,16 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                let next = || missing.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let next = || {
+                    missing
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner)
+                        .next()
+                };
                 while let Some(sample) = next().filter(|_| !stop.load(SeqCst)) {
-                    let Ok((line, _)) = study.run(sample, || !stop.load(SeqCst)) else { return };
+                    let Ok((line, _)) = study.run(sample, || !stop.load(SeqCst)) else {
+                        return;
+                    };
                     let (file, done) = &mut *written.lock().unwrap_or_else(PoisonError::into_inner);
                     // Behind a line that is torn nothing is written.
                     if done.is_err() {
@@ -88,7 +97,9 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     let (_file, done) = written.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.map_err(FileError::of_file(&path, "write"))?;
     let samples = Samples::read(&path, &study)?;
-    let left = (1..=last).filter(|sample| !samples.contains(*sample)).count();
+    let left = (1..=last)
+        .filter(|sample| !samples.contains(*sample))
+        .count();
     if left > 0 {
         say(format_args!(
             "corfem: stopped by request; {} of {last} samples are done, and the same command goes on",
@@ -99,24 +110,44 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     let summary = samples.summary(&study, last)?;
     let tables = [study_table(&study, &summary)];
     let figure = histogram::draw("histogram", &tables[0].title, &summary)?;
-    let files = [("summary.csv", render::csv(&tables)), ("histogram.svg", figure)];
-    put_all(folder, &files.map(|(name, text)| (name.to_owned(), text.into_bytes())))?;
-    arguments.output.write(&tables, || json::document(json!({ "tables": tables })))
+    let files = [
+        ("summary.csv", render::csv(&tables)),
+        ("histogram.svg", figure),
+    ];
+    put_all(
+        folder,
+        &files.map(|(name, text)| (name.to_owned(), text.into_bytes())),
+    )?;
+    arguments
+        .output
+        .write(&tables, || json::document(json!({ "tables": tables })))
 }
 
 /// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.
 fn opened(path: &Path, study: &Study) -> Result<(File, Samples), FileError> {
     let failed = FileError::of_file(path, "write");
-    let mut file =
-        OpenOptions::new().create(true).read(true).write(true).truncate(false).open(path).map_err(&failed)?;
+    let mut file = OpenOptions::new()
+        .create(true)
+        .read(true)
+        .write(true)
+        .truncate(false)
+        .open(path)
+        .map_err(&failed)?;
     if matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock)) {
-        return Err(failed(Error::new(ErrorKind::ResourceBusy, "another study is writing it")));
+        return Err(failed(Error::new(
+            ErrorKind::ResourceBusy,
+            "another study is writing it",
+        )));
     }
     let samples = Samples::read(path, study)?;
     let begin = |file: &mut File| {
         file.set_len(samples.whole)?;
         file.seek(SeekFrom::End(0))?;
-        if samples.whole == 0 { file.write_all(study.header().as_bytes()) } else { Ok(()) }
+        if samples.whole == 0 {
+            file.write_all(study.header().as_bytes())
+        } else {
+            Ok(())
+        }
     };
     begin(&mut file).map_err(failed)?;
     Ok((file, samples))

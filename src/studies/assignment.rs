@@ -18,7 +18,12 @@ use nalgebra::DMatrix;
 /// [`Error::NotFinite`]; [`Error::Setting`] for a floor that is negative or not finite.
 pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option<usize>>, Error> {
     check_finite("closeness", closeness)?;
-    setting("floor of closeness", "a number from zero up", floor, (0.0..f64::INFINITY).contains(&floor))?;
+    setting(
+        "floor of closeness",
+        "a number from zero up",
+        floor,
+        (0.0..f64::INFINITY).contains(&floor),
+    )?;
     // Behind the analysis modes every test mode has a place of its own, the last one first, which stands for none and counts nothing.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;
@@ -40,7 +45,10 @@ pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option
                     (distance[place], before[place]) = (length, visited.last().copied());
                 }
             }
-            let nearest = open.iter().copied().min_by(|&a, &b| distance[a].total_cmp(&distance[b]));
+            let nearest = open
+                .iter()
+                .copied()
+                .min_by(|&a, &b| distance[a].total_cmp(&distance[b]));
             visited.extend(nearest);
             open.retain(|place| Some(*place) != nearest);
             reached = nearest.map_or(reached, |place| distance[place]);
@@ -49,7 +57,9 @@ pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option
         test_price[start] += reached;
         for &place in &visited {
             place_price[place] -= reached - distance[place];
-            owner[place].into_iter().for_each(|other: usize| test_price[other] += reached - distance[place]);
+            owner[place]
+                .into_iter()
+                .for_each(|other: usize| test_price[other] += reached - distance[place]);
         }
         let mut last = visited.pop();
         while let Some(place) = last {

@@ -26,8 +26,14 @@ pub fn realize(shapes: &DMatrix<Complex<f64>>) -> Result<(DMatrix<f64>, Vec<f64>
     check_finite("complex mode shapes", shapes)?;
     let (mut real, mut collinearity) = (DMatrix::zeros(shapes.nrows(), shapes.ncols()), Vec::new());
     for (mode, shape) in shapes.column_iter().enumerate() {
-        let largest = shape.iter().fold(0.0_f64, |largest, v| largest.max(v.re.abs()).max(v.im.abs()));
-        positive("largest component", || format!("complex mode {mode} (from zero)"), largest)?;
+        let largest = shape.iter().fold(0.0_f64, |largest, v| {
+            largest.max(v.re.abs()).max(v.im.abs())
+        });
+        positive(
+            "largest component",
+            || format!("complex mode {mode} (from zero)"),
+            largest,
+        )?;
         // Squares of very large or small components leave the range of numbers. A power of two is exact.
         let unit = largest.log2().floor().exp2();
         let (x, y) = (shape.map(|v| v.re / unit), shape.map(|v| v.im / unit));

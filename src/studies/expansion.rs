@@ -19,11 +19,20 @@ const RANK: f64 = 1e-9;
 /// the sensors do not see or cannot tell from those before it; [`Error::WrongShape`]; [`Error::NotFinite`].
 ///
 /// Source: O'Callahan, Avitabile and Riemer, *Proc. 7th International Modal Analysis Conference* (1989), 29.
-pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub fn expand(
+    all: &DMatrix<f64>,
+    at_sensors: &DMatrix<f64>,
+    test: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     let what = "analysis mode at the sensors";
     let (sensor_count, mode_count) = at_sensors.shape();
     check_count("analysis modes for these sensors", mode_count, sensor_count)?;
-    check_shape("analysis modes at all degrees of freedom", all, all.nrows(), mode_count)?;
+    check_shape(
+        "analysis modes at all degrees of freedom",
+        all,
+        all.nrows(),
+        mode_count,
+    )?;
     check_shape("test mode shapes", test, sensor_count, test.ncols())?;
     check_finite(what, at_sensors)?;
     let (mut all, mut unit) = (all.clone(), at_sensors.clone());
@@ -35,14 +44,22 @@ pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>
     }
     let decomposed = |count: usize| {
         let first = unit.columns(0, count).into_owned();
-        first.try_svd(true, true, f64::EPSILON, 10_000).ok_or(Error::NoConvergence(what))
+        first
+            .try_svd(true, true, f64::EPSILON, 10_000)
+            .ok_or(Error::NoConvergence(what))
     };
-    let full_rank = |count| decomposed(count).map(|svd| svd.singular_values.min() >= RANK * svd.singular_values.max());
+    let full_rank = |count| {
+        decomposed(count).map(|svd| svd.singular_values.min() >= RANK * svd.singular_values.max())
+    };
     if !full_rank(mode_count)? {
-        let index = (1..mode_count).find(|&index| !full_rank(index + 1).unwrap_or(true)).unwrap_or_default();
+        let index = (1..mode_count)
+            .find(|&index| !full_rank(index + 1).unwrap_or(true))
+            .unwrap_or_default();
         return Err(Error::Dependent { what, index });
     }
-    let shares = decomposed(mode_count)?.solve(test, 0.0).map_err(|_| Error::NoConvergence(what))?;
+    let shares = decomposed(mode_count)?
+        .solve(test, 0.0)
+        .map_err(|_| Error::NoConvergence(what))?;
     finite("expanded test shapes", all * shares)
 }
 
@@ -55,6 +72,10 @@ pub fn expand(all: &DMatrix<f64>, at_sensors: &DMatrix<f64>, test: &DMatrix<f64>
 /// Source: the same.
 pub fn mass_by_modes(at_sensors: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let (sensors, modes) = at_sensors.shape();
-    let inverse = expand(&DMatrix::identity(modes, modes), at_sensors, &DMatrix::identity(sensors, sensors))?;
+    let inverse = expand(
+        &DMatrix::identity(modes, modes),
+        at_sensors,
+        &DMatrix::identity(sensors, sensors),
+    )?;
     Ok(inverse.tr_mul(&inverse))
 }

@@ -2,7 +2,9 @@
 //! counted. Zero and infinite eigenvalues of the pencil must neither be lost nor counted as vibrations.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part};
+use crate::method::linear_algebra::{
+    check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
+};
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 
@@ -22,7 +24,10 @@ impl CountedModes {
     /// Of modes in ascending order the first ones, which are rigid-body modes, and the `count` vibrations behind them.
     pub(crate) fn of(modes: &ModeSet, rigid: usize, count: usize) -> Self {
         let vibrations: Vec<usize> = (rigid..rigid + count).collect();
-        Self { rigid_body: modes.shapes.columns(0, rigid).into_owned(), vibrations: modes.select(&vibrations) }
+        Self {
+            rigid_body: modes.shapes.columns(0, rigid).into_owned(),
+            vibrations: modes.select(&vibrations),
+        }
     }
 }
 
@@ -44,14 +49,20 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
     check_symmetric("stiffness", stiffness)?;
     check_shape("mass", mass, stiffness.nrows(), stiffness.nrows())?;
     let (values, directions) = symmetric_eigen("mass", mass)?;
-    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let largest = values
+        .iter()
+        .fold(0.0_f64, |largest, value| largest.max(value.abs()));
     if let Some(dof) = values.iter().position(|value| *value < -ZERO * largest) {
         return Err(Error::NotPositiveDefinite { what: "mass", dof });
     }
-    let massive: Vec<usize> = (0..values.len()).filter(|&row| values[row] > ZERO * largest).collect();
+    let massive: Vec<usize> = (0..values.len())
+        .filter(|&row| values[row] > ZERO * largest)
+        .collect();
     at_least_one("degrees of freedom with mass", massive.len())?;
     let mut f = directions.select_columns(&massive);
-    f.column_iter_mut().zip(&massive).for_each(|(mut column, &row)| column *= values[row].sqrt());
+    f.column_iter_mut()
+        .zip(&massive)
+        .for_each(|(mut column, &row)| column *= values[row].sqrt());
     // A shift of the size of the lower frequencies: a thousandth of the mean of all.
     let sigma = 1e-3 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
     let shifted = stiffness + sigma * mass;
@@ -59,23 +70,47 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
     let mut deflections = f.clone();
     lower.solve_lower_triangular_unchecked_mut(&mut deflections);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
-    let (roots, vectors) = symmetric_eigen("shifted flexibility", &symmetric_part(&f.tr_mul(&deflections)))?;
+    let (roots, vectors) = symmetric_eigen(
+        "shifted flexibility",
+        &symmetric_part(&f.tr_mul(&deflections)),
+    )?;
     // Ascending roots are descending frequencies.
     let order: Vec<usize> = (0..roots.len()).rev().collect();
     let omega_squared = roots.select_rows(&order).map(|root| 1.0 / root - sigma);
     let mut shapes = deflections * vectors.select_columns(&order);
-    shapes.column_iter_mut().zip(&order).for_each(|(mut shape, &row)| shape /= roots[row]);
-    let rigid = omega_squared.iter().take_while(|value| **value < 1e3 * ZERO * sigma).count();
+    shapes
+        .column_iter_mut()
+        .zip(&order)
+        .for_each(|(mut shape, &row)| shape /= roots[row]);
+    let rigid = omega_squared
+        .iter()
+        .take_while(|value| **value < 1e3 * ZERO * sigma)
+        .count();
     let last = omega_squared.len() - 1;
     let bound = 2.0 * omega_squared[last].max(sigma);
-    let lowest = if rigid <= last { 0.5 * omega_squared[rigid] } else { bound };
+    let lowest = if rigid <= last {
+        0.5 * omega_squared[rigid]
+    } else {
+        bound
+    };
     for (bound, found) in [(bound, last + 1), (lowest, rigid)] {
         let counted = count_below(stiffness, mass, bound)?;
         if counted != found {
-            return Err(Error::Miscounted { bound, counted, found });
+            return Err(Error::Miscounted {
+                bound,
+                counted,
+                found,
+            });
         }
     }
-    Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, last + 1 - rigid))
+    Ok(CountedModes::of(
+        &ModeSet {
+            omega_squared,
+            shapes,
+        },
+        rigid,
+        last + 1 - rigid,
+    ))
 }
 
 /// How many eigenvalues $\omega^2$ of the pencil lie below a bound that is none of them: the number of negative eigenvalues of
@@ -83,7 +118,11 @@ pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<Co
 ///
 /// # Errors
 /// Those of [`symmetric_eigen`].
-pub fn count_below(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, bound: f64) -> Result<usize, Error> {
+pub fn count_below(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    bound: f64,
+) -> Result<usize, Error> {
     let difference = stiffness - bound * mass;
     // A congruence that brings the diagonal to one keeps the signs and takes the spread of units out of the round-off.
     let scale = DVector::from_fn(difference.nrows(), |i, _| {

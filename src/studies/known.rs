@@ -35,8 +35,17 @@ impl Known {
     /// Those of its model.
     pub fn of_case(number: usize) -> Result<Self, CaseError> {
         let case = Case::new(number)?;
-        let truth = case.first_gages().into_iter().map(|gage| TEST_GAGE / gage).collect();
-        Ok(Self { name: format!("Case {number}"), model: case.model()?, test: case.test_modes()?.into(), truth })
+        let truth = case
+            .first_gages()
+            .into_iter()
+            .map(|gage| TEST_GAGE / gage)
+            .collect();
+        Ok(Self {
+            name: format!("Case {number}"),
+            model: case.model()?,
+            test: case.test_modes()?.into(),
+            truth,
+        })
     }
 
     /// The delta wing with its wrong gages.
@@ -46,7 +55,12 @@ impl Known {
     pub fn delta_wing() -> Result<Self, CaseError> {
         let wing = DeltaWing::embedded()?;
         let truth = GROUPS.iter().map(Group::true_factor).collect();
-        Ok(Self { name: "Delta wing".to_owned(), model: first_model(&wing)?, test: test_modes(&wing)?, truth })
+        Ok(Self {
+            name: "Delta wing".to_owned(),
+            model: first_model(&wing)?,
+            test: test_modes(&wing)?,
+            truth,
+        })
     }
 }
 
@@ -57,9 +71,18 @@ impl Known {
 pub fn planted(wing: &Wing) -> Result<Known, Error> {
     let model = wing.model()?;
     let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
-    let truth: Vec<f64> = pattern.into_iter().cycle().take(model.parameters().len()).collect();
+    let truth: Vec<f64> = pattern
+        .into_iter()
+        .cycle()
+        .take(model.parameters().len())
+        .collect();
     let test = model.modes(&truth)?.lowest(WING_MODES)?.into();
-    Ok(Known { name: "Wing".to_owned(), model, test, truth })
+    Ok(Known {
+        name: "Wing".to_owned(),
+        model,
+        test,
+        truth,
+    })
 }
 
 /// The planted wing of 1,458 structural DOF, correlated to an error sum of 2.5 %.
@@ -68,7 +91,10 @@ pub fn planted(wing: &Wing) -> Result<Known, Error> {
 /// Those of [`planted`] and [`correlate`].
 pub fn recovered() -> Result<(Known, Correlation), Error> {
     let known = planted(&Wing::default())?;
-    let settings = Settings { error_sum_tolerance: WING_ERROR_SUM, ..correlation::settings() };
+    let settings = Settings {
+        error_sum_tolerance: WING_ERROR_SUM,
+        ..correlation::settings()
+    };
     let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, Some(WING_MODES));
     let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
     Ok((known, run))

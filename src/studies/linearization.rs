@@ -15,11 +15,19 @@ use crate::studies::known::Known;
 use nalgebra::{DMatrix, DVector};
 
 /// What predicts modes, in the order of [`Prediction::errors`].
-pub const METHODS: [&str; 4] = ["first order", "Recursive 1, order 4", "Taylor in ω²", "Taylor in 1/ω²"];
+pub const METHODS: [&str; 4] = [
+    "first order",
+    "Recursive 1, order 4",
+    "Taylor in ω²",
+    "Taylor in 1/ω²",
+];
 /// A kind of error by name.
 pub type Measure = (&'static str, fn(&Errors) -> f64);
 /// RMS errors over all modes, fractions.
-pub const MEASURES: [Measure; 2] = [("frequencies", Errors::frequency_rms), ("shapes", Errors::shape_rms)];
+pub const MEASURES: [Measure; 2] = [
+    ("frequencies", Errors::frequency_rms),
+    ("shapes", Errors::shape_rms),
+];
 /// The order of Recursive 1.
 const ORDER: usize = 4;
 
@@ -49,10 +57,24 @@ pub struct Prediction {
 /// $$ \Delta\omega_i^2 = \beta_{ii}, \qquad \Delta\lambda_i = -\lambda_i^2 \beta_{ii}, \qquad
 ///    p_{ij} = \frac{\beta_{ij}}{\omega_j^2 - \omega_i^2} $$
 fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
-    let root =
-        |i: usize| if of_roots { 1.0 / k[i] - beta[(i, i)] / (k[i] * k[i]) } else { 1.0 / (k[i] + beta[(i, i)]) };
-    let shape = |i: usize, j: usize| if i == j { 1.0 } else { beta[(i, j)] / (k[j] - k[i]) };
-    Perturbed { roots: DVector::from_fn(k.len(), |i, _| root(i)), shapes: DMatrix::from_fn(k.len(), k.len(), shape) }
+    let root = |i: usize| {
+        if of_roots {
+            1.0 / k[i] - beta[(i, i)] / (k[i] * k[i])
+        } else {
+            1.0 / (k[i] + beta[(i, i)])
+        }
+    };
+    let shape = |i: usize, j: usize| {
+        if i == j {
+            1.0
+        } else {
+            beta[(i, j)] / (k[j] - k[i])
+        }
+    };
+    Perturbed {
+        roots: DVector::from_fn(k.len(), |i, _| root(i)),
+        shapes: DMatrix::from_fn(k.len(), k.len(), shape),
+    }
 }
 
 /// The predictions of steps from a model's first factors, all one, toward given ones: fractions `steps` of the way.
@@ -66,30 +88,49 @@ pub fn predictions(
     exact: Exact,
 ) -> Result<Vec<Prediction>, Error> {
     check_length("parameter factors", toward.len(), model.parameters().len())?;
-    let DynamicModel { stiffness, mass, shares } = model.matrices(&vec![1.0; toward.len()])?;
+    let DynamicModel {
+        stiffness,
+        mass,
+        shares,
+    } = model.matrices(&vec![1.0; toward.len()])?;
     let start = solve(&stiffness, &mass, stiffness.nrows())?;
     let (k, shapes) = (&start.omega_squared, &start.shapes);
     let of_step = |&step: &f64| {
-        let changes = shares.iter().zip(toward).map(|(share, factor)| step * (factor - 1.0) * share.matrix());
+        let changes = shares
+            .iter()
+            .zip(toward)
+            .map(|(share, factor)| step * (factor - 1.0) * share.matrix());
         let change: DMatrix<f64> = changes.sum();
         let beta = symmetric_part(&shapes.tr_mul(&(&change * shapes)));
-        let factors: Vec<f64> = toward.iter().map(|factor| 1.0 + step * (factor - 1.0)).collect();
+        let factors: Vec<f64> = toward
+            .iter()
+            .map(|factor| 1.0 + step * (factor - 1.0))
+            .collect();
         let answer: ModeSet = match exact {
             Exact::SameCondensation => solve(&(&stiffness + &change), &mass, k.len())?.into(),
             Exact::NewCondensation => model.modes(&factors)?.into(),
         };
         let found = [first_order(k, &beta), recursive_1(k, &beta, ORDER)].map(Result::ok);
         let error = |found: Option<Perturbed>| -> Result<Option<Errors>, Error> {
-            let Some(Perturbed { roots, shapes: p }) = found.filter(|found| found.roots.iter().all(|root| *root > 0.0))
+            let Some(Perturbed { roots, shapes: p }) =
+                found.filter(|found| found.roots.iter().all(|root| *root > 0.0))
             else {
                 return Ok(None);
             };
-            let modes = ModeSet { omega_squared: roots.map(f64::recip), shapes: shapes * p }.scaled_with(&mass)?;
+            let modes = ModeSet {
+                omega_squared: roots.map(f64::recip),
+                shapes: shapes * p,
+            }
+            .scaled_with(&mass)?;
             let pairing = pair_modes(&cross_orthogonality(&modes, &answer, &mass)?)?;
             errors(&modes, &pairing, &answer).map(Some)
         };
         let linear = [false, true].map(|of_roots| Some(taylor(k, &beta, of_roots)));
-        let errors = found.into_iter().chain(linear).map(error).collect::<Result<_, _>>()?;
+        let errors = found
+            .into_iter()
+            .chain(linear)
+            .map(error)
+            .collect::<Result<_, _>>()?;
         Ok(Prediction { step, errors })
     };
     steps.iter().map(of_step).collect()
@@ -101,5 +142,8 @@ pub fn predictions(
 /// Those of the models and of [`predictions`].
 pub fn both_structures(exact: Exact) -> Result<[(&'static str, Vec<Prediction>); 2], CaseError> {
     let of = |known: Known| predictions(&known.model, &known.truth, &STEPS, exact);
-    Ok([("Case 2", of(Known::of_case(2)?)?), ("Delta wing", of(Known::delta_wing()?)?)])
+    Ok([
+        ("Case 2", of(Known::of_case(2)?)?),
+        ("Delta wing", of(Known::delta_wing()?)?),
+    ])
 }

@@ -31,10 +31,20 @@ pub struct Suspect {
 pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
     let state = ModalState::start(model);
     let changes = error_changes(model, &state, settings.derivatives)?;
-    let stiffnesses = stiffness_changes(model, &state.factors, &state.factors, &changes, settings.step)?;
+    let stiffnesses = stiffness_changes(
+        model,
+        &state.factors,
+        &state.factors,
+        &changes,
+        settings.step,
+    )?;
     let error_sum = settings.measure.scale(model.test.len()) * state.errors.sum();
     let factors = unlimited_factors(&changes, &stiffnesses, error_sum, settings.first_relaxation);
-    let suspect = |(parameter, factor): (usize, f64)| Suspect { parameter, factor, evidence: (factor - 1.0).abs() };
+    let suspect = |(parameter, factor): (usize, f64)| Suspect {
+        parameter,
+        factor,
+        evidence: (factor - 1.0).abs(),
+    };
     Ok(ranked(factors.into_iter().enumerate().map(suspect)))
 }
 
@@ -60,9 +70,16 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
         for decades in DECADES {
             let tried = (-12..=12).map(|place| log + decades * f64::from(place) / 12.0);
             let tried = tried.map(|log| (objective(parameter, log), log));
-            (lowest, log) = tried.fold((lowest, log), |best, tried| if tried.0 < best.0 { tried } else { best });
+            (lowest, log) = tried.fold(
+                (lowest, log),
+                |best, tried| if tried.0 < best.0 { tried } else { best },
+            );
         }
-        Suspect { parameter, factor: 10.0_f64.powf(log), evidence: start - lowest }
+        Suspect {
+            parameter,
+            factor: 10.0_f64.powf(log),
+            evidence: start - lowest,
+        }
     };
     Ok(ranked((0..model.shares.len()).map(best)))
 }

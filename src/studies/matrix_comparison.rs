@@ -12,7 +12,9 @@ use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::outer_loop::correlate;
 use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
 use crate::method::step::StepRule;
-use crate::studies::matrix_correction::{baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm};
+use crate::studies::matrix_correction::{
+    baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm,
+};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -100,7 +102,12 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
-    let correlation = correlate(|factors| model.analyze(factors, &test, None), &ranges, &settings, |_, _| {})?;
+    let correlation = correlate(
+        |factors| model.analyze(factors, &test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )?;
     let found = model.sizes(&correlation.best_factors)?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
@@ -113,7 +120,10 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let doubled = |gages: &[f64]| tested(&with_doublers(gages));
     let (mass, truth, changed_truth) = (&start.mass, tested(&right)?, doubled(&right)?);
     let design_change = doubled(&first)? - &start.stiffness;
-    let (true_modes, true_changed) = (solve(&truth, mass, mass.nrows())?, solve(&changed_truth, mass, mass.nrows())?);
+    let (true_modes, true_changed) = (
+        solve(&truth, mass, mass.nrows())?,
+        solve(&changed_truth, mass, mass.nrows())?,
+    );
     let distance = |stiffness: &DMatrix<f64>| weighted_norm(&(stiffness - &truth), mass);
     let predict = |(model, stiffness, changed, own_mass): Candidate| {
         let change = &stiffness - &start.stiffness;
@@ -132,7 +142,12 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
         (TRUTH, truth.clone(), changed_truth, mass),
         ("Element factors", tested(&found)?, doubled(&found)?, mass),
         ("Baruch", baruch.clone(), &baruch + &design_change, mass),
-        ("Berman and Nagy", berman_nagy.clone(), berman_nagy + design_change, &corrected_mass),
+        (
+            "Berman and Nagy",
+            berman_nagy.clone(),
+            berman_nagy + design_change,
+            &corrected_mass,
+        ),
     ];
     let nearest = nearest_factors(&(&baruch - &start.stiffness), &start)?.0;
     let factor = |e: usize| ElementFactor {
@@ -146,7 +161,10 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
         test_modes,
         as_tested_hz: true_modes.frequencies_hz(),
         after_change_hz: true_changed.frequencies_hz(),
-        predictions: candidates.into_iter().map(predict).collect::<Result<_, Error>>()?,
+        predictions: candidates
+            .into_iter()
+            .map(predict)
+            .collect::<Result<_, Error>>()?,
         factors: (0..PANEL_COUNT).map(factor).collect(),
     })
 }
@@ -158,7 +176,13 @@ fn analysis(case: &Case, gages: &[f64]) -> Result<DynamicModel, CaseError> {
 }
 
 fn with_doublers(gages: &[f64]) -> Vec<f64> {
-    let doubled = |(gage, number)| if COVERS.contains(&number) { gage + COVER_DOUBLER } else { gage };
+    let doubled = |(gage, number)| {
+        if COVERS.contains(&number) {
+            gage + COVER_DOUBLER
+        } else {
+            gage
+        }
+    };
     gages.iter().copied().zip(1..).map(doubled).collect()
 }
 
@@ -170,22 +194,36 @@ fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    ModeSet { omega_squared: modes.omega_squared.clone(), shapes }.scaled_with(mass)
+    ModeSet {
+        omega_squared: modes.omega_squared.clone(),
+        shapes,
+    }
+    .scaled_with(mass)
 }
 
 /// Relative frequency errors of a model, its modes paired with the true ones.
-fn frequency_errors(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, truth: &Modes) -> Result<Vec<f64>, Error> {
+fn frequency_errors(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    truth: &Modes,
+) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
     let pairs = paired(&modes, &pairing)?.frequencies_hz();
-    Ok(pairs.iter().zip(truth.frequencies_hz()).map(|(found, truth)| found / truth - 1.0).collect())
+    Ok(pairs
+        .iter()
+        .zip(truth.frequencies_hz())
+        .map(|(found, truth)| found / truth - 1.0)
+        .collect())
 }
 
 /// $\Delta_{ij}/\sqrt{A_{ii} A_{jj}}$, row by row.
 fn relative_entries(change: &DMatrix<f64>, before: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let size = before.nrows();
     let entry = |i: usize, j: usize| change[(i, j)] / (before[(i, i)] * before[(j, j)]).sqrt();
-    (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
+    (0..size)
+        .map(|i| (0..size).map(|j| entry(i, j)).collect())
+        .collect()
 }
 
 /// Relative changes $c_e$ of the elements whose $\sum_e c_e K_e$ comes nearest to a change of stiffness, and the part
@@ -198,13 +236,23 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         let weighted = mass_weighted(matrix, &start.mass)?;
         Ok::<_, Error>(DVector::from_column_slice(weighted.as_slice()))
     };
-    let mut shares: Vec<_> = start.shares.iter().map(|share| weighted(share.matrix())).collect::<Result<_, _>>()?;
+    let mut shares: Vec<_> = start
+        .shares
+        .iter()
+        .map(|share| weighted(share.matrix()))
+        .collect::<Result<_, _>>()?;
     let norms: Vec<f64> = shares.iter_mut().map(DVector::normalize_mut).collect();
     let shares = DMatrix::from_columns(&shares);
     let target = weighted(change)?;
-    let nearest = shares.clone().svd(true, true).solve(&target, SMALLEST_SINGULAR_VALUE);
+    let nearest = shares
+        .clone()
+        .svd(true, true)
+        .solve(&target, SMALLEST_SINGULAR_VALUE);
     let coefficients = nearest.map_err(|_| Error::NoConvergence("element shares"))?;
     let (left, whole) = ((&target - shares * &coefficients).norm(), target.norm());
     let factors = coefficients.iter().zip(&norms).map(|(c, norm)| c / norm);
-    Ok((factors.collect(), if whole > 0.0 { left / whole } else { 0.0 }))
+    Ok((
+        factors.collect(),
+        if whole > 0.0 { left / whole } else { 0.0 },
+    ))
 }

@@ -8,7 +8,9 @@
 //! Journal* 21 (1983), 1168–1173.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, reduced, symmetric_part};
+use crate::method::linear_algebra::{
+    check_finite, check_shape, check_symmetric, cholesky, reduced, symmetric_part,
+};
 use crate::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
@@ -29,7 +31,11 @@ const SMALLEST_MASS_PIVOT: f64 = 1e-12;
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`] for bad matrices; [`Error::NotOrthonormal`] for
 /// test shapes that are not orthonormal with this mass.
-pub fn baruch_stiffness(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<DMatrix<f64>, Error> {
+pub fn baruch_stiffness(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
     let (inertia, forces) = (mass * &test.shapes, stiffness * &test.shapes);
     let generalized = test.shapes.tr_mul(&forces) + DMatrix::from_diagonal(&test.omega_squared);
@@ -60,7 +66,9 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DM
     lower.solve_lower_triangular_unchecked_mut(&mut solved);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut solved);
     let missing = DMatrix::identity(shapes.ncols(), shapes.ncols()) - generalized;
-    Ok(symmetric_part(&(mass + solved.tr_mul(&(missing * &solved)))))
+    Ok(symmetric_part(
+        &(mass + solved.tr_mul(&(missing * &solved))),
+    ))
 }
 
 /// The norm in which the corrections are the smallest possible, $\lVert M^{-1/2} \Delta M^{-1/2} \rVert$: the root of
@@ -75,25 +83,40 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
 }
 
 /// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: up to a rotation the same as $M^{-1/2} \Delta M^{-1/2}$.
-pub(crate) fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub(crate) fn mass_weighted(
+    change: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
     Ok(reduced(&cholesky("dynamic mass", mass, 0.0)?, change))
 }
 
-fn check_problem(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> Result<(), Error> {
+fn check_problem(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> Result<(), Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_symmetric("dynamic mass", mass)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
     check_shape("test mode shapes", &test.shapes, mass.nrows(), test.len())?;
     check_finite("test mode shapes", &test.shapes)?;
     let cross = test.shapes.tr_mul(&(mass * &test.shapes));
-    for (first, second) in (0..test.len()).flat_map(|first| (0..=first).map(move |second| (first, second))) {
+    for (first, second) in
+        (0..test.len()).flat_map(|first| (0..=first).map(move |second| (first, second)))
+    {
         let (expected, found) = (f64::from(first == second), cross[(first, second)]);
         // NaN comes from shapes so large that their products overflow.
         if found.is_nan() || (found - expected).abs() > LARGEST_CROSS_MASS {
             let what = "generalized mass of test modes";
-            return Err(Error::NotOrthonormal { what, first, second, expected, found });
+            return Err(Error::NotOrthonormal {
+                what,
+                first,
+                second,
+                expected,
+                found,
+            });
         }
     }
     Ok(())

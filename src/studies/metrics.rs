@@ -4,7 +4,9 @@
 //! AutoMAC is the modal assurance of a set of shapes with itself: what it has beside its diagonal, sensors cannot tell apart.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, check_symmetric, finite};
+use crate::method::linear_algebra::{
+    check_finite, check_length, check_shape, check_symmetric, finite,
+};
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 
@@ -23,10 +25,18 @@ pub fn pseudo_orthogonality(
     mass: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Error> {
     check_symmetric("test-analysis mass", mass)?;
-    check_shape("analysis mode shapes", analysis, mass.nrows(), analysis.ncols())?;
+    check_shape(
+        "analysis mode shapes",
+        analysis,
+        mass.nrows(),
+        analysis.ncols(),
+    )?;
     check_shape("test mode shapes", test, mass.nrows(), test.ncols())?;
     let generalized_mass = |shape: &DVector<f64>| shape.dot(&(mass * shape));
-    let (v, w) = (scaled("analysis", analysis, generalized_mass)?, scaled("test", test, generalized_mass)?);
+    let (v, w) = (
+        scaled("analysis", analysis, generalized_mass)?,
+        scaled("test", test, generalized_mass)?,
+    );
     finite("pseudo-orthogonality", v.tr_mul(&(mass * w)))
 }
 
@@ -38,12 +48,19 @@ pub fn pseudo_orthogonality(
 ///
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::NotFinite`]; [`Error::NotPositive`] for an analysis shape whose square is zero.
-pub fn modal_scale_factors(analysis: &DMatrix<f64>, test: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub fn modal_scale_factors(
+    analysis: &DMatrix<f64>,
+    test: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     check_shape("test mode shapes", test, analysis.nrows(), test.ncols())?;
     let mut factors = analysis.tr_mul(test);
     for (mode, mut row) in factors.row_iter_mut().enumerate() {
         let square = analysis.column(mode).norm_squared();
-        positive("square", || format!("analysis mode {mode} (from zero)"), square)?;
+        positive(
+            "square",
+            || format!("analysis mode {mode} (from zero)"),
+            square,
+        )?;
         row /= square;
     }
     finite("modal scale factors", factors)
@@ -69,24 +86,46 @@ pub fn coordinate_assurance(
 ) -> Result<DVector<f64>, Error> {
     check_shape("test mode shapes", test, analysis.nrows(), test.ncols())?;
     check_length("pairs", pairs.len(), test.ncols())?;
-    let (tests, modes): (Vec<usize>, Vec<usize>) =
-        pairs.iter().enumerate().filter_map(|(j, mode)| Some((j, (*mode)?))).unzip();
+    let (tests, modes): (Vec<usize>, Vec<usize>) = pairs
+        .iter()
+        .enumerate()
+        .filter_map(|(j, mode)| Some((j, (*mode)?)))
+        .unzip();
     if let Some(&label) = modes.iter().find(|mode| **mode >= analysis.ncols()) {
-        return Err(Error::Unknown { owner: "pairs".to_owned(), what: "analysis mode (from zero)", label });
+        return Err(Error::Unknown {
+            owner: "pairs".to_owned(),
+            what: "analysis mode (from zero)",
+            label,
+        });
     }
     at_least_one("pairs", modes.len())?;
-    let v = scaled("paired analysis", &analysis.select_columns(&modes), DVector::norm_squared)?;
-    let w = scaled("paired test", &test.select_columns(&tests), DVector::norm_squared)?;
-    let assurance = v.row_iter().zip(w.row_iter()).map(|(v, w)| match (v.norm(), w.norm()) {
-        (0.0, 0.0) => 1.0,
-        (0.0, _) | (_, 0.0) => 0.0,
-        (one, other) => ((v / one).abs().dot(&(w / other).abs())).powi(2).min(1.0),
-    });
+    let v = scaled(
+        "paired analysis",
+        &analysis.select_columns(&modes),
+        DVector::norm_squared,
+    )?;
+    let w = scaled(
+        "paired test",
+        &test.select_columns(&tests),
+        DVector::norm_squared,
+    )?;
+    let assurance = v
+        .row_iter()
+        .zip(w.row_iter())
+        .map(|(v, w)| match (v.norm(), w.norm()) {
+            (0.0, 0.0) => 1.0,
+            (0.0, _) | (_, 0.0) => 0.0,
+            (one, other) => ((v / one).abs().dot(&(w / other).abs())).powi(2).min(1.0),
+        });
     Ok(DVector::from_iterator(v.nrows(), assurance))
 }
 
 /// The shapes with a square of one each.
-fn scaled(of: &str, shapes: &DMatrix<f64>, square: impl Fn(&DVector<f64>) -> f64) -> Result<DMatrix<f64>, Error> {
+fn scaled(
+    of: &str,
+    shapes: &DMatrix<f64>,
+    square: impl Fn(&DVector<f64>) -> f64,
+) -> Result<DMatrix<f64>, Error> {
     check_finite("mode shapes", shapes)?;
     let mut scaled = shapes.clone();
     for (mode, mut shape) in scaled.column_iter_mut().enumerate() {

@@ -16,9 +16,15 @@ pub struct Noise {
 
 impl Noise {
     /// A good test: 1 % of shape and 0.3 % of frequency.
-    pub const USUAL: Self = Self { shape: 0.01, frequency: 0.003 };
+    pub const USUAL: Self = Self {
+        shape: 0.01,
+        frequency: 0.003,
+    };
     /// A perfect one.
-    pub const NONE: Self = Self { shape: 0.0, frequency: 0.0 };
+    pub const NONE: Self = Self {
+        shape: 0.0,
+        frequency: 0.0,
+    };
 }
 
 /// Test modes with reproducible errors of measurement:
@@ -45,7 +51,12 @@ pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result
     let mut above_zero = || uniform(&mut state) + 0.5_f64.powi(53);
     let mut normal = || (-2.0 * above_zero().ln()).sqrt() * (2.0 * PI * above_zero()).cos();
     let noisy = |(frequency, noise): (f64, &Noise)| frequency * (1.0 + noise.frequency * normal());
-    let frequencies: Vec<f64> = exact.frequencies_hz().into_iter().zip(noise).map(noisy).collect();
+    let frequencies: Vec<f64> = exact
+        .frequencies_hz()
+        .into_iter()
+        .zip(noise)
+        .map(noisy)
+        .collect();
     let mut shapes = exact.shapes.clone();
     for (mut shape, noise) in shapes.column_iter_mut().zip(noise) {
         let deviation = noise.shape * shape.amax();

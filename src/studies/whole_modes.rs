@@ -43,9 +43,16 @@ pub struct WholeModes {
 pub fn free_whole_modes(stiffness: &DMatrix<f64>, at: MassDof) -> Result<WholeModes, Error> {
     let t = &at.load_distribution;
     let mass = t * DMatrix::from_diagonal(&at.mass) * t.transpose();
-    let CountedModes { rigid_body, vibrations } = counted_modes(stiffness, &mass)?;
+    let CountedModes {
+        rigid_body,
+        vibrations,
+    } = counted_modes(stiffness, &mass)?;
     let modes = Modes::ascending(vibrations.omega_squared, t.tr_mul(&vibrations.shapes));
-    Ok(WholeModes { dof: at.dof, modes, rigid_body: rigid_body.ncols() })
+    Ok(WholeModes {
+        dof: at.dof,
+        modes,
+        rigid_body: rigid_body.ncols(),
+    })
 }
 
 /// All modes of finite frequency at the DOF that have mass.
@@ -62,14 +69,26 @@ pub fn free_whole_modes(stiffness: &DMatrix<f64>, at: MassDof) -> Result<WholeMo
 pub fn whole_modes(stiffness: &FactorizedStiffness, at: MassDof) -> Result<WholeModes, Error> {
     let root_mass = at.mass.map(f64::sqrt);
     let mut weighted = at.load_distribution;
-    weighted.column_iter_mut().zip(&root_mass).for_each(|(mut column, root_mass)| column *= *root_mass);
+    weighted
+        .column_iter_mut()
+        .zip(&root_mass)
+        .for_each(|(mut column, root_mass)| column *= *root_mass);
     let flexibility = symmetric_part(&weighted.tr_mul(&stiffness.solve(&weighted)?));
     let (roots, vectors) = symmetric_eigen("weighted dynamic flexibility", &flexibility)?;
     // Ascending roots are descending frequencies.
     let largest = roots[roots.len() - 1];
-    let finite: Vec<usize> = (0..roots.len()).rev().filter(|&mode| roots[mode] > SMALLEST_ROOT * largest).collect();
+    let finite: Vec<usize> = (0..roots.len())
+        .rev()
+        .filter(|&mode| roots[mode] > SMALLEST_ROOT * largest)
+        .collect();
     let mut shapes = vectors.select_columns(&finite);
-    shapes.column_iter_mut().for_each(|mut shape| shape.component_div_assign(&root_mass));
+    shapes
+        .column_iter_mut()
+        .for_each(|mut shape| shape.component_div_assign(&root_mass));
     let omega_squared = roots.select_rows(&finite).map(f64::recip);
-    Ok(WholeModes { dof: at.dof, modes: Modes::ascending(omega_squared, shapes), rigid_body: 0 })
+    Ok(WholeModes {
+        dof: at.dof,
+        modes: Modes::ascending(omega_squared, shapes),
+        rigid_body: 0,
+    })
 }

@@ -11,10 +11,20 @@ use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
-pub const SORTS: [&str; 5] = ["covers", "spar webs", "rib webs", "spanwise caps", "posts and rib caps"];
+pub const SORTS: [&str; 5] = [
+    "covers",
+    "spar webs",
+    "rib webs",
+    "spanwise caps",
+    "posts and rib caps",
+];
 /// Names and bays of the wings whose costs are measured: 1,458, 10,098, 100,116 and 1,002,000 structural DOF.
-pub const MESHES: [(&str, [usize; 3]); 4] =
-    [("1k", [27, 8, 1]), ("10k", [99, 16, 1]), ("100k", [309, 53, 1]), ("1M", [1000, 166, 1])];
+pub const MESHES: [(&str, [usize; 3]); 4] = [
+    ("1k", [27, 8, 1]),
+    ("10k", [99, 16, 1]),
+    ("100k", [309, 53, 1]),
+    ("1M", [1000, 166, 1]),
+];
 
 /// Dimensions and numbers of a wing; by default those of one like the paper's large example, with 108 measured points and 25
 /// groups. Webs and rods are given as totals that all of a sort share alike: wings of unlike meshes weigh and bend alike.
@@ -54,7 +64,12 @@ impl Default for Wing {
             thickness: 0.12,
             gages: [0.08, 0.54, 1.08],
             areas: [5.4, 5.4, 24.3],
-            material: Material { youngs_modulus: 1.04e7, poissons_ratio: 0.3, shear_modulus: 4.0e6, density: 0.0 },
+            material: Material {
+                youngs_modulus: 1.04e7,
+                poissons_ratio: 0.3,
+                shear_modulus: 4.0e6,
+                density: 0.0,
+            },
             mass: 6.0,
             zones: 5,
             measured: [27, 4],
@@ -66,7 +81,10 @@ impl Wing {
     /// The wing of one of the [`MESHES`]; none for another name.
     pub fn named(name: &str) -> Option<Self> {
         let &(_, bays) = MESHES.iter().find(|(known, _)| *known == name)?;
-        Some(Self { bays, ..Self::default() })
+        Some(Self {
+            bays,
+            ..Self::default()
+        })
     }
 
     /// Number of a grid by its rib from the root, line from the leading edge and level from the lower surface, each from zero.
@@ -76,12 +94,20 @@ impl Wing {
 
     /// Where a grid is, in.
     fn position(&self, place: [usize; 3]) -> Vector3<f64> {
-        let [outboard, line, level] = [0, 1, 2].map(|axis| place[axis] as f64 / self.bays[axis] as f64);
-        let (y, chord) = (self.span * outboard, self.chords[0] + (self.chords[1] - self.chords[0]) * outboard);
+        let [outboard, line, level] =
+            [0, 1, 2].map(|axis| place[axis] as f64 / self.bays[axis] as f64);
+        let (y, chord) = (
+            self.span * outboard,
+            self.chords[0] + (self.chords[1] - self.chords[0]) * outboard,
+        );
         let (aft, up) = (chord * (line - 0.5), chord * self.thickness * (level - 0.5));
         let [sweep, twist] = self.angles.map(f64::to_radians);
         let (sin, cos) = (twist * outboard).sin_cos();
-        Vector3::new(y * sweep.tan() + cos * aft + sin * up, y, cos * up - sin * aft)
+        Vector3::new(
+            y * sweep.tan() + cos * aft + sin * up,
+            y,
+            cos * up - sin * aft,
+        )
     }
 
     /// Every element but those in the held root, numbered from one, sort by sort; with its sort and its bay along the span.
@@ -99,16 +125,35 @@ impl Wing {
             (4, ElementKind::Rod, [up, none], posts, ribs * lines),
         ] {
             // Of the levels covers have the outer two.
-            let step = if kind == ElementKind::Membrane { self.bays[2] } else { 1 };
+            let step = if kind == ElementKind::Membrane {
+                self.bays[2]
+            } else {
+                1
+            };
             let (lines, size) = (lines - one[1] - other[1], total / sharing as f64);
             for (bay, line) in (0..ribs).flat_map(|bay| (0..lines).map(move |line| (bay, line))) {
                 for level in (0..levels - one[2] - other[2]).step_by(step) {
                     // What does not run along the span stands at the outer end of its bay.
                     let first = [bay + 1 - one[0], line, level];
-                    let at = |(m, n)| self.grid([0, 1, 2].map(|axis| first[axis] + m * one[axis] + n * other[axis]));
+                    let at = |(m, n)| {
+                        self.grid(
+                            [0, 1, 2].map(|axis| first[axis] + m * one[axis] + n * other[axis]),
+                        )
+                    };
                     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(at);
-                    let (label, grids) = (members.len() + 1, corners[..kind.corner_count()].to_vec());
-                    members.push((sort, bay, Element { label, kind, grids, size, material: self.material }));
+                    let (label, grids) =
+                        (members.len() + 1, corners[..kind.corner_count()].to_vec());
+                    members.push((
+                        sort,
+                        bay,
+                        Element {
+                            label,
+                            kind,
+                            grids,
+                            size,
+                            material: self.material,
+                        },
+                    ));
                 }
             }
         }
@@ -124,10 +169,20 @@ impl Wing {
         let (lines, levels) = (self.bays[1] + 1, self.bays[2] + 1);
         let grid = |n: usize| {
             let place = [n / (lines * levels), n / levels % lines, n % levels];
-            Grid { label: self.grid(place), position: self.position(place), constrained: [place[0] == 0; 3] }
+            Grid {
+                label: self.grid(place),
+                position: self.position(place),
+                constrained: [place[0] == 0; 3],
+            }
         };
         let grids = (0..(self.bays[0] + 1) * lines * levels).map(grid).collect();
-        Structure::new(grids, self.members().into_iter().map(|(.., element)| element).collect())
+        Structure::new(
+            grids,
+            self.members()
+                .into_iter()
+                .map(|(.., element)| element)
+                .collect(),
+        )
     }
 
     /// Rib and line of every measured point, rib by rib from the root out.
@@ -135,14 +190,24 @@ impl Wing {
         let ([ribs, chord, _], [on_span, on_rib]) = (self.bays, self.measured);
         let nearest = |k: usize, parts: usize, of: usize| (2 * k * of + parts) / (2 * parts);
         let on = |rib| (0..on_rib).map(move |k| [rib, nearest(k, on_rib.max(2) - 1, chord)]);
-        (1..=on_span).flat_map(|k| on(nearest(k, on_span, ribs))).collect()
+        (1..=on_span)
+            .flat_map(|k| on(nearest(k, on_span, ribs)))
+            .collect()
     }
 
     /// $T$, a list of rows and entries per measured point: the deflection $z$ of the wing there, the mean of both surfaces.
-    fn load_distribution(&self, structure: &Structure, points: &[[usize; 2]]) -> Vec<Vec<(usize, f64)>> {
+    fn load_distribution(
+        &self,
+        structure: &Structure,
+        points: &[[usize; 2]],
+    ) -> Vec<Vec<(usize, f64)>> {
         let entry = |place| Some((structure.free_dof_index(self.grid(place), 2)?, 0.5));
-        let surfaces = |&[rib, line]: &[usize; 2]| [0, self.bays[2]].map(|level| entry([rib, line, level]));
-        points.iter().map(|point| surfaces(point).into_iter().flatten().collect()).collect()
+        let surfaces =
+            |&[rib, line]: &[usize; 2]| [0, self.bays[2]].map(|level| entry([rib, line, level]));
+        points
+            .iter()
+            .map(|point| surfaces(point).into_iter().flatten().collect())
+            .collect()
     }
 
     /// The wing as a model: a parameter per group, the measured points as dynamic DOF with the mass on them.
@@ -155,14 +220,24 @@ impl Wing {
         check_count("measured ribs", on_span, ribs)?;
         check_count("measured points of a rib", on_rib, chord + 1)?;
         let (structure, points) = (self.structure()?, self.points());
-        let loads = LoadDistribution::new(structure.free_dof().len(), self.load_distribution(&structure, &points))?;
-        let mass = DMatrix::from_diagonal_element(points.len(), points.len(), self.mass / points.len() as f64);
+        let loads = LoadDistribution::new(
+            structure.free_dof().len(),
+            self.load_distribution(&structure, &points),
+        )?;
+        let mass = DMatrix::from_diagonal_element(
+            points.len(),
+            points.len(),
+            self.mass / points.len() as f64,
+        );
         let mut groups = vec![Vec::new(); SORTS.len() * zones];
         for (sort, bay, element) in self.members() {
             groups[sort * zones + bay * zones / ribs].push(element.label);
         }
         let name = |group: usize| format!("{} {}", SORTS[group / zones], group % zones + 1);
-        let parameters = groups.iter().enumerate().map(|(group, labels)| Parameter::group(&name(group), labels));
+        let parameters = groups
+            .iter()
+            .enumerate()
+            .map(|(group, labels)| Parameter::group(&name(group), labels));
         FiniteElementModel::with_loads(structure, loads, mass, parameters.collect())
     }
 }

@@ -23,7 +23,10 @@ fn expected(reading: StepRule) -> Table {
 
 fn list(table: &Table, section: &str, key: &str) -> Vec<f64> {
     let values = table[section][key].as_array().expect("a list");
-    values.iter().map(|value| value.as_float().expect("a number")).collect()
+    values
+        .iter()
+        .map(|value| value.as_float().expect("a number"))
+        .collect()
 }
 
 fn number(table: &Table, section: &str, key: &str) -> f64 {
@@ -57,8 +60,16 @@ fn all_twelve_published_columns_have_the_expected_frequencies() {
         assert_all_close(&column.frequencies_hz, &frequencies, EXPECTED_FREQUENCY);
         if name != "gvt" {
             let (f, v) = ("frequency_rms", "shape_rms");
-            assert_relative_eq!(column.frequency_rms, number(&table, &section, f), max_relative = EXPECTED_HISTORY);
-            assert_relative_eq!(column.shape_rms, number(&table, &section, v), max_relative = EXPECTED_HISTORY);
+            assert_relative_eq!(
+                column.frequency_rms,
+                number(&table, &section, f),
+                max_relative = EXPECTED_HISTORY
+            );
+            assert_relative_eq!(
+                column.shape_rms,
+                number(&table, &section, v),
+                max_relative = EXPECTED_HISTORY
+            );
         } else {
             assert!(column.frequency_rms.max(column.shape_rms) < 10.0 * ROUND_OFF);
         }
@@ -72,10 +83,22 @@ fn initial_solutions_are_the_expected_ones() {
         let initial = result(case).correlation.initial;
         let section = format!("case {case} initial");
         let frequencies = list(&table, &section, "frequencies");
-        assert_all_close(&initial.modes.frequencies_hz(), &frequencies, EXPECTED_FREQUENCY);
+        assert_all_close(
+            &initial.modes.frequencies_hz(),
+            &frequencies,
+            EXPECTED_FREQUENCY,
+        );
         let (f, v) = (initial.errors.frequency_rms(), initial.errors.shape_rms());
-        assert_relative_eq!(f, number(&table, &section, "frequency_rms"), max_relative = EXPECTED_HISTORY);
-        assert_relative_eq!(v, number(&table, &section, "shape_rms"), max_relative = EXPECTED_HISTORY);
+        assert_relative_eq!(
+            f,
+            number(&table, &section, "frequency_rms"),
+            max_relative = EXPECTED_HISTORY
+        );
+        assert_relative_eq!(
+            v,
+            number(&table, &section, "shape_rms"),
+            max_relative = EXPECTED_HISTORY
+        );
     }
 }
 
@@ -86,14 +109,38 @@ fn assert_history(result: &CaseResult) {
         let section = format!("case {} computed pass {}", result.case.number, row + 1);
         let iterations = table[&section]["iterations"].as_integer().expect("a count");
         assert_eq!(pass.inner.iterations.len() as i64, iterations, "{section}");
-        let sums: Vec<f64> = pass.inner.iterations.iter().map(|i| i.errors.sum()).collect();
-        assert_all_close(&sums, &list(&table, &section, "inner_error_sums"), EXPECTED_HISTORY);
-        assert_all_close(&result.pass_gages[row], &list(&table, &section, "gages"), EXPECTED_HISTORY);
+        let sums: Vec<f64> = pass
+            .inner
+            .iterations
+            .iter()
+            .map(|i| i.errors.sum())
+            .collect();
+        assert_all_close(
+            &sums,
+            &list(&table, &section, "inner_error_sums"),
+            EXPECTED_HISTORY,
+        );
+        assert_all_close(
+            &result.pass_gages[row],
+            &list(&table, &section, "gages"),
+            EXPECTED_HISTORY,
+        );
         let frequencies = list(&table, &section, "frequencies");
         assert_all_close(&pass.check.frequencies_hz, &frequencies, EXPECTED_FREQUENCY);
-        let (f, v) = (pass.check.errors.frequency_rms(), pass.check.errors.shape_rms());
-        assert_relative_eq!(f, number(&table, &section, "frequency_rms"), max_relative = EXPECTED_HISTORY);
-        assert_relative_eq!(v, number(&table, &section, "shape_rms"), max_relative = EXPECTED_HISTORY);
+        let (f, v) = (
+            pass.check.errors.frequency_rms(),
+            pass.check.errors.shape_rms(),
+        );
+        assert_relative_eq!(
+            f,
+            number(&table, &section, "frequency_rms"),
+            max_relative = EXPECTED_HISTORY
+        );
+        assert_relative_eq!(
+            v,
+            number(&table, &section, "shape_rms"),
+            max_relative = EXPECTED_HISTORY
+        );
     }
 }
 
@@ -101,7 +148,8 @@ fn assert_history(result: &CaseResult) {
 fn every_reading_makes_the_expected_history_of_cases_1_to_3() {
     for reading in READINGS {
         for (number, passes) in [(1, 2), (2, 2), (3, 3)] {
-            let result = run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result =
+                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
             assert_eq!(result.correlation.passes.len(), passes);
             assert_history(&result);
         }
@@ -111,10 +159,19 @@ fn every_reading_makes_the_expected_history_of_cases_1_to_3() {
 /// Tolerances decide when a case stops; they stop where the paper's print does.
 #[test]
 fn cases_stop_by_their_tolerances_after_the_printed_passes() {
-    for (number, reading) in [(1, StepRule::Own), (2, StepRule::Relative), (3, StepRule::Relative)] {
+    for (number, reading) in [
+        (1, StepRule::Own),
+        (2, StepRule::Relative),
+        (3, StepRule::Relative),
+    ] {
         let result = result(number);
         assert_eq!(result.case.settings.inner.step, reading);
-        assert!((result.case.settings.least_passes, result.case.settings.most_passes) == (1, 10));
+        assert!(
+            (
+                result.case.settings.least_passes,
+                result.case.settings.most_passes
+            ) == (1, 10)
+        );
         assert_eq!(result.correlation.passes.len(), published_passes(number));
         assert!(result.correlation.converged && result.succeeded());
         assert_history(&result);
@@ -128,21 +185,36 @@ fn every_reading_makes_the_expected_passes_with_fewer_modes() {
         let mut case = Case::new(PUBLISHED_CASE).expect("a case");
         case.settings.inner.step = reading;
         for run in published_runs(&case).expect("they run") {
-            let section = format!("case 2, {} test and {} analysis modes", run.test_modes, run.analysis_modes);
+            let section = format!(
+                "case 2, {} test and {} analysis modes",
+                run.test_modes, run.analysis_modes
+            );
             assert_eq!(
                 Some(run.iterations as i64),
                 table[&section]["iterations"].as_integer(),
                 "{reading:?} {section}"
             );
-            assert_all_close(&run.gages_in, &list(&table, &section, "gages"), EXPECTED_HISTORY);
+            assert_all_close(
+                &run.gages_in,
+                &list(&table, &section, "gages"),
+                EXPECTED_HISTORY,
+            );
             let mut frequencies = list(&table, &section, "inner_frequencies");
             frequencies.sort_by(f64::total_cmp);
             let mut found = run.inner.frequencies_hz.clone();
             found.sort_by(f64::total_cmp);
             assert_all_close(&found, &frequencies, EXPECTED_FREQUENCY);
             let (f, v) = ("inner_frequency_rms", "inner_shape_rms");
-            assert_relative_eq!(run.inner.frequency_rms, number(&table, &section, f), max_relative = EXPECTED_HISTORY);
-            assert_relative_eq!(run.inner.shape_rms, number(&table, &section, v), max_relative = EXPECTED_HISTORY);
+            assert_relative_eq!(
+                run.inner.frequency_rms,
+                number(&table, &section, f),
+                max_relative = EXPECTED_HISTORY
+            );
+            assert_relative_eq!(
+                run.inner.shape_rms,
+                number(&table, &section, v),
+                max_relative = EXPECTED_HISTORY
+            );
         }
     }
 }
@@ -151,12 +223,24 @@ fn every_reading_makes_the_expected_passes_with_fewer_modes() {
 fn case_4_names_its_faulty_element() {
     let section = "case 4 first iteration";
     let box_of_the_paper = Reconstruction::embedded().expect("the box");
-    for (reading, stated) in READINGS.into_iter().zip(["46.1 3.8", "58.4 4.6", "2.5 2.5", "148.7 2.5"]) {
+    for (reading, stated) in
+        READINGS
+            .into_iter()
+            .zip(["46.1 3.8", "58.4 4.6", "2.5 2.5", "148.7 2.5"])
+    {
         let table = expected(reading);
         let result = run_by_reading(&Case::new(4).expect("a case"), reading).expect("it runs");
-        assert_all_close(result.unlimited_factors(), &list(&table, section, "unlimited_factors"), EXPECTED_HISTORY);
+        assert_all_close(
+            result.unlimited_factors(),
+            &list(&table, section, "unlimited_factors"),
+            EXPECTED_HISTORY,
+        );
         let error_sum = result.correlation.initial.errors.sum();
-        assert_relative_eq!(error_sum, number(&table, section, "error_sum"), max_relative = EXPECTED_HISTORY);
+        assert_relative_eq!(
+            error_sum,
+            number(&table, section, "error_sum"),
+            max_relative = EXPECTED_HISTORY
+        );
         let found = detection(&box_of_the_paper, reading).expect("it runs");
         assert_eq!(format!("{:.1} {:.1}", found.factor, found.next), stated);
         // The relative change does not know how much stiffness an element has, and cannot tell which is faulty.
@@ -165,8 +249,17 @@ fn case_4_names_its_faulty_element() {
     }
     let result = result(4);
     let anomaly = result.anomaly.as_ref().expect("a faulty element");
-    assert_eq!((anomaly.parameter.as_str(), anomaly.factor), ("8", result.unlimited_factors()[7]));
-    assert_eq!((result.correlation.passes.len(), result.correlation.passes[0].inner.iterations.len()), (1, 1));
+    assert_eq!(
+        (anomaly.parameter.as_str(), anomaly.factor),
+        ("8", result.unlimited_factors()[7])
+    );
+    assert_eq!(
+        (
+            result.correlation.passes.len(),
+            result.correlation.passes[0].inner.iterations.len()
+        ),
+        (1, 1)
+    );
     assert!(result.succeeded() && !result.correlation.converged);
 }
 
@@ -174,7 +267,8 @@ fn case_4_names_its_faulty_element() {
 fn other_cases_report_no_anomaly_by_any_reading() {
     for reading in READINGS {
         for number in [1, 2, 3] {
-            let result = run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result =
+                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
             // The largest factor stays near the next: what ANOMALY_RATIO lies between.
             let mut factors = result.unlimited_factors().to_vec();
             factors.sort_by(f64::total_cmp);
@@ -198,12 +292,23 @@ fn same_input_gives_the_same_bytes() {
 #[test]
 fn an_anomaly_is_many_times_the_next_factor() {
     let names = ["A", "B", "C"].map(String::from);
-    let of = |factors: [f64; 3]| anomaly(&names, &factors).map(|found| (found.parameter, found.factor, found.ratio));
-    assert_eq!(of([3.0, 12.0 * ANOMALY_RATIO, 1.0]), Some(("B".to_owned(), 12.0 * ANOMALY_RATIO, 4.0 * ANOMALY_RATIO)));
-    assert_eq!(of([-30.0, 2.0 * ANOMALY_RATIO, 0.5]), Some(("B".to_owned(), 2.0 * ANOMALY_RATIO, 2.0 * ANOMALY_RATIO)));
+    let of = |factors: [f64; 3]| {
+        anomaly(&names, &factors).map(|found| (found.parameter, found.factor, found.ratio))
+    };
+    assert_eq!(
+        of([3.0, 12.0 * ANOMALY_RATIO, 1.0]),
+        Some(("B".to_owned(), 12.0 * ANOMALY_RATIO, 4.0 * ANOMALY_RATIO))
+    );
+    assert_eq!(
+        of([-30.0, 2.0 * ANOMALY_RATIO, 0.5]),
+        Some(("B".to_owned(), 2.0 * ANOMALY_RATIO, 2.0 * ANOMALY_RATIO))
+    );
     assert_eq!(of([2.0, 2.0 * ANOMALY_RATIO, 1.0]), None);
     assert_eq!(of([-60.0, 0.9, 0.5]), None);
-    assert_eq!(anomaly(&names[..1], &[2.0 * ANOMALY_RATIO]).map(|found| found.ratio), Some(2.0 * ANOMALY_RATIO));
+    assert_eq!(
+        anomaly(&names[..1], &[2.0 * ANOMALY_RATIO]).map(|found| found.ratio),
+        Some(2.0 * ANOMALY_RATIO)
+    );
     assert_eq!(anomaly(&[], &[]), None);
 }
 

@@ -37,38 +37,63 @@ fn of_structure(case: &Case, gages: &[f64]) -> Pencil {
     let (t, mass) = (model.load_distribution().dense(), model.mass().diagonal());
     let size = t.nrows();
     let mut stiffness: Lower = (0..size).map(|i| vec![BigInt::from(0); i + 1]).collect();
-    let sizes = model.structure().elements().iter().map(|element| element.size);
+    let sizes = model
+        .structure()
+        .elements()
+        .iter()
+        .map(|element| element.size);
     for (element, size) in model.element_matrices().iter().zip(sizes) {
         for (a, &row) in element.dof.iter().enumerate() {
-            for (b, &column) in element.dof.iter().enumerate().filter(|&(_, &column)| column <= row) {
+            for (b, &column) in element
+                .dof
+                .iter()
+                .enumerate()
+                .filter(|&(_, &column)| column <= row)
+            {
                 stiffness[row][column] += product(size, element.unit[(a, b)]);
             }
         }
     }
-    let loads: Vec<Vec<f64>> = t.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let loads: Vec<Vec<f64>> = t
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect();
     let flexible = Flexible::new(stiffness, &loads, mass.as_slice());
     let entry = |i: usize, j: usize| {
         let (high, rest) = flexible.entry(i, j);
         Dd::from(high) + Dd::from(rest)
     };
     let stiffness = inverse(&rows(mass.len(), mass.len(), entry));
-    Pencil { stiffness, mass: mass.as_slice().to_vec(), below: Box::new(move |square| flexible.below(square)) }
+    Pencil {
+        stiffness,
+        mass: mass.as_slice().to_vec(),
+        below: Box::new(move |square| flexible.below(square)),
+    }
 }
 
 /// The inner loop's own: $\mathrm{diag}(\omega^2) + \sum (c_e - 1) V^t K_e V$ in the modes that the pass began with.
 fn of_inner_loop(squares: &[f64], shares: &[&DMatrix<f64>], factors: &[f64]) -> Pencil {
     let entry = |i: usize, j: usize| {
-        let own = if i == j { product(squares[i], 1.0) } else { BigInt::from(0) };
-        let change =
-            |(share, &factor): (&&DMatrix<f64>, &f64)| product(factor, share[(i, j)]) - product(1.0, share[(i, j)]);
+        let own = if i == j {
+            product(squares[i], 1.0)
+        } else {
+            BigInt::from(0)
+        };
+        let change = |(share, &factor): (&&DMatrix<f64>, &f64)| {
+            product(factor, share[(i, j)]) - product(1.0, share[(i, j)])
+        };
         own + shares.iter().zip(factors).map(change).sum::<BigInt>()
     };
     let size = squares.len();
-    let exact: Lower = (0..size).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
+    let exact: Lower = (0..size)
+        .map(|i| (0..=i).map(|j| entry(i, j)).collect())
+        .collect();
     let stiffness = rows(size, size, |i, j| {
         let number = |value: f64| Dd::from(value);
         let own = if i == j { number(squares[i]) } else { Dd::ZERO };
-        let change = |(share, &factor): (&&DMatrix<f64>, &f64)| (number(factor) - Dd::ONE) * number(share[(i, j)]);
+        let change = |(share, &factor): (&&DMatrix<f64>, &f64)| {
+            (number(factor) - Dd::ONE) * number(share[(i, j)])
+        };
         own + shares.iter().zip(factors).map(change).sum::<Dd>()
     });
     let below = move |square: f64| {
@@ -76,7 +101,11 @@ fn of_inner_loop(squares: &[f64], shares: &[&DMatrix<f64>], factors: &[f64]) -> 
         (0..size).for_each(|i| shifted[i][i] -= scaled(square, 256));
         negative_eigenvalues(shifted)
     };
-    Pencil { stiffness, mass: vec![1.0; size], below: Box::new(below) }
+    Pencil {
+        stiffness,
+        mass: vec![1.0; size],
+        below: Box::new(below),
+    }
 }
 
 impl Pencil {
@@ -91,7 +120,11 @@ impl Pencil {
             let rest = forces[i][0] - inertia;
             residual += rest * rest / Dd::from(mass);
             norm += Dd::from(mass) * shape[i] * shape[i];
-            let parts: Dd = self.stiffness[i].iter().zip(&shape).map(|(&k, &v)| (k * v).abs()).sum();
+            let parts: Dd = self.stiffness[i]
+                .iter()
+                .zip(&shape)
+                .map(|(&k, &v)| (k * v).abs())
+                .sum();
             let parts = parts + inertia.abs();
             magnitude += parts * parts / Dd::from(mass);
         }
@@ -109,8 +142,13 @@ impl Pencil {
             let bound = self.bound(square, modes.shapes.column(mode).as_slice());
             assert!(bound < CERTIFIED_ROOT, "{what}, mode {mode}: {bound:e}");
             // A rounding each for the two ends.
-            let [lower, upper] = [-1.0, 1.0].map(|side: f64| square * (1.0 + side * (bound + 2.0 * f64::EPSILON)));
-            assert_eq!(((self.below)(lower), (self.below)(upper)), (place, place + 1), "{what}, mode {mode}");
+            let [lower, upper] =
+                [-1.0, 1.0].map(|side: f64| square * (1.0 + side * (bound + 2.0 * f64::EPSILON)));
+            assert_eq!(
+                ((self.below)(lower), (self.below)(upper)),
+                (place, place + 1),
+                "{what}, mode {mode}"
+            );
         }
     }
 }
@@ -119,13 +157,26 @@ impl Pencil {
     /// Asserts that modes have the lowest frequencies to the last of the ten digits that tables have as numbers (other tables show
     /// fewer of the same): a rounded one is half a unit off.
     fn assert_shown(&self, what: &str, modes: &ModeSet) {
-        let mut shown: Vec<String> =
-            modes.frequencies_hz().iter().map(|frequency| format!("{frequency:.9e}")).collect();
+        let mut shown: Vec<String> = modes
+            .frequencies_hz()
+            .iter()
+            .map(|frequency| format!("{frequency:.9e}"))
+            .collect();
         shown.sort_by(|a, b| read(a).total_cmp(&read(b)));
         for (place, printed) in shown.iter().enumerate() {
-            let unit = 10f64.powi(printed.split('e').nth(1).and_then(|power| power.parse().ok()).unwrap_or(0) - 9);
+            let unit = 10f64.powi(
+                printed
+                    .split('e')
+                    .nth(1)
+                    .and_then(|power| power.parse().ok())
+                    .unwrap_or(0)
+                    - 9,
+            );
             let square = |units: f64| (2.0 * PI * (read(printed) + units * unit)).powi(2);
-            let counts = ((self.below)(square(-SHOWN_UNITS)), (self.below)(square(SHOWN_UNITS)));
+            let counts = (
+                (self.below)(square(-SHOWN_UNITS)),
+                (self.below)(square(SHOWN_UNITS)),
+            );
             assert_eq!(counts, (place, place + 1), "{what}: {printed}");
         }
     }
@@ -143,10 +194,18 @@ fn frequencies_of_the_cases_are_certified() {
         let run = &found.correlation;
         let mut columns = vec![
             ("GVT".to_owned(), vec![TEST_GAGE; PANEL_COUNT], &found.test),
-            ("Initial".to_owned(), case.first_gages(), &*run.initial.modes),
+            (
+                "Initial".to_owned(),
+                case.first_gages(),
+                &*run.initial.modes,
+            ),
         ];
         for (row, pass) in run.passes.iter().enumerate() {
-            columns.push((format!("Pass {}", row + 1), found.pass_gages[row].clone(), &*pass.check.modes));
+            columns.push((
+                format!("Pass {}", row + 1),
+                found.pass_gages[row].clone(),
+                &*pass.check.modes,
+            ));
         }
         for (column, gages, modes) in columns {
             let what = format!("Case {number}, {column}");
@@ -167,9 +226,18 @@ fn frequencies_with_fewer_modes_are_certified() {
     for (test_modes, analysis_modes) in PUBLISHED_RUNS {
         let what = format!("{test_modes} test and {analysis_modes} analysis modes");
         let test = ModeSet::from(case.test_modes().unwrap().lowest(test_modes).unwrap());
-        let analyzed = model.analyze(&ones, &test, Some(analysis_modes)).expect("solved");
-        let inner = run(&analyzed, &ones, &model.factor_ranges().unwrap(), &case.settings.inner).expect("it runs");
-        let shares: Vec<&DMatrix<f64>> = analyzed.shares.iter().map(|share| share.matrix()).collect();
+        let analyzed = model
+            .analyze(&ones, &test, Some(analysis_modes))
+            .expect("solved");
+        let inner = run(
+            &analyzed,
+            &ones,
+            &model.factor_ranges().unwrap(),
+            &case.settings.inner,
+        )
+        .expect("it runs");
+        let shares: Vec<&DMatrix<f64>> =
+            analyzed.shares.iter().map(|share| share.matrix()).collect();
         let squares = analyzed.exact.modes.omega_squared.as_slice();
         let modal = ModeSet {
             omega_squared: inner.last.modes.omega_squared.clone(),
@@ -177,8 +245,14 @@ fn frequencies_with_fewer_modes_are_certified() {
         };
         let inner = of_inner_loop(squares, &shares, &inner.last.factors);
         inner.certify(&what, &modal);
-        let gages = fewer_modes_run(&case, test_modes, analysis_modes).expect("it runs").gages_in;
-        let exact = case.model_with(&gages).unwrap().modes(&ones).expect("solved");
+        let gages = fewer_modes_run(&case, test_modes, analysis_modes)
+            .expect("it runs")
+            .gages_in;
+        let exact = case
+            .model_with(&gages)
+            .unwrap()
+            .modes(&ones)
+            .expect("solved");
         let structure = of_structure(&case, &gages);
         structure.certify(&what, &exact);
         inner.assert_shown(&what, &modal);
@@ -195,7 +269,9 @@ fn the_count_below_a_number_is_that_of_the_roots() {
             1 => scaled(-1.0, 256),
             _ => BigInt::from(0),
         };
-        (0..9).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect::<Lower>()
+        (0..9)
+            .map(|i| (0..=i).map(|j| entry(i, j)).collect())
+            .collect::<Lower>()
     };
     for j in 0..9 {
         let root = 2.0 - 2.0 * ((j + 1) as f64 * PI / 10.0).cos();

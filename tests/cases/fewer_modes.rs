@@ -1,9 +1,13 @@
 //! Correlation with fewer modes: Tables 9 to 12, and what their numbers can and cannot be.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF};
+use crate::common::tolerances::{
+    EIGEN_ROUND_OFF, GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF,
+};
 use corfem::cases::error::CaseError;
-use corfem::cases::fewer_modes::{Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs};
+use corfem::cases::fewer_modes::{
+    Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
+};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
 use corfem::cases::{Case, run_case};
@@ -35,10 +39,17 @@ fn rms(errors: impl Iterator<Item = f64>) -> f64 {
 
 #[test]
 fn runs_are_every_pair_and_the_papers_among_them() {
-    let (all, published) = (all_runs(&case_2()).unwrap(), published_runs(&case_2()).unwrap());
-    let pairs: Vec<(usize, usize)> = all.iter().map(|run| (run.test_modes, run.analysis_modes)).collect();
-    let expected: Vec<(usize, usize)> =
-        (1..=9).flat_map(|test| (test..=9).map(move |analysis| (test, analysis))).collect();
+    let (all, published) = (
+        all_runs(&case_2()).unwrap(),
+        published_runs(&case_2()).unwrap(),
+    );
+    let pairs: Vec<(usize, usize)> = all
+        .iter()
+        .map(|run| (run.test_modes, run.analysis_modes))
+        .collect();
+    let expected: Vec<(usize, usize)> = (1..=9)
+        .flat_map(|test| (test..=9).map(move |analysis| (test, analysis)))
+        .collect();
     assert_eq!(pairs, expected);
     assert_eq!(published.len(), PUBLISHED_RUNS.len());
     for (run, pair) in published.iter().zip(PUBLISHED_RUNS) {
@@ -52,11 +63,17 @@ fn all_modes_are_the_first_pass_of_the_case() {
     let run = run(9, 9);
     let whole = run_case(&case_2(), |_, _| {}).unwrap();
     let pass = &whole.correlation.passes[0];
-    assert_eq!((run.case, run.iterations, run.stop), (2, pass.inner.iterations.len(), pass.inner.stop));
+    assert_eq!(
+        (run.case, run.iterations, run.stop),
+        (2, pass.inner.iterations.len(), pass.inner.stop)
+    );
     assert_eq!(run.gages_in, whole.pass_gages[0]);
     assert_eq!(run.exact.frequencies_hz, pass.check.frequencies_hz);
     assert_eq!(run.exact, run.exact_all_modes);
-    assert_eq!(run.initial.frequency_rms, whole.correlation.initial.errors.frequency_rms());
+    assert_eq!(
+        run.initial.frequency_rms,
+        whole.correlation.initial.errors.frequency_rms()
+    );
     assert_eq!(run.inner.shape_rms, pass.inner.last.errors.shape_rms());
     assert_eq!(run.test_frequencies_hz, whole.test.frequencies_hz());
 }
@@ -79,10 +96,15 @@ fn errors_are_those_of_the_frequencies_listed() {
             assert_eq!(others, sorted(others));
         }
         of(&run.exact_all_modes, 9, 9);
-        for (kind, found) in
-            [(ElementKind::ShearPanel, run.shear_gage_rms), (ElementKind::Membrane, run.membrane_gage_rms)]
-        {
-            let gages = run.gages_in.iter().zip(&panels).filter(|(_, p)| p.kind == kind);
+        for (kind, found) in [
+            (ElementKind::ShearPanel, run.shear_gage_rms),
+            (ElementKind::Membrane, run.membrane_gage_rms),
+        ] {
+            let gages = run
+                .gages_in
+                .iter()
+                .zip(&panels)
+                .filter(|(_, p)| p.kind == kind);
             assert!((rms(gages.map(|(gage, _)| gage / TEST_GAGE - 1.0)) - found).abs() < ROUND_OFF);
         }
     }
@@ -95,9 +117,17 @@ fn inner_frequencies_bound_exact_ones_from_above() {
     let mut case = case_2();
     case.settings.inner.accumulation = Accumulation::Product;
     for run in all_runs(&case).unwrap() {
-        let exact = case_2().model_with(&run.gages_in).unwrap().modes(&[1.0; 15]).unwrap().frequencies_hz();
+        let exact = case_2()
+            .model_with(&run.gages_in)
+            .unwrap()
+            .modes(&[1.0; 15])
+            .unwrap()
+            .frequencies_hz();
         for (inner, exact) in sorted(&run.inner.frequencies_hz).iter().zip(&exact) {
-            assert!(inner * (1.0 + EIGEN_ROUND_OFF) >= *exact, "{inner} below {exact}");
+            assert!(
+                inner * (1.0 + EIGEN_ROUND_OFF) >= *exact,
+                "{inner} below {exact}"
+            );
         }
     }
 }
@@ -114,10 +144,14 @@ fn runs_stop_at_the_tolerance_of_the_first_pass_or_at_thirty_iterations() {
             Stop::Iterations => assert!(*last >= 0.025 && run.iterations == 30),
             Stop::LocalMinimum => assert!(*last >= 0.025 && run.iterations < 30),
         }
-        let of_sums = (run.inner.frequency_rms + run.inner.shape_rms) * (run.test_modes as f64).sqrt();
+        let of_sums =
+            (run.inner.frequency_rms + run.inner.shape_rms) * (run.test_modes as f64).sqrt();
         assert!((last - of_sums).abs() < ROUND_OFF);
     }
-    assert!(runs.iter().any(|run| run.stop == Stop::Tolerance) && runs.iter().any(|run| run.stop == Stop::Iterations));
+    assert!(
+        runs.iter().any(|run| run.stop == Stop::Tolerance)
+            && runs.iter().any(|run| run.stop == Stop::Iterations)
+    );
 }
 
 #[test]
@@ -131,15 +165,26 @@ fn a_single_pass_is_made_whatever_the_case_asks_for() {
 #[test]
 fn numbers_of_modes_out_of_range_are_errors() {
     let error = |test, analysis| fewer_modes_run(&case_2(), test, analysis).unwrap_err();
-    assert!(matches!(error(0, 9), CaseError::Method(Error::Empty { what: "modes" })));
+    assert!(matches!(
+        error(0, 9),
+        CaseError::Method(Error::Empty { what: "modes" })
+    ));
     match error(10, 10) {
-        CaseError::Method(Error::TooMany { what, available, requested }) => {
+        CaseError::Method(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => {
             assert_eq!((what, available, requested), ("modes", 9, 10));
         }
         other => panic!("{other:?}"),
     }
     match error(5, 4) {
-        CaseError::Method(Error::TooMany { what, available, requested }) => {
+        CaseError::Method(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => {
             assert_eq!((what, available, requested), ("test modes", 4, 5));
         }
         other => panic!("{other:?}"),
@@ -148,10 +193,16 @@ fn numbers_of_modes_out_of_range_are_errors() {
 
 /// Exact solution of the box at the gages that a published column prints, by that column's test modes.
 fn exact_at_published(test_modes: usize, analysis_modes: usize) -> (Vec<f64>, f64) {
-    let number = [(7, 10), (5, 11), (3, 12)].into_iter().find(|(test, _)| *test == test_modes).unwrap().1;
+    let number = [(7, 10), (5, 11), (3, 12)]
+        .into_iter()
+        .find(|(test, _)| *test == test_modes)
+        .unwrap()
+        .1;
     let table = PublishedTable::number(number).unwrap();
     let heading = format!("fem_{analysis_modes}_in");
-    let gages: Vec<f64> = (1..=15).map(|e| table.required(&e.to_string(), &heading).unwrap()).collect();
+    let gages: Vec<f64> = (1..=15)
+        .map(|e| table.required(&e.to_string(), &heading).unwrap())
+        .collect();
     let model = case_2().model_with(&gages).unwrap();
     let test = case_2().test_modes().unwrap().lowest(test_modes).unwrap();
     let check = model.analyze(&[1.0; 15], &test, None).unwrap().exact;
@@ -169,7 +220,10 @@ fn printed_frequencies_lie_below_the_exact_ones_of_their_gages() {
         for (mode, exact) in exact.iter().enumerate() {
             let heading = format!("fem_{analysis_modes}_hz");
             if let Some(printed) = table.value(&(mode + 1).to_string(), &heading) {
-                assert!((0.019..0.045).contains(&(exact / printed - 1.0)), "{exact} {printed}");
+                assert!(
+                    (0.019..0.045).contains(&(exact / printed - 1.0)),
+                    "{exact} {printed}"
+                );
                 count += 1;
             }
         }
@@ -184,7 +238,11 @@ fn printed_frequencies_lie_below_the_exact_ones_of_their_gages() {
 
 #[test]
 fn tables_9_to_12_as_numbers() {
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
     let case = case_2();
     let mut tables = published_tables(&case, &published_runs(&case).unwrap()).unwrap();
     tables.extend(truncation_tables(&all_runs(&case).unwrap()));

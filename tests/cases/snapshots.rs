@@ -1,7 +1,9 @@
 //! Goldens of the report: Tables 3 to 8 and 13, Case 4, and the fit of the box.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
+use crate::common::tolerances::{
+    GOLDEN_ABSOLUTE_PERCENT, GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE,
+};
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, Grouping, run_case};
@@ -21,7 +23,11 @@ fn tables() -> Vec<Table> {
 
 #[test]
 fn every_table_as_numbers() {
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
     let tables = tables();
     let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
     assert_eq!(
@@ -46,7 +52,10 @@ fn every_table_as_numbers() {
             "fit"
         ]
     );
-    for table in tables.iter().filter(|table| !["outcome", "settings"].contains(&table.name.as_str())) {
+    for table in tables
+        .iter()
+        .filter(|table| !["outcome", "settings"].contains(&table.name.as_str()))
+    {
         assert_golden(&table.name, &csv(std::slice::from_ref(table)), numbers);
     }
 }
@@ -61,7 +70,11 @@ fn report_as_text_and_markdown() {
 
 #[test]
 fn cases_by_substructures() {
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
     let results: Vec<_> = CASES
         .into_iter()
         .map(|number| {
@@ -73,14 +86,21 @@ fn cases_by_substructures() {
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
     let mut tables = all_tables(&results, &fit).expect("published tables read");
     tables.pop();
-    assert!(tables.iter().all(|table| !table.title.contains("Table 3")), "the paper has no grouped run");
+    assert!(
+        tables.iter().all(|table| !table.title.contains("Table 3")),
+        "the paper has no grouped run"
+    );
     assert_golden("substructures", &csv(&tables), numbers);
 }
 
 #[test]
 fn root_errors_of_table_1() {
     // Errors near round-off are another machine's to choose; a percent error of 1e-9 is already eleven digits of a root.
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_ROOT_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_ROOT_PERCENT,
+        last_digit: false,
+    };
     let table = root_error_table().expect("separate roots");
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
     // Errors over many decades: a reader sees a digit and a power of ten.

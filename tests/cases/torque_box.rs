@@ -4,7 +4,9 @@ use crate::common::nastran95::boxes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::reconstruction;
 use corfem::cases::Case;
-use corfem::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, load_distribution, rod_ends, structure};
+use corfem::cases::torque_box::{
+    PANEL_COUNT, Reconstruction, TEST_GAGE, load_distribution, rod_ends, structure,
+};
 use corfem::method::structure::ElementKind;
 use nalgebra::{DVector, Matrix4, Vector3, Vector4};
 use proptest::prelude::*;
@@ -22,7 +24,10 @@ fn at(data: &Reconstruction, grid: usize) -> Vector3<f64> {
 /// Where the three dynamic points of a rib are.
 fn dynamic_points(data: &Reconstruction, number: usize) -> [Vector3<f64>; 3] {
     let [rear_upper, rear_lower, front_upper, front_lower] = rib(number).map(|grid| at(data, grid));
-    let (rear, front) = (0.5 * (rear_upper + rear_lower), 0.5 * (front_upper + front_lower));
+    let (rear, front) = (
+        0.5 * (rear_upper + rear_lower),
+        0.5 * (front_upper + front_lower),
+    );
     [rear, rear + data.mid_chord_fraction * (front - rear), front]
 }
 
@@ -156,10 +161,17 @@ fn rods_run_along_every_free_edge_of_the_panels() {
         .unwrap()
         .panels
         .iter()
-        .flat_map(|panel| (0..4).map(|k| edge(panel.grids[k], panel.grids[(k + 1) % 4])).collect::<Vec<_>>())
+        .flat_map(|panel| {
+            (0..4)
+                .map(|k| edge(panel.grids[k], panel.grids[(k + 1) % 4]))
+                .collect::<Vec<_>>()
+        })
         .collect();
     assert_eq!(edges.len(), 28);
-    let free: BTreeSet<_> = edges.into_iter().filter(|&(a, b)| a < 13 || b < 13).collect();
+    let free: BTreeSet<_> = edges
+        .into_iter()
+        .filter(|&(a, b)| a < 13 || b < 13)
+        .collect();
     let rods: BTreeSet<_> = rod_ends().iter().map(|&[a, b]| edge(a, b)).collect();
     assert_eq!((rod_ends().len(), rods.len()), (24, 24));
     assert_eq!(rods, free);
@@ -171,23 +183,39 @@ fn rods_run_along_every_free_edge_of_the_panels() {
 fn the_structure_has_table_2s_elements_and_a_fixed_root() {
     let case = Case::new(4).unwrap();
     let found = structure(&case.reconstruction, &case.panels, case.rod_area).unwrap();
-    let labels: Vec<usize> = found.elements().iter().map(|element| element.label).collect();
+    let labels: Vec<usize> = found
+        .elements()
+        .iter()
+        .map(|element| element.label)
+        .collect();
     assert_eq!(labels, (1..=39).collect::<Vec<_>>());
     for (element, panel) in found.elements().iter().zip(&case.panels) {
-        assert_eq!((element.kind, &element.grids, element.size), (panel.kind, &panel.grids, panel.gage));
+        assert_eq!(
+            (element.kind, &element.grids, element.size),
+            (panel.kind, &panel.grids, panel.gage)
+        );
     }
     for (element, ends) in found.elements()[PANEL_COUNT..].iter().zip(rod_ends()) {
-        assert_eq!((element.kind, &element.grids[..], element.size), (ElementKind::Rod, &ends[..], 0.01));
+        assert_eq!(
+            (element.kind, &element.grids[..], element.size),
+            (ElementKind::Rod, &ends[..], 0.01)
+        );
     }
     for element in found.elements() {
         let material = element.material;
-        assert_eq!((material.youngs_modulus, material.poissons_ratio), (1.0e7, 0.3339));
+        assert_eq!(
+            (material.youngs_modulus, material.poissons_ratio),
+            (1.0e7, 0.3339)
+        );
     }
     assert_eq!(found.free_dof().len(), 36);
     for (grid, label) in found.grids().iter().zip(1..) {
         assert_eq!((grid.label, grid.constrained), (label, [label > 12; 3]));
         assert_eq!(grid.position.z < 0.0, label % 2 == 0, "grid {label}");
-        assert_eq!(<[f64; 3]>::from(grid.position), case.reconstruction.grids[&label]);
+        assert_eq!(
+            <[f64; 3]>::from(grid.position),
+            case.reconstruction.grids[&label]
+        );
     }
     assert_eq!(found.elements()[7].grids, [2, 4, 8, 6]);
     assert_eq!((found.elements()[7].size, TEST_GAGE), (0.0001, 0.010));

@@ -2,7 +2,9 @@
 
 use crate::common::matrices::relative_distance;
 use crate::common::nastran95::{StoredBox, StoredBoxes, boxes, snap_factor};
-use crate::common::tolerances::{NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF};
+use crate::common::tolerances::{
+    NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF,
+};
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::method::appendix_a::condense;
@@ -13,7 +15,11 @@ use corfem::method::structure::Structure;
 use nalgebra::DMatrix;
 
 fn sizes(structure: &Structure) -> Vec<f64> {
-    structure.elements().iter().map(|element| element.size).collect()
+    structure
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect()
 }
 
 /// Element matrices of a box, those of panels that NASTRAN-95 snaps with its factor on them.
@@ -44,27 +50,43 @@ fn by_name<'a>(all: &'a StoredBoxes, name: &str) -> &'a StoredBox {
 
 fn worst(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
-    found.iter().zip(expected).map(|(f, e)| (f / e - 1.0).abs()).fold(0.0, f64::max)
+    found
+        .iter()
+        .zip(expected)
+        .map(|(f, e)| (f / e - 1.0).abs())
+        .fold(0.0, f64::max)
 }
 
 #[test]
 fn boxes_without_snapped_panels_equal_nastran95() {
     let all = boxes();
-    let plain: Vec<_> = all.boxes.iter().filter(|stored| stored.snapped.is_empty()).collect();
+    let plain: Vec<_> = all
+        .boxes
+        .iter()
+        .filter(|stored| stored.snapped.is_empty())
+        .collect();
     assert_eq!((all.boxes.len(), plain.len()), (16, 10));
     for stored in plain {
         let structure = all.structure(stored);
         let matrices = element_matrices(&structure).unwrap();
         let ours = dense_stiffness(&matrices, &sizes(&structure), 36).unwrap();
         let distance = relative_distance(&ours, &stored.stored());
-        assert!(distance <= NASTRAN_SINGLE_PRECISION, "{}: {distance:e}", stored.name);
+        assert!(
+            distance <= NASTRAN_SINGLE_PRECISION,
+            "{}: {distance:e}",
+            stored.name
+        );
     }
 }
 
 #[test]
 fn snapped_boxes_equal_nastran95_with_its_closed_form_in_their_place() {
     let all = boxes();
-    let snapped: Vec<_> = all.boxes.iter().filter(|stored| !stored.snapped.is_empty()).collect();
+    let snapped: Vec<_> = all
+        .boxes
+        .iter()
+        .filter(|stored| !stored.snapped.is_empty())
+        .collect();
     assert_eq!(snapped.len(), 6);
     for stored in snapped {
         let structure = all.structure(stored);
@@ -72,9 +94,17 @@ fn snapped_boxes_equal_nastran95_with_its_closed_form_in_their_place() {
         let true_one = dense_stiffness(&element_matrices(&structure).unwrap(), &sizes, 36).unwrap();
         let theirs = dense_stiffness(&as_nastran(&structure, stored), &sizes, 36).unwrap();
         let distance = relative_distance(&theirs, &stored.stored());
-        assert!(distance <= NASTRAN_SINGLE_PRECISION, "{}: {distance:e}", stored.name);
+        assert!(
+            distance <= NASTRAN_SINGLE_PRECISION,
+            "{}: {distance:e}",
+            stored.name
+        );
         let unexplained = relative_distance(&true_one, &stored.stored());
-        assert!(unexplained > 2.0 * distance, "{}: {unexplained:e} {distance:e}", stored.name);
+        assert!(
+            unexplained > 2.0 * distance,
+            "{}: {unexplained:e} {distance:e}",
+            stored.name
+        );
     }
 }
 
@@ -89,7 +119,11 @@ fn eigenvalues_of_boxes_equal_nastran95() {
         let structure = all.structure(stored);
         let found = eigenvalues(&as_nastran(&structure, stored), &structure, all.mass);
         let distance = worst(&found, expected);
-        assert!(distance <= NASTRAN_EIGENVALUE, "{}: {distance:e}", stored.name);
+        assert!(
+            distance <= NASTRAN_EIGENVALUE,
+            "{}: {distance:e}",
+            stored.name
+        );
         compared += 1;
     }
     assert_eq!(compared, 10);
@@ -108,7 +142,12 @@ fn snapping_moves_an_eigenvalue_by_six_parts_in_ten_thousand_at_most() {
     let most = |names: &[&str]| names.iter().map(|name| moved(name)).fold(0.0, f64::max);
     let shear_covers = most(&["case 1 gvt", "case 1 initial"]);
     assert_eq!(format!("{shear_covers:.1e}"), "5.9e-4");
-    let membrane_covers = most(&["case 2 gvt", "case 2 initial", "case 3 initial", "case 4 initial"]);
+    let membrane_covers = most(&[
+        "case 2 gvt",
+        "case 2 initial",
+        "case 3 initial",
+        "case 4 initial",
+    ]);
     assert_eq!(format!("{membrane_covers:.0e}"), "4e-7");
 }
 
@@ -131,15 +170,22 @@ fn the_round_box_has_the_eigenvalues_another_installation_printed() {
 #[test]
 fn the_cases_are_the_stored_boxes() {
     let all = boxes();
-    let assemble =
-        |structure: &Structure| dense_stiffness(&element_matrices(structure).unwrap(), &sizes(structure), 36).unwrap();
+    let assemble = |structure: &Structure| {
+        dense_stiffness(&element_matrices(structure).unwrap(), &sizes(structure), 36).unwrap()
+    };
     for number in 1..=4 {
         let case = Case::new(number).unwrap();
         let test = case.model_with(&[TEST_GAGE; PANEL_COUNT]).unwrap();
         let gvt = format!("case {} gvt", number.min(2));
-        for (name, model) in [(format!("case {number} initial"), case.model().unwrap()), (gvt, test)] {
+        for (name, model) in [
+            (format!("case {number} initial"), case.model().unwrap()),
+            (gvt, test),
+        ] {
             let stored = by_name(&all, &name);
-            let distance = relative_distance(&assemble(model.structure()), &assemble(&all.structure(stored)));
+            let distance = relative_distance(
+                &assemble(model.structure()),
+                &assemble(&all.structure(stored)),
+            );
             assert!(distance <= ROUND_OFF, "{name}: {distance:e}");
         }
     }

@@ -3,7 +3,9 @@
 use crate::common::log_log_slope;
 use crate::common::structures::{dense, factorized, sizes, spring_chain};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
-use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz};
+use corfem::closed_forms::analytical::{
+    ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
+};
 use corfem::method::appendix_a::condense;
 use corfem::method::modes;
 use nalgebra::{DMatrix, DVector};
@@ -64,14 +66,27 @@ fn a_rod_cut_finer_tends_to_the_uniform_rod_with_order_two() {
             assert_eq!(sizes(&structure).len(), count);
             let mut masses = DVector::from_element(count, density * area * piece);
             masses[count - 1] /= 2.0;
-            let condensed = condense(&factorized(&structure).unwrap(), &DMatrix::identity(count, count)).unwrap();
-            let found = modes::solve(&condensed.stiffness, &DMatrix::from_diagonal(&masses), 3).unwrap();
-            let error = found.frequencies_hz().iter().zip(&expected).map(|(f, e)| 1.0 - f / e).collect();
+            let condensed = condense(
+                &factorized(&structure).unwrap(),
+                &DMatrix::identity(count, count),
+            )
+            .unwrap();
+            let found =
+                modes::solve(&condensed.stiffness, &DMatrix::from_diagonal(&masses), 3).unwrap();
+            let error = found
+                .frequencies_hz()
+                .iter()
+                .zip(&expected)
+                .map(|(f, e)| 1.0 - f / e)
+                .collect();
             (piece, error)
         })
         .to_vec();
     for mode in 0..3 {
-        let points: Vec<(f64, f64)> = errors.iter().map(|(piece, error)| (*piece, error[mode])).collect();
+        let points: Vec<(f64, f64)> = errors
+            .iter()
+            .map(|(piece, error)| (*piece, error[mode]))
+            .collect();
         let slope = log_log_slope(&points);
         assert!((slope - 2.0).abs() < SLOPE, "mode {mode}: slope {slope}");
     }

@@ -1,7 +1,9 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
 use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged};
+use corfem::method::appendix_c::{
+    Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged,
+};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -23,8 +25,16 @@ pub struct Rule {
 
 /// The formulae of Appendix C, the recursive ones to a few orders and to convergence.
 pub const FORMULAE: [Rule; 7] = [
-    Rule { name: "first order", plain: first_order, general: general::first_order },
-    Rule { name: "original", plain: original, general: general::original },
+    Rule {
+        name: "first order",
+        plain: first_order,
+        general: general::first_order,
+    },
+    Rule {
+        name: "original",
+        plain: original,
+        general: general::original,
+    },
     Rule {
         name: "Recursive 1, order 1",
         plain: |k, beta| recursive_1(k, beta, 1),
@@ -54,11 +64,17 @@ pub const FORMULAE: [Rule; 7] = [
 
 /// Those that the loops run on, with functions of their own for a change of stiffness alone.
 pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
-    FORMULAE.into_iter().filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
+    FORMULAE
+        .into_iter()
+        .filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
 }
 
 /// What they approach.
-pub const EIGENSOLUTION: Rule = Rule { name: "eigensolution", plain: exact, general: eigensolution };
+pub const EIGENSOLUTION: Rule = Rule {
+    name: "eigensolution",
+    plain: exact,
+    general: eigensolution,
+};
 
 /// The formulae and the eigensolution.
 pub fn rules() -> impl Iterator<Item = Rule> {
@@ -76,7 +92,11 @@ pub fn exact(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> 
 }
 
 /// Recursive 2 for a change of stiffness alone.
-pub fn recursive_2(k: &DVector<f64>, beta: &DMatrix<f64>, order: usize) -> Result<Perturbed, Error> {
+pub fn recursive_2(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    order: usize,
+) -> Result<Perturbed, Error> {
     general::recursive_2(&of_stiffness(k, beta), order)
 }
 
@@ -87,7 +107,10 @@ pub fn original(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Erro
 
 /// Largest change of a root relative to itself.
 pub fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
-    let changes = new.iter().zip(old.iter()).map(|(new, old)| (new / old - 1.0).abs());
+    let changes = new
+        .iter()
+        .zip(old.iter())
+        .map(|(new, old)| (new / old - 1.0).abs());
     changes.fold(0.0, f64::max)
 }
 
@@ -124,7 +147,9 @@ pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalCh
 
 /// A change of two to six separate modes in which every rule converges.
 pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
-    (2..=6_usize).prop_flat_map(separate_spectrum).prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
+    (2..=6_usize)
+        .prop_flat_map(separate_spectrum)
+        .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
 }
 
 /// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
@@ -140,7 +165,10 @@ pub struct Clustered {
 pub fn clustered() -> impl Strategy<Value = Clustered> {
     let cluster = (
         2.0..4.0_f64,
-        prop::collection::vec(prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))], 1..=3),
+        prop::collection::vec(
+            prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))],
+            1..=3,
+        ),
     );
     prop::collection::vec(cluster, 1..=3)
         .prop_flat_map(|clusters| {
@@ -154,7 +182,10 @@ pub fn clustered() -> impl Strategy<Value = Clustered> {
                 k.extend(splits.iter().map(|split| center * (1.0 + split)));
                 center *= ratio;
             }
-            (change_of(DVector::from_vec(k), LARGEST_CHANGE), Just(blocks))
+            (
+                change_of(DVector::from_vec(k), LARGEST_CHANGE),
+                Just(blocks),
+            )
         })
         .prop_map(|(change, blocks)| Clustered { change, blocks })
 }
@@ -193,7 +224,11 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
                 .map(|(i, other)| (i, (root - other).norm() / other.norm()))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
                 .expect("there are roots");
-            assert!(!used[nearest], "two roots are nearest to {}", exact[nearest]);
+            assert!(
+                !used[nearest],
+                "two roots are nearest to {}",
+                exact[nearest]
+            );
             used[nearest] = true;
             distance
         })
@@ -217,6 +252,10 @@ pub fn four_modes(size: f64) -> ModalChange<f64> {
 
 /// Largest relative error of a root and largest error of a shape against the exact solution.
 pub fn errors(perturbed: &Perturbed, exact: &Perturbed) -> (f64, f64) {
-    let roots = perturbed.roots.component_div(&exact.roots).add_scalar(-1.0).amax();
+    let roots = perturbed
+        .roots
+        .component_div(&exact.roots)
+        .add_scalar(-1.0)
+        .amax();
     (roots, (&perturbed.shapes - &exact.shapes).amax())
 }

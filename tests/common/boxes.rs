@@ -15,7 +15,9 @@ pub fn first_problem(number: usize) -> ModalModel {
 pub fn problem_of(case: &Case) -> ModalModel {
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
-    model.analyze(&[1.0; PANEL_COUNT], &test, None).expect("a problem")
+    model
+        .analyze(&[1.0; PANEL_COUNT], &test, None)
+        .expect("a problem")
 }
 
 /// Case 2's box, of membranes and shear panels, with first gages of 0.008 to 0.013 in: up to 30 % off the test's

@@ -14,7 +14,10 @@ pub fn solved(change: &ModalChange<f64>) -> SolvedInBlocks {
 /// Stiffness and mass after the change in the modal coordinates.
 pub fn changed(change: &ModalChange<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let k = &change.generalized_stiffness;
-    (DMatrix::from_diagonal(k) + &change.beta, DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha)
+    (
+        DMatrix::from_diagonal(k) + &change.beta,
+        DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha,
+    )
 }
 
 /// Largest relative distance of sorted ω² from those of the eigensolution of the changed matrices.
@@ -53,6 +56,8 @@ pub fn separate_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
 
 /// A change of springs seen through a chain's modes.
 pub fn spring_change(modes: &Modes, ground: [f64; 3], between: [f64; 3]) -> ModalChange<f64> {
-    let beta = modes.shapes.tr_mul(&(three_mass_chain(ground, between) * &modes.shapes));
+    let beta = modes
+        .shapes
+        .tr_mul(&(three_mass_chain(ground, between) * &modes.shapes));
     ModalChange::of_vibrations(&modes.omega_squared, beta, DMatrix::zeros(3, 3))
 }

@@ -17,8 +17,13 @@ pub struct ComplexPencil {
 
 /// A square complex matrix with real and imaginary parts between −1 and 1.
 pub fn complex_square(size: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
-    prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), size * size)
-        .prop_map(move |parts| DMatrix::from_iterator(size, size, parts.iter().map(|&(re, im)| Complex::new(re, im))))
+    prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), size * size).prop_map(move |parts| {
+        DMatrix::from_iterator(
+            size,
+            size,
+            parts.iter().map(|&(re, im)| Complex::new(re, im)),
+        )
+    })
 }
 
 /// Three to six DOF, an orthogonally mixed stiffness with separate spectrum, $G$ the unit mass with complex terms of
@@ -37,7 +42,8 @@ pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
         })
         .prop_map(|(k, q, aerodynamic, stiffness_noise, g_noise)| {
             let size = k.len();
-            let root = (&q * DMatrix::from_diagonal(&k.map(f64::sqrt)) * q.transpose()).map(Complex::from);
+            let root =
+                (&q * DMatrix::from_diagonal(&k.map(f64::sqrt)) * q.transpose()).map(Complex::from);
             let stiffness = &q * DMatrix::from_diagonal(&k) * q.transpose();
             let small = |factor: f64| Complex::from(factor);
             ComplexPencil {
@@ -60,7 +66,9 @@ pub fn aeroelastic_section(q: f64) -> (DMatrix<f64>, DMatrix<Complex<f64>>) {
     let mass = nalgebra::dmatrix![1.0, 0.2, 0.05; 0.2, 0.5, 0.06; 0.05, 0.06, 0.04];
     let in_phase = nalgebra::dmatrix![0.1, 1.2, 0.5; 0.0, 0.3, 0.2; 0.0, 0.02, 0.05];
     let lagging = nalgebra::dmatrix![0.8, 0.4, 0.1; -0.2, 0.3, 0.05; 0.0, 0.01, 0.02];
-    let g = DMatrix::from_fn(3, 3, |i, j| Complex::new(mass[(i, j)] + q * in_phase[(i, j)], -q * lagging[(i, j)]));
+    let g = DMatrix::from_fn(3, 3, |i, j| {
+        Complex::new(mass[(i, j)] + q * in_phase[(i, j)], -q * lagging[(i, j)])
+    });
     (stiffness, g)
 }
 
@@ -76,9 +84,15 @@ pub fn amax(matrix: &Complexes) -> f64 {
 
 /// Roots of (Kλ − G)v = 0 by faer's QZ, which shares nothing with the Cholesky route of the library.
 pub fn roots_by_qz(stiffness: &Complexes, g: &Complexes) -> Vec<Complex<f64>> {
-    let to_faer = |matrix: &Complexes| faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)]);
-    let eigen = to_faer(g).generalized_eigen(to_faer(stiffness)).expect("QZ converges");
-    (0..g.nrows()).map(|i| eigen.S_a()[i] / eigen.S_b()[i]).collect()
+    let to_faer = |matrix: &Complexes| {
+        faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
+    };
+    let eigen = to_faer(g)
+        .generalized_eigen(to_faer(stiffness))
+        .expect("QZ converges");
+    (0..g.nrows())
+        .map(|i| eigen.S_a()[i] / eigen.S_b()[i])
+        .collect()
 }
 
 /// A conjugate-free product of columns, UᵗAV.

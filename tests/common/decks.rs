@@ -10,28 +10,38 @@ const WIDTHS: [usize; 2] = [8, 16];
 /// A decimal number of up to ten digits between 1e-15 and 1e15: a field of 16 characters holds it exactly, with its
 /// sign and an exponent.
 pub fn field_number() -> impl Strategy<Value = f64> {
-    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32)
-        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().expect("a decimal number"))
+    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
+        format!("{digits}e{power}")
+            .parse()
+            .expect("a decimal number")
+    })
 }
 
 fn positive_number() -> impl Strategy<Value = f64> {
-    (1..=9_999_999_999_i64, -15..=5_i32)
-        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().expect("a decimal number"))
+    (1..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
+        format!("{digits}e{power}")
+            .parse()
+            .expect("a decimal number")
+    })
 }
 
 /// Two materials: Poisson's ratio of four digits, a shear modulus that follows from it or one of its own, with or without
 /// a density.
 fn materials() -> impl Strategy<Value = Vec<Material>> {
-    let one =
-        (positive_number(), -9999..=5000_i32, prop::option::of(positive_number()), prop::option::of(positive_number()))
-            .prop_map(|(e, nu, g, density)| {
-                let material = Material::isotropic(e, f64::from(nu) / 1e4).expect("a material");
-                Material {
-                    shear_modulus: g.unwrap_or(material.shear_modulus),
-                    density: density.unwrap_or(0.0),
-                    ..material
-                }
-            });
+    let one = (
+        positive_number(),
+        -9999..=5000_i32,
+        prop::option::of(positive_number()),
+        prop::option::of(positive_number()),
+    )
+        .prop_map(|(e, nu, g, density)| {
+            let material = Material::isotropic(e, f64::from(nu) / 1e4).expect("a material");
+            Material {
+                shear_modulus: g.unwrap_or(material.shear_modulus),
+                density: density.unwrap_or(0.0),
+                ..material
+            }
+        });
     prop::collection::vec(one, 2)
 }
 
@@ -55,28 +65,57 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     const POINTS: usize = 3;
     let grids = (
         labels(STRUCTURAL + POINTS),
-        prop::collection::vec((prop::array::uniform3(field_number()), any::<[bool; 3]>()), STRUCTURAL + POINTS),
+        prop::collection::vec(
+            (prop::array::uniform3(field_number()), any::<[bool; 3]>()),
+            STRUCTURAL + POINTS,
+        ),
     );
     let elements = (
         labels(6),
-        prop::collection::vec((0..4_usize, 0..STRUCTURAL, positive_number(), 0..2_usize), 0..=6),
+        prop::collection::vec(
+            (0..4_usize, 0..STRUCTURAL, positive_number(), 0..2_usize),
+            0..=6,
+        ),
         materials(),
     );
     let term = (0..STRUCTURAL, 0..3_usize, field_number());
-    let ties = prop::collection::vec((0..3_usize, positive_number(), prop::collection::vec(term, 0..=7)), 0..=POINTS);
+    let ties = prop::collection::vec(
+        (
+            0..3_usize,
+            positive_number(),
+            prop::collection::vec(term, 0..=7),
+        ),
+        0..=POINTS,
+    );
     let masses = (
         labels(4),
-        prop::collection::vec((0..STRUCTURAL + POINTS, prop::option::of(0..3_usize), positive_number()), 0..=4),
+        prop::collection::vec(
+            (
+                0..STRUCTURAL + POINTS,
+                prop::option::of(0..3_usize),
+                positive_number(),
+            ),
+            0..=4,
+        ),
     );
     (grids, elements, ties, masses).prop_map(|(grids, elements, ties, masses)| {
         let (labels, places) = grids;
         let mut grids: Vec<Grid> = labels
             .into_iter()
             .zip(places)
-            .map(|(label, (position, constrained))| Grid { label, position: position.into(), constrained })
+            .map(|(label, (position, constrained))| Grid {
+                label,
+                position: position.into(),
+                constrained,
+            })
             .collect();
         let (labels, drawn, materials) = elements;
-        let kinds = [ElementKind::Rod, ElementKind::ShearPanel, ElementKind::Membrane, ElementKind::Triangle];
+        let kinds = [
+            ElementKind::Rod,
+            ElementKind::ShearPanel,
+            ElementKind::Membrane,
+            ElementKind::Triangle,
+        ];
         let elements = labels
             .into_iter()
             .zip(drawn)
@@ -94,20 +133,37 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
         for (point, (direction, coefficient, terms)) in ties.into_iter().enumerate() {
             let grid = &mut grids[STRUCTURAL + point];
             grid.constrained[direction] = false;
-            let dependent = StructuralDof { grid: grid.label, direction };
+            let dependent = StructuralDof {
+                grid: grid.label,
+                direction,
+            };
             let terms = terms.into_iter().map(|(row, direction, coefficient)| {
                 let grid = grids[row].label;
                 (StructuralDof { grid, direction }, coefficient)
             });
-            tied.push(Tie { dependent, coefficient: -coefficient, terms: terms.collect() });
+            tied.push(Tie {
+                dependent,
+                coefficient: -coefficient,
+                terms: terms.collect(),
+            });
         }
         let (labels, drawn) = masses;
         let masses = labels
             .into_iter()
             .zip(drawn)
-            .map(|(label, (row, direction, mass))| PointMass { label, grid: grids[row].label, direction, mass })
+            .map(|(label, (row, direction, mass))| PointMass {
+                label,
+                grid: grids[row].label,
+                direction,
+                mass,
+            })
             .collect();
-        BulkData { grids, elements, ties: tied, masses }
+        BulkData {
+            grids,
+            elements,
+            ties: tied,
+            masses,
+        }
     })
 }
 
@@ -125,7 +181,12 @@ pub enum Style {
 }
 
 pub fn style() -> impl Strategy<Value = Style> {
-    prop_oneof![Just(Style::Fixed), Just(Style::Free), Just(Style::Relaxed), Just(Style::Commented),]
+    prop_oneof![
+        Just(Style::Fixed),
+        Just(Style::Free),
+        Just(Style::Relaxed),
+        Just(Style::Commented),
+    ]
 }
 
 /// A line of fixed format in another style.
@@ -134,7 +195,10 @@ pub fn restyled(line: &str, style: Style) -> String {
         Style::Fixed => line.to_owned(),
         Style::Free => free(line).join(","),
         Style::Relaxed => {
-            let fields: Vec<String> = free(line).iter().map(|field| format!(" {}  ", field.to_lowercase())).collect();
+            let fields: Vec<String> = free(line)
+                .iter()
+                .map(|field| format!(" {}  ", field.to_lowercase()))
+                .collect();
             format!("{} $ a remark, with commas", fields.join(","))
         }
         Style::Commented => format!("$ before\n\n{line}\n$ after"),
@@ -146,6 +210,11 @@ fn free(line: &str) -> Vec<String> {
     let line = format!("{line:80}");
     let name = line[..8].trim().to_owned();
     let width = WIDTHS[usize::from(name.contains('*'))];
-    let data = (8..72).step_by(width).map(|start| line[start..start + width].trim().to_owned());
-    std::iter::once(name).chain(data).chain(std::iter::once(line[72..].trim().to_owned())).collect()
+    let data = (8..72)
+        .step_by(width)
+        .map(|start| line[start..start + width].trim().to_owned());
+    std::iter::once(name)
+        .chain(data)
+        .chain(std::iter::once(line[72..].trim().to_owned()))
+        .collect()
 }

@@ -28,7 +28,10 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let high = a + b;
-    Dd { high, low: b - (high - a) }
+    Dd {
+        high,
+        low: b - (high - a),
+    }
 }
 
 /// The two halves of a number, of 26 bits each.
@@ -45,12 +48,21 @@ fn split(a: f64) -> (f64, f64) {
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
-    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+    (
+        product,
+        ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low,
+    )
 }
 
 impl Dd {
-    pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
-    pub const ONE: Self = Self { high: 1.0, low: 0.0 };
+    pub const ZERO: Self = Self {
+        high: 0.0,
+        low: 0.0,
+    };
+    pub const ONE: Self = Self {
+        high: 1.0,
+        low: 0.0,
+    };
 
     pub fn to_f64(self) -> f64 {
         self.high + self.low
@@ -65,7 +77,9 @@ impl Dd {
             return self;
         }
         // Newton's step doubles the digits of a root in double precision; the second makes sure of the last bits.
-        (0..2).fold(Self::from(self.high.sqrt()), |root, _| root + (self - root * root) / (root + root))
+        (0..2).fold(Self::from(self.high.sqrt()), |root, _| {
+            root + (self - root * root) / (root + root)
+        })
     }
 
     pub fn recip(self) -> Self {
@@ -91,7 +105,10 @@ impl Neg for Dd {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self { high: -self.high, low: -self.low }
+        Self {
+            high: -self.high,
+            low: -self.low,
+        }
     }
 }
 
@@ -152,7 +169,10 @@ impl SubAssign for Dd {
 
 impl PartialOrd for Dd {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let (high, low) = (self.high.partial_cmp(&other.high)?, self.low.partial_cmp(&other.low)?);
+        let (high, low) = (
+            self.high.partial_cmp(&other.high)?,
+            self.low.partial_cmp(&other.low)?,
+        );
         Some(high.then(low))
     }
 }

@@ -6,17 +6,23 @@ use super::double_double::Dd;
 pub type Rows = Vec<Vec<Dd>>;
 
 pub fn rows(count: usize, columns: usize, entry: impl Fn(usize, usize) -> Dd) -> Rows {
-    (0..count).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
+    (0..count)
+        .map(|i| (0..columns).map(|j| entry(i, j)).collect())
+        .collect()
 }
 
 /// $A^t B$.
 pub fn transposed_product(a: &Rows, b: &Rows) -> Rows {
-    rows(a[0].len(), b[0].len(), |i, j| a.iter().zip(b).map(|(a, b)| a[i] * b[j]).sum())
+    rows(a[0].len(), b[0].len(), |i, j| {
+        a.iter().zip(b).map(|(a, b)| a[i] * b[j]).sum()
+    })
 }
 
 /// $A B$.
 pub fn product(a: &Rows, b: &Rows) -> Rows {
-    rows(a.len(), b[0].len(), |i, j| a[i].iter().zip(b).map(|(&a, b)| a * b[j]).sum())
+    rows(a.len(), b[0].len(), |i, j| {
+        a[i].iter().zip(b).map(|(&a, b)| a * b[j]).sum()
+    })
 }
 
 /// $A^{-1} B$ of a symmetric positive definite $A$, by Cholesky; fails for another.
@@ -27,7 +33,11 @@ pub fn solve(a: &Rows, b: &Rows) -> Rows {
         for j in 0..=i {
             let rest = a[i][j] - (0..j).map(|s| lower[i][s] * lower[j][s]).sum::<Dd>();
             assert!(i > j || rest > Dd::ZERO, "not positive definite");
-            lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
+            lower[i][j] = if i == j {
+                rest.sqrt()
+            } else {
+                rest / lower[j][j]
+            };
         }
     }
     let solved = |column: usize| {
@@ -49,7 +59,10 @@ pub fn solve(a: &Rows, b: &Rows) -> Rows {
 /// The inverse of a symmetric positive definite matrix, symmetric to the last bit.
 pub fn inverse(a: &Rows) -> Rows {
     let size = a.len();
-    let x = solve(a, &rows(size, size, |i, j| if i == j { Dd::ONE } else { Dd::ZERO }));
+    let x = solve(
+        a,
+        &rows(size, size, |i, j| if i == j { Dd::ONE } else { Dd::ZERO }),
+    );
     rows(size, size, |i, j| x[i.max(j)][i.min(j)])
 }
 
@@ -85,5 +98,8 @@ pub fn eigen(a: &Rows) -> (Vec<Dd>, Rows) {
     }
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&i, &j| a[i][i].partial_cmp(&a[j][j]).expect("numbers"));
-    (order.iter().map(|&i| a[i][i]).collect(), rows(size, size, |i, j| vectors[i][order[j]]))
+    (
+        order.iter().map(|&i| a[i][i]).collect(),
+        rows(size, size, |i, j| vectors[i][order[j]]),
+    )
 }

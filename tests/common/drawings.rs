@@ -27,9 +27,19 @@ pub fn words(svg: &str) -> Vec<String> {
 fn one(element: &str) -> Written {
     const UNITS: f64 = 10.0;
     let (tag, rest) = element.split_once('>').expect("a tag");
-    let entities = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
+    let entities = [
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&quot;", "\""),
+        ("&apos;", "'"),
+        ("&amp;", "&"),
+    ];
     let text = rest.split("</text>").next().expect("words").trim();
-    let text = entities.iter().fold(text.to_owned(), |text, (entity, letter)| text.replace(entity, letter));
+    let text = entities
+        .iter()
+        .fold(text.to_owned(), |text, (entity, letter)| {
+            text.replace(entity, letter)
+        });
     let em = attribute(tag, "font-size") / UNITS;
     let (x, y) = (attribute(tag, "x") / UNITS, attribute(tag, "y") / UNITS);
     let width = 0.57 * em * text.chars().count() as f64;

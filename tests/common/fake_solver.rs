@@ -19,7 +19,8 @@ pub fn fake(script: &str) -> TempDir {
 }
 
 pub fn solver(home: &TempDir) -> Nastran95 {
-    let mut solver = Nastran95::in_folder(home.path()).expect("a folder that looks like NASTRAN-95");
+    let mut solver =
+        Nastran95::in_folder(home.path()).expect("a folder that looks like NASTRAN-95");
     // A loaded machine takes its time to start a shell.
     solver.time_limit = Duration::from_secs(20);
     solver
@@ -45,11 +46,16 @@ pub fn output5(matrices: &[(&str, &DMatrix<f64>)]) -> String {
             let Some(first) = entries.iter().position(|x| *x != 0.0) else {
                 continue;
             };
-            let last = entries.iter().rposition(|x| *x != 0.0).expect("there is one");
+            let last = entries
+                .iter()
+                .rposition(|x| *x != 0.0)
+                .expect("there is one");
             let _ = writeln!(text, "{:8}{:8}{:8}", column + 1, first + 1, last + 1);
             for line in entries.as_slice()[first..=last].chunks(5) {
-                let fields: String =
-                    line.iter().map(|x| format!("{:>26}", format!("{x:.17e}").replace('e', "D"))).collect();
+                let fields: String = line
+                    .iter()
+                    .map(|x| format!("{:>26}", format!("{x:.17e}").replace('e', "D")))
+                    .collect();
                 text.push_str(&fields);
                 text.push('\n');
             }

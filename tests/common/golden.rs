@@ -17,28 +17,41 @@ pub struct Numbers {
 
 impl Numbers {
     /// Those a reader sees, a tenth of a pixel of a drawing among them: each to the last digit written.
-    pub const AS_WRITTEN: Self = Self { relative: 0.0, absolute: 0.0, last_digit: true };
+    pub const AS_WRITTEN: Self = Self {
+        relative: 0.0,
+        absolute: 0.0,
+        last_digit: true,
+    };
 
     /// Whether two texts agree.
     pub fn agree(&self, one: &str, other: &str) -> bool {
         let (one, other) = (tokens(one), tokens(other));
         one.len() == other.len()
-            && one.iter().zip(&other).all(|(a, b)| match (number(a), number(b)) {
-                (Some(x), Some(y)) => {
-                    let unit = if self.last_digit { 1.001 * last_unit(a).max(last_unit(b)) } else { 0.0 };
-                    let allowed = self.relative * x.abs().max(y.abs()) + self.absolute + unit;
-                    (x - y).abs() <= allowed
-                }
-                (None, None) => a == b,
-                _ => false,
-            })
+            && one
+                .iter()
+                .zip(&other)
+                .all(|(a, b)| match (number(a), number(b)) {
+                    (Some(x), Some(y)) => {
+                        let unit = if self.last_digit {
+                            1.001 * last_unit(a).max(last_unit(b))
+                        } else {
+                            0.0
+                        };
+                        let allowed = self.relative * x.abs().max(y.abs()) + self.absolute + unit;
+                        (x - y).abs() <= allowed
+                    }
+                    (None, None) => a == b,
+                    _ => false,
+                })
     }
 }
 
 impl Comparator for Numbers {
     fn matches(&self, reference: &Snapshot, test: &Snapshot) -> bool {
         match (reference.contents(), test.contents()) {
-            (SnapshotContents::Text(a), SnapshotContents::Text(b)) => self.agree(&a.to_string(), &b.to_string()),
+            (SnapshotContents::Text(a), SnapshotContents::Text(b)) => {
+                self.agree(&a.to_string(), &b.to_string())
+            }
             _ => false,
         }
     }
@@ -72,7 +85,8 @@ fn tokens(text: &str) -> Vec<String> {
             continue;
         }
         let character = characters[at];
-        let same_run = matches!(character, ' ' | '─') && tokens.last().is_some_and(|last| last.ends_with(character));
+        let same_run = matches!(character, ' ' | '─')
+            && tokens.last().is_some_and(|last| last.ends_with(character));
         if !same_run {
             tokens.push(character.to_string());
         }
@@ -113,7 +127,10 @@ fn number_end(characters: &[char], start: usize) -> usize {
 }
 
 fn number(token: &str) -> Option<f64> {
-    token.chars().any(|c| c.is_ascii_digit()).then(|| token.parse().ok())?
+    token
+        .chars()
+        .any(|c| c.is_ascii_digit())
+        .then(|| token.parse().ok())?
 }
 
 /// One unit of the last digit a number is written with.
@@ -126,15 +143,25 @@ fn last_unit(token: &str) -> f64 {
 
 #[test]
 fn golden_comparison_forgives_the_last_digit_and_nothing_else() {
-    let numbers = Numbers { relative: 1e-6, absolute: 0.0, last_digit: false };
+    let numbers = Numbers {
+        relative: 1e-6,
+        absolute: 0.0,
+        last_digit: false,
+    };
     assert!(numbers.agree("f 10.0000001 Hz", "f 10.0 Hz"));
     assert!(!numbers.agree("f 10.0001 Hz", "f 10.0 Hz"));
     assert!(!numbers.agree("f 10.0 Hz", "g 10.0 Hz"));
     assert!(!numbers.agree("f 10.0 Hz", "f 10.0 Hz 3"));
     assert!(!numbers.agree("f 1e-3", "f 1e-4"));
     assert!(!numbers.agree("f -1.0", "f 1.0"));
-    assert!(numbers.agree("a    1.0", "a  1.0"), "column widths follow the numbers");
-    let rounded = Numbers { last_digit: true, ..numbers };
+    assert!(
+        numbers.agree("a    1.0", "a  1.0"),
+        "column widths follow the numbers"
+    );
+    let rounded = Numbers {
+        last_digit: true,
+        ..numbers
+    };
     assert!(rounded.agree("10.60 (10.66)", "10.61 (10.66)"));
     assert!(!rounded.agree("10.60 (10.66)", "10.62 (10.66)"));
 }

@@ -55,26 +55,32 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
             prop::collection::vec(number(), modes * sensors),
             (sometimes(positive(modes)), sometimes(positive(modes))),
         )
-            .prop_map(move |(frequencies_hz, rows, values, (frequency_deviation, shape_deviation))| {
-                let mut seen = std::collections::HashSet::new();
-                let sensors = rows.into_iter().map(|(name, grid, direction, place)| Sensor {
-                    name,
-                    grid: grid.filter(|grid| seen.insert((*grid, direction))),
-                    direction,
-                    axis: None,
-                    place: place.map(|(x, y, z)| Vector3::new(x, y, z)),
-                });
-                let sensors: Vec<Sensor> = sensors.collect();
-                let mut shapes = DMatrix::from_vec(sensors.len(), modes, values);
-                shapes.row_mut(0).apply(|value| *value = if *value == 0.0 { 1.0 } else { *value });
-                TestData {
-                    frequencies_hz,
-                    sensors,
-                    shapes,
-                    frequency_deviation,
-                    shape_deviation,
-                    ..TestData::default()
-                }
-            })
+            .prop_map(
+                move |(frequencies_hz, rows, values, (frequency_deviation, shape_deviation))| {
+                    let mut seen = std::collections::HashSet::new();
+                    let sensors = rows
+                        .into_iter()
+                        .map(|(name, grid, direction, place)| Sensor {
+                            name,
+                            grid: grid.filter(|grid| seen.insert((*grid, direction))),
+                            direction,
+                            axis: None,
+                            place: place.map(|(x, y, z)| Vector3::new(x, y, z)),
+                        });
+                    let sensors: Vec<Sensor> = sensors.collect();
+                    let mut shapes = DMatrix::from_vec(sensors.len(), modes, values);
+                    shapes
+                        .row_mut(0)
+                        .apply(|value| *value = if *value == 0.0 { 1.0 } else { *value });
+                    TestData {
+                        frequencies_hz,
+                        sensors,
+                        shapes,
+                        frequency_deviation,
+                        shape_deviation,
+                        ..TestData::default()
+                    }
+                },
+            )
     })
 }

@@ -6,7 +6,9 @@ use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::assembly::{ElementMatrix, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
-use corfem::method::model::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Range, Scaled, Share};
+use corfem::method::model::{
+    DynamicModel, FiniteElementModel, ModalModel, Parameter, Range, Scaled, Share,
+};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::Pairing;
 use corfem::method::state::{ModalState, UpdateRule};
@@ -39,7 +41,11 @@ type Elements = (Vec<ElementMatrix>, Vec<f64>, Vec<StructuralDof>);
 impl Draws {
     /// Half of all numbers are ordinary ones, so that calls come past the first check.
     pub fn number(&mut self) -> f64 {
-        if self.below(2) == 0 { NASTY[self.below(NASTY.len())] } else { self.below(2000) as f64 / 100.0 - 8.0 }
+        if self.below(2) == 0 {
+            NASTY[self.below(NASTY.len())]
+        } else {
+            self.below(2000) as f64 / 100.0 - 8.0
+        }
     }
 
     /// Sizes from none to four.
@@ -61,7 +67,11 @@ impl Draws {
 
     /// Of the size wanted, or now and then of another.
     pub fn about(&mut self, size: usize) -> usize {
-        if self.below(8) == 0 { self.size() } else { size }
+        if self.below(8) == 0 {
+            self.size()
+        } else {
+            size
+        }
     }
 
     /// A matrix that is meant to be symmetric: often it is, often definite, and scaled by anything.
@@ -83,15 +93,26 @@ impl Draws {
     pub fn modes(&mut self, dof: usize) -> ModeSet {
         let (rows, count) = (self.about(dof), self.size());
         let length = self.about(count);
-        ModeSet { omega_squared: self.vector(length), shapes: self.matrix(rows, count) }
+        ModeSet {
+            omega_squared: self.vector(length),
+            shapes: self.matrix(rows, count),
+        }
     }
 
     pub fn corners(&mut self) -> [Vector3<f64>; 4] {
         let flat = self.below(2) == 0;
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         square.map(|[x, y]| {
-            let moved = if self.below(4) == 0 { self.number() } else { 0.0 };
-            Vector3::new(10.0 * x + moved, 7.0 * y, if flat { 0.0 } else { self.number() })
+            let moved = if self.below(4) == 0 {
+                self.number()
+            } else {
+                0.0
+            };
+            Vector3::new(
+                10.0 * x + moved,
+                7.0 * y,
+                if flat { 0.0 } else { self.number() },
+            )
         })
     }
 
@@ -107,14 +128,22 @@ impl Draws {
     pub fn shares(&mut self, size: usize) -> Vec<Share> {
         let share = |draws: &mut Self| {
             let matrix = draws.symmetric(size);
-            if draws.below(3) == 0 { Share::Mass(matrix) } else { Share::Stiffness(matrix) }
+            if draws.below(3) == 0 {
+                Share::Mass(matrix)
+            } else {
+                Share::Stiffness(matrix)
+            }
         };
         (0..self.below(4)).map(|_| share(self)).collect()
     }
 
     pub fn dynamic(&mut self) -> DynamicModel {
         let size = self.size();
-        DynamicModel { stiffness: self.symmetric(size), mass: self.symmetric(size), shares: self.shares(size) }
+        DynamicModel {
+            stiffness: self.symmetric(size),
+            mass: self.symmetric(size),
+            shares: self.shares(size),
+        }
     }
 
     /// A spring chain and its modal model: what comes out of a constructor, for the loops to be given bad settings and factors.
@@ -125,7 +154,13 @@ impl Draws {
         let stiffness = shares.iter().map(Share::matrix).sum::<DMatrix<f64>>();
         let mass = DMatrix::identity(count, count);
         let test = solve(&(1.2 * &stiffness), &mass, count).ok()?;
-        DynamicModel { stiffness, mass, shares }.analyze(&test, None).ok()
+        DynamicModel {
+            stiffness,
+            mass,
+            shares,
+        }
+        .analyze(&test, None)
+        .ok()
     }
 
     /// A change of stiffness and mass that fits together or does not.
@@ -142,7 +177,15 @@ impl Draws {
         let analysis_mode = (0..modes).map(|_| self.below(analysis + outside)).collect();
         Pairing {
             analysis_mode,
-            sign: (0..signs).map(|_| if self.below(9) == 0 { self.number() } else { 1.0 }).collect(),
+            sign: (0..signs)
+                .map(|_| {
+                    if self.below(9) == 0 {
+                        self.number()
+                    } else {
+                        1.0
+                    }
+                })
+                .collect(),
         }
     }
 
@@ -156,7 +199,11 @@ impl Draws {
 
     /// Errors of any number of modes, none included.
     pub fn errors(&mut self) -> Errors {
-        Errors { frequency: self.unit(), shape: self.unit(), mode_count: self.size() }
+        Errors {
+            frequency: self.unit(),
+            shape: self.unit(),
+            mode_count: self.size(),
+        }
     }
 
     /// A chain's modal model of which a part may have been changed to what does not fit the others.
@@ -170,8 +217,17 @@ impl Draws {
             3 => model.shares = self.shares(size),
             4 => model.test_shares = (0..count).map(|_| self.symmetric(size)).collect(),
             5 => model.sizes = self.list(count),
-            6 => (model.exact.errors.frequency, model.exact.errors.shape) = (self.number(), self.number()),
-            7 => model.exact.modes = self.chain().ok_or(Error::Empty { what: "chains" })?.exact.modes,
+            6 => {
+                (model.exact.errors.frequency, model.exact.errors.shape) =
+                    (self.number(), self.number())
+            }
+            7 => {
+                model.exact.modes = self
+                    .chain()
+                    .ok_or(Error::Empty { what: "chains" })?
+                    .exact
+                    .modes
+            }
             8 => model.test.omega_squared = self.vector(model.test.len()),
             _ => {}
         }
@@ -180,7 +236,11 @@ impl Draws {
 
     /// A state of a model, or one that is none of it.
     pub fn state(&mut self, model: &ModalModel) -> ModalState {
-        let factors = if self.below(2) == 0 { vec![1.0; model.shares.len()] } else { vec![1.1; model.shares.len()] };
+        let factors = if self.below(2) == 0 {
+            vec![1.0; model.shares.len()]
+        } else {
+            vec![1.1; model.shares.len()]
+        };
         let start = ModalState::start(model);
         let mut state = ModalState::at(model, factors, UpdateRule::Eigensolution).unwrap_or(start);
         let (count, size) = (self.size(), self.size());
@@ -199,8 +259,17 @@ impl Draws {
 
     /// Four grids, two of them held, and rods and panels between them.
     pub fn structure(&mut self) -> Result<Structure, Error> {
-        let held = [[true; 3], [true; 3], [false, false, true], [false, false, true]];
-        let place = |(row, position)| Grid { label: row + 1, position, constrained: held[row] };
+        let held = [
+            [true; 3],
+            [true; 3],
+            [false, false, true],
+            [false, false, true],
+        ];
+        let place = |(row, position)| Grid {
+            label: row + 1,
+            position,
+            constrained: held[row],
+        };
         let mut grids: Vec<Grid> = self.corners().into_iter().enumerate().map(place).collect();
         if self.below(8) == 0 {
             grids[self.size() % 4].constrained = [self.below(2) == 0; 3];
@@ -208,14 +277,34 @@ impl Draws {
         let rods = [[1, 3], [2, 3], [2, 4], [1, 4], [3, 4]];
         let mut elements: Vec<Element> = Vec::new();
         for (row, ends) in rods.iter().enumerate() {
-            let material = if self.below(8) == 0 { self.material() } else { Material::isotropic(1e7, 0.3)? };
-            let size = if self.below(16) == 0 { self.number() } else { 0.5 };
-            elements.push(Element { label: row + 1, kind: ElementKind::Rod, grids: ends.to_vec(), size, material });
+            let material = if self.below(8) == 0 {
+                self.material()
+            } else {
+                Material::isotropic(1e7, 0.3)?
+            };
+            let size = if self.below(16) == 0 {
+                self.number()
+            } else {
+                0.5
+            };
+            elements.push(Element {
+                label: row + 1,
+                kind: ElementKind::Rod,
+                grids: ends.to_vec(),
+                size,
+                material,
+            });
         }
         if self.below(2) == 0 {
             let panel = [ElementKind::Membrane, ElementKind::ShearPanel][self.below(2)];
             let material = Material::isotropic(1e7, 0.3)?.with_density(3e-4)?;
-            elements.push(Element { label: 6, kind: panel, grids: vec![1, 2, 3, 4], size: 0.1, material });
+            elements.push(Element {
+                label: 6,
+                kind: panel,
+                grids: vec![1, 2, 3, 4],
+                size: 0.1,
+                material,
+            });
         }
         if self.below(16) == 0 {
             elements[self.size()].grids = vec![self.size(); self.size()];
@@ -229,7 +318,15 @@ impl Draws {
         let mut elements = element_matrices(&structure)?;
         let mut free = structure.free_dof().to_vec();
         let count = self.about(elements.len());
-        let sizes = (0..count).map(|_| if self.below(16) == 0 { self.number() } else { 0.5 }).collect();
+        let sizes = (0..count)
+            .map(|_| {
+                if self.below(16) == 0 {
+                    self.number()
+                } else {
+                    0.5
+                }
+            })
+            .collect();
         let (row, size) = (self.below(elements.len()), self.size());
         match self.below(12) {
             0 => elements[row].dof = vec![self.size(); size],
@@ -239,7 +336,10 @@ impl Draws {
             4 => free.truncate(size),
             5 => free.iter_mut().for_each(|dof| dof.direction += size),
             6 => elements.truncate(size),
-            7 => elements[row].dof.iter_mut().for_each(|dof| *dof = usize::MAX - *dof),
+            7 => elements[row]
+                .dof
+                .iter_mut()
+                .for_each(|dof| *dof = usize::MAX - *dof),
             _ => {}
         }
         Ok((elements, sizes, free))
@@ -248,19 +348,43 @@ impl Draws {
     /// A selection of DOF, or any matrix.
     pub fn load_distribution(&mut self, free: usize) -> DMatrix<f64> {
         let (rows, columns) = (self.about(free), self.size());
-        if self.below(4) == 0 { self.matrix(rows, columns) } else { DMatrix::identity(rows, columns.max(1)) }
+        if self.below(4) == 0 {
+            self.matrix(rows, columns)
+        } else {
+            DMatrix::identity(rows, columns.max(1))
+        }
     }
 
     /// Parameters of every sort, with members and bounds that may not be.
     pub fn parameters(&mut self) -> Vec<Parameter> {
         let parameter = |draws: &mut Self, place: usize| {
-            let scaled = [Scaled::Stiffness, Scaled::Stiffness, Scaled::ElementMass, Scaled::PointMass][draws.below(4)];
-            let member = if draws.below(6) == 0 { draws.below(8) } else { place + usize::from(place == 0) };
-            let mut range = || (draws.below(3) == 0).then(|| Range { lower: draws.number(), upper: draws.number() });
+            let scaled = [
+                Scaled::Stiffness,
+                Scaled::Stiffness,
+                Scaled::ElementMass,
+                Scaled::PointMass,
+            ][draws.below(4)];
+            let member = if draws.below(6) == 0 {
+                draws.below(8)
+            } else {
+                place + usize::from(place == 0)
+            };
+            let mut range = || {
+                (draws.below(3) == 0).then(|| Range {
+                    lower: draws.number(),
+                    upper: draws.number(),
+                })
+            };
             let (size_range, factor_range) = (range(), range());
-            Parameter { size_range, factor_range, ..Parameter::of("drawn", scaled, &[member]) }
+            Parameter {
+                size_range,
+                factor_range,
+                ..Parameter::of("drawn", scaled, &[member])
+            }
         };
-        (0..1 + self.below(2)).map(|place| parameter(self, 2 * place)).collect()
+        (0..1 + self.below(2))
+            .map(|place| parameter(self, 2 * place))
+            .collect()
     }
 
     /// A finite element model, and factors for its parameters or for others.
@@ -268,10 +392,21 @@ impl Draws {
         let structure = self.structure()?;
         let load_distribution = self.load_distribution(structure.free_dof().len());
         let points = load_distribution.ncols();
-        let mass = if self.below(4) == 0 { self.symmetric(points) } else { 0.01 * DMatrix::identity(points, points) };
+        let mass = if self.below(4) == 0 {
+            self.symmetric(points)
+        } else {
+            0.01 * DMatrix::identity(points, points)
+        };
         let parameters = self.parameters();
         let count = self.about(parameters.len());
-        let factors = if self.below(2) == 0 { vec![1.1; count] } else { self.list(count) };
-        Ok((FiniteElementModel::new(structure, load_distribution, mass, parameters)?, factors))
+        let factors = if self.below(2) == 0 {
+            vec![1.1; count]
+        } else {
+            self.list(count)
+        };
+        Ok((
+            FiniteElementModel::new(structure, load_distribution, mass, parameters)?,
+            factors,
+        ))
     }
 }

@@ -19,10 +19,21 @@ pub fn scaled(x: f64, unit: u64) -> BigInt {
     }
     let bits = x.abs().to_bits();
     let (exponent, fraction) = ((bits >> 52) as i64, bits & ((1 << 52) - 1));
-    let mantissa = if exponent == 0 { fraction } else { fraction | 1 << 52 };
+    let mantissa = if exponent == 0 {
+        fraction
+    } else {
+        fraction | 1 << 52
+    };
     let shift = exponent.max(1) - 1075 + unit as i64;
-    assert!(shift >= 0 || mantissa.trailing_zeros() as i64 >= -shift, "{x} is no multiple of the unit");
-    let magnitude = if shift >= 0 { BigInt::from(mantissa) << shift } else { BigInt::from(mantissa >> -shift) };
+    assert!(
+        shift >= 0 || mantissa.trailing_zeros() as i64 >= -shift,
+        "{x} is no multiple of the unit"
+    );
+    let magnitude = if shift >= 0 {
+        BigInt::from(mantissa) << shift
+    } else {
+        BigInt::from(mantissa >> -shift)
+    };
     if x < 0.0 { -magnitude } else { magnitude }
 }
 
@@ -42,10 +53,15 @@ pub fn eliminate(matrix: &mut Lower, count: usize) -> Vec<BigInt> {
     for pivot in 0..count {
         let mut minor = matrix[pivot][pivot].clone();
         assert!(minor.sign() != Sign::NoSign, "a minor is zero");
-        let column: Vec<BigInt> = matrix.iter().skip(pivot).map(|row| row[pivot].clone()).collect();
+        let column: Vec<BigInt> = matrix
+            .iter()
+            .skip(pivot)
+            .map(|row| row[pivot].clone())
+            .collect();
         for i in pivot + 1..matrix.len() {
             for j in pivot + 1..=i {
-                matrix[i][j] = (&matrix[i][j] * &minor - &column[i - pivot] * &column[j - pivot]) / &before;
+                matrix[i][j] =
+                    (&matrix[i][j] * &minor - &column[i - pivot] * &column[j - pivot]) / &before;
             }
         }
         minors.push(minor.clone());
@@ -60,7 +76,10 @@ pub fn negative_eigenvalues(mut matrix: Lower) -> usize {
     let minors = eliminate(&mut matrix, size);
     let is_negative = |minor: &BigInt| minor.sign() == Sign::Minus;
     let before = std::iter::once(false).chain(minors.iter().map(is_negative));
-    before.zip(minors.iter().map(is_negative)).filter(|(before, now)| before != now).count()
+    before
+        .zip(minors.iter().map(is_negative))
+        .filter(|(before, now)| before != now)
+        .count()
 }
 
 /// A pencil of dynamic stiffness and diagonal mass, known by its flexibility $T^t K_S^{-1} T$ in units of $2^{-420}$.
@@ -75,15 +94,24 @@ impl Flexible {
         let (size, count) = (stiffness.len(), mass.len());
         let mut bordered = stiffness;
         for column in 0..count {
-            let row = loads.iter().map(|row| scaled(row[column], UNIT)).chain((0..count).map(|_| BigInt::from(0)));
+            let row = loads
+                .iter()
+                .map(|row| scaled(row[column], UNIT))
+                .chain((0..count).map(|_| BigInt::from(0)));
             bordered.push(row.take(size + column + 1).collect());
         }
         let minors = eliminate(&mut bordered, size);
         let determinant = minors.last().expect("at least one");
         // Bordered minors are −det(K) TᵗK⁻¹T, in the unit.
         let entry = |minor: &BigInt| (-minor << (FLEXIBILITY - UNIT)) / determinant;
-        let flexibility = bordered[size..].iter().map(|row| row[size..].iter().map(entry).collect()).collect();
-        Self { flexibility, mass: mass.to_vec() }
+        let flexibility = bordered[size..]
+            .iter()
+            .map(|row| row[size..].iter().map(entry).collect())
+            .collect();
+        Self {
+            flexibility,
+            mass: mass.to_vec(),
+        }
     }
 
     /// How many $\omega^2$ are below a number: negative eigenvalues of $M - \omega^2 M F M$, which by the inertia of the pencil
@@ -92,17 +120,28 @@ impl Flexible {
         let mass: Vec<BigInt> = self.mass.iter().map(|&mass| scaled(mass, UNIT)).collect();
         let number = scaled(omega_squared, UNIT);
         let entry = |i: usize, j: usize| {
-            let own = if i == j { &mass[i] << (2 * UNIT + FLEXIBILITY) } else { BigInt::from(0) };
+            let own = if i == j {
+                &mass[i] << (2 * UNIT + FLEXIBILITY)
+            } else {
+                BigInt::from(0)
+            };
             own - &number * &mass[i] * &mass[j] * &self.flexibility[i][j]
         };
-        negative_eigenvalues((0..mass.len()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect())
+        negative_eigenvalues(
+            (0..mass.len())
+                .map(|i| (0..=i).map(|j| entry(i, j)).collect())
+                .collect(),
+        )
     }
 
     /// The flexibility as numbers, with a rest each: two of double precision.
     pub fn entry(&self, i: usize, j: usize) -> (f64, f64) {
         let exact = &self.flexibility[i.max(j)][i.min(j)];
         let high = nearest(exact, FLEXIBILITY);
-        (high, nearest(&(exact - scaled(high, FLEXIBILITY)), FLEXIBILITY))
+        (
+            high,
+            nearest(&(exact - scaled(high, FLEXIBILITY)), FLEXIBILITY),
+        )
     }
 }
 

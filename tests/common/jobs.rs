@@ -27,18 +27,34 @@ const SEED: u64 = 4;
 pub type Files = Vec<(String, String)>;
 
 fn task() -> Task {
-    Task::Modes { count: 9, range_hz: [1.0, 10_000.0] }
+    Task::Modes {
+        count: 9,
+        range_hz: [1.0, 10_000.0],
+    }
 }
 
 fn test_data(modes: &ModeSet, sensors: Vec<Sensor>) -> TestData {
     let mut shapes = modes.shapes.clone();
     // As a test has them: of unit largest component.
-    shapes.column_iter_mut().for_each(|mut shape| shape /= shape.amax());
-    TestData { frequencies_hz: modes.frequencies_hz(), sensors, shapes, ..TestData::default() }
+    shapes
+        .column_iter_mut()
+        .for_each(|mut shape| shape /= shape.amax());
+    TestData {
+        frequencies_hz: modes.frequencies_hz(),
+        sensors,
+        shapes,
+        ..TestData::default()
+    }
 }
 
 fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64>>) -> Sensor {
-    Sensor { name, grid: Some(grid), direction, axis: None, place }
+    Sensor {
+        name,
+        grid: Some(grid),
+        direction,
+        axis: None,
+        place,
+    }
 }
 
 /// The paper's box of Case 2 from its deck, its nine modes with noise, and Appendix B on them.
@@ -64,17 +80,30 @@ pub fn torque_box() -> Files {
                    [compare]\nmethod = \"gauss_newton\"\n"
         .to_owned();
     for (parameter, range) in model.parameters().iter().zip(ranges) {
-        let range =
-            range.map_or_else(String::new, |range| format!("lower = {}\nupper = {}\n", range.lower, range.upper));
-        job += &format!("\n[[parameter]]\nname = \"panel {0}\"\nelements = [{0}]\n{range}", parameter.name);
+        let range = range.map_or_else(String::new, |range| {
+            format!("lower = {}\nupper = {}\n", range.lower, range.upper)
+        });
+        job += &format!(
+            "\n[[parameter]]\nname = \"panel {0}\"\nelements = [{0}]\n{range}",
+            parameter.name
+        );
     }
     let deck = deck::write(&bulk, "torque box", &task()).expect("a deck");
-    vec![("job.toml".to_owned(), job), ("model.bdf".to_owned(), deck), ("test.csv".to_owned(), write_csv(&data))]
+    vec![
+        ("job.toml".to_owned(), job),
+        ("model.bdf".to_owned(), deck),
+        ("test.csv".to_owned(), write_csv(&data)),
+    ]
 }
 
 /// True gages of the box over those of its deck, panel by panel.
 pub fn torque_box_truth() -> Vec<f64> {
-    Case::new(2).expect("Case 2").first_gages().iter().map(|gage| TEST_GAGE / gage).collect()
+    Case::new(2)
+        .expect("Case 2")
+        .first_gages()
+        .iter()
+        .map(|gage| TEST_GAGE / gage)
+        .collect()
 }
 
 /// Ten stories as Matrix Market files, five of them with a sensor.
@@ -84,25 +113,42 @@ pub fn building() -> Files {
     let measured = [1, 3, 5, 7, 9];
     let sensors = sensors_at(&measured, 10);
     let modes = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let seen = ModeSet { shapes: sensors.times(&modes.shapes).expect("it fits"), ..modes };
-    let places = measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
+    let seen = ModeSet {
+        shapes: sensors.times(&modes.shapes).expect("it fits"),
+        ..modes
+    };
+    let places =
+        measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
     let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\
                    rows = \"rows.csv\"\n\n[test]\nfile = \"test.csv\"\n\n[compare]\nanalysis_modes = 10\n\n\
                    [correlation]\nerror_sum_tolerance = 0.0025\nlater_inner_tolerance = 0.0005\nmost_passes = 30\n\n\
                    [correlation.inner]\ntolerance = 0.0005\n"
         .to_owned();
     let (stiffness, mass) = model.at(&[1.0; 10]).expect("matrices");
-    let rows = (0..10).map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z)).collect::<String>();
+    let rows = (0..10)
+        .map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z))
+        .collect::<String>();
     let mut files = vec![
         ("stiffness.mtx".to_owned(), write_matrix_market(&stiffness)),
         ("mass.mtx".to_owned(), write_matrix_market(&mass)),
-        ("rows.csv".to_owned(), format!("grid,direction,x,y,z\n{rows}")),
-        ("test.csv".to_owned(), write_csv(&test_data(&seen, places.to_vec()))),
+        (
+            "rows.csv".to_owned(),
+            format!("grid,direction,x,y,z\n{rows}"),
+        ),
+        (
+            "test.csv".to_owned(),
+            write_csv(&test_data(&seen, places.to_vec())),
+        ),
     ];
     for (number, parameter) in (1..).zip(model.parameters()) {
         let file = format!("story_{number}.mtx");
-        job += &format!("\n[[parameter]]\nname = \"{}\"\nmatrix = \"{file}\"\n", parameter.name);
-        let WholeShare::Stiffness(share) = &parameter.share else { unreachable!("stories are stiffness") };
+        job += &format!(
+            "\n[[parameter]]\nname = \"{}\"\nmatrix = \"{file}\"\n",
+            parameter.name
+        );
+        let WholeShare::Stiffness(share) = &parameter.share else {
+            unreachable!("stories are stiffness")
+        };
         files.push((file, write_matrix_market(share)));
     }
     files.push(("job.toml".to_owned(), job));
@@ -121,12 +167,31 @@ pub fn delta_wing() -> Files {
     let whole = wing.modes().expect("modes");
     let lowest = whole.modes.lowest(10).expect("ten modes");
     let grids = measured_grids(model.structure());
-    let row = |grid: &usize| whole.dof.iter().position(|dof| dof.grid == *grid && dof.direction == 2).expect("a row");
+    let row = |grid: &usize| {
+        whole
+            .dof
+            .iter()
+            .position(|dof| dof.grid == *grid && dof.direction == 2)
+            .expect("a row")
+    };
     let rows: Vec<usize> = grids.iter().map(row).collect();
-    let modes = ModeSet { omega_squared: lowest.omega_squared.clone(), shapes: lowest.shapes.select_rows(&rows) };
-    let place = |grid: &usize| model.structure().grids().iter().find(|own| own.label == *grid).map(|own| own.position);
+    let modes = ModeSet {
+        omega_squared: lowest.omega_squared.clone(),
+        shapes: lowest.shapes.select_rows(&rows),
+    };
+    let place = |grid: &usize| {
+        model
+            .structure()
+            .grids()
+            .iter()
+            .find(|own| own.label == *grid)
+            .map(|own| own.position)
+    };
     // The test counts its nodes in its own way; they are found by their places.
-    let sensors = grids.iter().zip(501..).map(|(grid, node)| sensor(format!("{node} z"), node, 2, place(grid)));
+    let sensors = grids
+        .iter()
+        .zip(501..)
+        .map(|(grid, node)| sensor(format!("{node} z"), node, 2, place(grid)));
     let data = test_data(&modes, sensors.collect());
     let mut job = "title = \"delta wing\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.unv\"\n\n\
                    [sensors]\nby = \"nearest\"\ndistance = 0.01\n\n[compare]\nanalysis_modes = 25\n\
@@ -134,10 +199,23 @@ pub fn delta_wing() -> Files {
         .to_owned();
     for parameter in model.parameters() {
         let list: Vec<String> = parameter.members.iter().map(usize::to_string).collect();
-        job += &format!("\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n", parameter.name, list.join(", "));
+        job += &format!(
+            "\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n",
+            parameter.name,
+            list.join(", ")
+        );
     }
-    let deck = deck::write(&BulkData::of_structure(model.structure()), "delta wing", &task()).expect("a deck");
-    vec![("job.toml".to_owned(), job), ("model.bdf".to_owned(), deck), ("test.unv".to_owned(), write_universal(&data))]
+    let deck = deck::write(
+        &BulkData::of_structure(model.structure()),
+        "delta wing",
+        &task(),
+    )
+    .expect("a deck");
+    vec![
+        ("job.toml".to_owned(), job),
+        ("model.bdf".to_owned(), deck),
+        ("test.unv".to_owned(), write_universal(&data)),
+    ]
 }
 
 /// Three rods in a row between a wall and masses of one, as a deck, with the three modes of rods of other areas: a job of few
@@ -154,6 +232,10 @@ pub fn rods() -> Files {
     let job = "[model]\ndeck = \"model.bdf\"\n[test]\nfile = \"test.csv\"\n[sensors]\n[compare]\nmethod = \"gauss_newton\"\n\
                [[parameter]]\nname = \"a\"\nelements = [1]\n[[parameter]]\nname = \"b\"\nelements = [\"2-3\"]\n";
     let data = test_data(&modes, sensors.collect());
-    let files = [("job.toml", job.to_owned()), ("model.bdf", deck.to_owned()), ("test.csv", write_csv(&data))];
+    let files = [
+        ("job.toml", job.to_owned()),
+        ("model.bdf", deck.to_owned()),
+        ("test.csv", write_csv(&data)),
+    ];
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
 }

@@ -8,17 +8,28 @@ use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop};
 use corfem::method::model::{ModalModel, Range};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{Accumulation, LEAST_SHARE, Limit, StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::step::{
+    Accumulation, LEAST_SHARE, Limit, StepRule, stiffness_changes, unlimited_factors,
+};
 use proptest::prelude::*;
 
 /// All rules of the step.
-pub const STEP_RULES: [StepRule; 6] =
-    [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage, StepRule::Sum, StepRule::SteepestDescent];
+pub const STEP_RULES: [StepRule; 6] = [
+    StepRule::Matrix,
+    StepRule::Own,
+    StepRule::Relative,
+    StepRule::Gage,
+    StepRule::Sum,
+    StepRule::SteepestDescent,
+];
 
 /// The problem of a chain towards the truth, with all its modes.
 pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
     let count = truth.len();
-    chain.model(&vec![1.0; count]).analyze(&chain.modes(truth), Some(count)).expect("a chain is a problem")
+    chain
+        .model(&vec![1.0; count])
+        .analyze(&chain.modes(truth), Some(count))
+        .expect("a chain is a problem")
 }
 
 /// Everything an inner loop is given.
@@ -51,24 +62,32 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
         (0.5..0.95_f64, 1.05..2.0_f64),
         0.01..0.1_f64,
         (0..=5_usize, 0..=12_usize),
-        (derivatives, rule, accumulation, update, prop_oneof![Just(ErrorMeasure::Sum), Just(ErrorMeasure::NineModes)]),
+        (
+            derivatives,
+            rule,
+            accumulation,
+            update,
+            prop_oneof![Just(ErrorMeasure::Sum), Just(ErrorMeasure::NineModes)],
+        ),
     )
-        .prop_map(|(relaxations, (lower, upper), tolerance, (halvings, iterations), rules)| {
-            let (derivatives, step, accumulation, update, measure) = rules;
-            InnerSettings {
-                first_relaxation: relaxations.0,
-                relaxation: relaxations.1,
-                factor_range: Range { lower, upper },
-                tolerance,
-                halvings,
-                iterations,
-                derivatives,
-                step,
-                accumulation,
-                measure,
-                update,
-            }
-        })
+        .prop_map(
+            |(relaxations, (lower, upper), tolerance, (halvings, iterations), rules)| {
+                let (derivatives, step, accumulation, update, measure) = rules;
+                InnerSettings {
+                    first_relaxation: relaxations.0,
+                    relaxation: relaxations.1,
+                    factor_range: Range { lower, upper },
+                    tolerance,
+                    halvings,
+                    iterations,
+                    derivatives,
+                    step,
+                    accumulation,
+                    measure,
+                    update,
+                }
+            },
+        )
 }
 
 /// An inner loop on a chain: some parameters with bounds on their product of 10 to 50 % either way, some without.
@@ -84,9 +103,20 @@ pub fn given() -> impl Strategy<Value = Given> {
             let total_ranges = ranges[..count]
                 .iter()
                 .zip(&base)
-                .map(|(range, base)| range.map(|(lower, upper)| Range { lower: base * lower, upper: base * upper }))
+                .map(|(range, base)| {
+                    range.map(|(lower, upper)| Range {
+                        lower: base * lower,
+                        upper: base * upper,
+                    })
+                })
                 .collect();
-            Given { base: base[..count].to_vec(), chain, truth, total_ranges, settings }
+            Given {
+                base: base[..count].to_vec(),
+                chain,
+                truth,
+                total_ranges,
+                settings,
+            }
         })
 }
 
@@ -158,13 +188,18 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
     };
     let asks = |(totals, state): &Place, relaxation: f64| {
         let errors = error_changes(problem, state, settings.derivatives).expect("separate modes");
-        let stiffnesses = stiffness_changes(problem, &state.factors, totals, &errors, settings.step).unwrap();
+        let stiffnesses =
+            stiffness_changes(problem, &state.factors, totals, &errors, settings.step).unwrap();
         let sum = scale * state.errors.sum();
         let unlimited = unlimited_factors(&errors, &stiffnesses, sum, relaxation);
         ((errors, stiffnesses), unlimited)
     };
     let relaxation = |number: usize| {
-        if number == 0 { settings.first_relaxation } else { settings.relaxation }
+        if number == 0 {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        }
     };
     for (number, iteration) in run.iterations.iter().enumerate() {
         assert!(number == 0 || scale * place.1.errors.sum() >= settings.tolerance);
@@ -180,7 +215,8 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
             let (_, _, lower) = trial(problem, given, &place, &unlimited, halvings);
             assert!(lower.is_none(), "halved although the longer step was good");
         }
-        let (limits, factors, lower) = trial(problem, given, &place, &unlimited, iteration.halvings);
+        let (limits, factors, lower) =
+            trial(problem, given, &place, &unlimited, iteration.halvings);
         assert_eq!(iteration.factors, factors);
         assert_eq!(iteration.limits, limits);
         place = lower.expect("an accepted step lowers the error sum");
@@ -218,7 +254,11 @@ pub fn assert_record_is_the_loop(problem: &ModalModel, given: &Given, run: &Inne
 pub fn assert_error_sum_only_falls(run: &InnerRun) {
     let mut before = run.start.sum();
     for iteration in &run.iterations {
-        assert!(iteration.errors.sum() < before, "{} {before}", iteration.errors.sum());
+        assert!(
+            iteration.errors.sum() < before,
+            "{} {before}",
+            iteration.errors.sum()
+        );
         before = iteration.errors.sum();
     }
 }
@@ -244,6 +284,11 @@ pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>]
 /// Correlates a chain with its truth, without bounds.
 pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Correlation {
     let (test, ranges) = (chain.modes(truth), vec![None; truth.len()]);
-    correlate(|factors| chain.model(factors).analyze(&test, None), &ranges, settings, |_, _| {})
-        .expect("a chain can be correlated")
+    correlate(
+        |factors| chain.model(factors).analyze(&test, None),
+        &ranges,
+        settings,
+        |_, _| {},
+    )
+    .expect("a chain can be correlated")
 }

@@ -5,7 +5,11 @@ use nalgebra::DMatrix;
 
 /// Largest difference of two matrices of one shape, relative to the largest entry of the second.
 pub fn relative_distance(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {
-    assert_eq!(found.shape(), expected.shape(), "shapes of the two matrices");
+    assert_eq!(
+        found.shape(),
+        expected.shape(),
+        "shapes of the two matrices"
+    );
     let largest = expected.amax();
     assert!(largest > 0.0, "nothing to compare with");
     (found - expected).amax() / largest
@@ -15,7 +19,10 @@ pub fn relative_distance(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {
 /// but two.
 pub fn spectrum(matrix: &DMatrix<f64>) -> Vec<f64> {
     let asymmetry = (matrix - matrix.transpose()).amax() / matrix.amax();
-    assert!(asymmetry < super::tolerances::ROUND_OFF, "asymmetry {asymmetry:e}");
+    assert!(
+        asymmetry < super::tolerances::ROUND_OFF,
+        "asymmetry {asymmetry:e}"
+    );
     let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
     values.sort_by(|a, b| b.total_cmp(a));
     values
@@ -25,6 +32,9 @@ pub fn spectrum(matrix: &DMatrix<f64>) -> Vec<f64> {
 pub fn rank_of_semidefinite(matrix: &DMatrix<f64>) -> usize {
     let values = spectrum(matrix);
     let threshold = RANK_THRESHOLD * values[0];
-    assert!(*values.last().unwrap() > -threshold, "a negative eigenvalue: {values:?}");
+    assert!(
+        *values.last().unwrap() > -threshold,
+        "a negative eigenvalue: {values:?}"
+    );
     values.iter().filter(|&&value| value > threshold).count()
 }

@@ -36,9 +36,15 @@ impl FreeStructure {
         let mut order: Vec<usize> = (0..self.dofs.len()).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let elastic = &order[rigid..];
-        let frequencies: Vec<f64> = elastic.iter().map(|&mode| eigen.eigenvalues[mode].sqrt() / (2.0 * PI)).collect();
+        let frequencies: Vec<f64> = elastic
+            .iter()
+            .map(|&mode| eigen.eigenvalues[mode].sqrt() / (2.0 * PI))
+            .collect();
         let shapes = root * eigen.eigenvectors.select_columns(elastic);
-        ModeSet::from_measured(&frequencies, &shapes).unwrap().scaled_with(&self.mass).unwrap()
+        ModeSet::from_measured(&frequencies, &shapes)
+            .unwrap()
+            .scaled_with(&self.mass)
+            .unwrap()
     }
 }
 
@@ -69,10 +75,17 @@ pub fn free_beam() -> impl Strategy<Value = FreeStructure> {
                         if point > 0 {
                             x += links[point - 1];
                         }
-                        MeasuringPoint { position: Vector3::new(x, 0.0, 0.0), direction: Vector3::z_axis() }
+                        MeasuringPoint {
+                            position: Vector3::new(x, 0.0, 0.0),
+                            direction: Vector3::z_axis(),
+                        }
                     })
                     .collect();
-                FreeStructure { stiffness, mass: DMatrix::from_diagonal(&DVector::from_vec(masses)), dofs }
+                FreeStructure {
+                    stiffness,
+                    mass: DMatrix::from_diagonal(&DVector::from_vec(masses)),
+                    dofs,
+                }
             })
     })
 }
@@ -80,8 +93,13 @@ pub fn free_beam() -> impl Strategy<Value = FreeStructure> {
 /// A free truss of five joints within 5 in of a tetrahedron of 40 in and its far corner, a rod of 0.1 to 1 in² between
 /// every two, masses of 0.5 to 1 lbf·s²/in moving along x, y and z: all six rigid-body motions, nine elastic modes.
 pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
-    const JOINTS: [[f64; 3]; 5] =
-        [[0.0, 0.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], [0.0, 0.0, 40.0], [40.0, 40.0, 40.0]];
+    const JOINTS: [[f64; 3]; 5] = [
+        [0.0, 0.0, 0.0],
+        [40.0, 0.0, 0.0],
+        [0.0, 40.0, 0.0],
+        [0.0, 0.0, 40.0],
+        [40.0, 40.0, 40.0],
+    ];
     (
         prop::collection::vec(-5.0..5.0_f64, 15),
         prop::collection::vec(0.1..1.0_f64, 10),
@@ -89,7 +107,9 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
     )
         .prop_map(|(shift, areas, masses)| {
             let joints: Vec<Vector3<f64>> = (0..5)
-                .map(|j| Vector3::from(JOINTS[j]) + Vector3::from_column_slice(&shift[3 * j..3 * j + 3]))
+                .map(|j| {
+                    Vector3::from(JOINTS[j]) + Vector3::from_column_slice(&shift[3 * j..3 * j + 3])
+                })
                 .collect();
             let mut stiffness = DMatrix::zeros(15, 15);
             let mut area = areas.iter();
@@ -99,7 +119,8 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
                     let unit = unit * *area.next().unwrap();
                     for (row, corner_row) in [a, b].into_iter().enumerate() {
                         for (column, corner_column) in [a, b].into_iter().enumerate() {
-                            let mut block = stiffness.fixed_view_mut::<3, 3>(3 * corner_row, 3 * corner_column);
+                            let mut block =
+                                stiffness.fixed_view_mut::<3, 3>(3 * corner_row, 3 * corner_column);
                             block += unit.fixed_view::<3, 3>(3 * row, 3 * column);
                         }
                     }
@@ -108,7 +129,12 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
             let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
             let dofs = joints
                 .iter()
-                .flat_map(|&position| axes.map(|direction| MeasuringPoint { position, direction }))
+                .flat_map(|&position| {
+                    axes.map(|direction| MeasuringPoint {
+                        position,
+                        direction,
+                    })
+                })
                 .collect();
             FreeStructure {
                 stiffness,
@@ -126,14 +152,21 @@ pub fn with_raw_shapes(
 ) -> impl Strategy<Value = (FreeStructure, ModeSet)> {
     structure.prop_flat_map(move |structure| {
         let size = structure.dofs.len();
-        (noise(size, shapes), prop::collection::vec(0.0..3.0_f64, shapes)).prop_map(move |(mut raw, decades)| {
-            for mode in 0..shapes {
-                raw[(mode, mode)] += 2.0;
-            }
-            let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
-            let modes = ModeSet { omega_squared: omega, shapes: raw };
-            (structure.clone(), modes)
-        })
+        (
+            noise(size, shapes),
+            prop::collection::vec(0.0..3.0_f64, shapes),
+        )
+            .prop_map(move |(mut raw, decades)| {
+                for mode in 0..shapes {
+                    raw[(mode, mode)] += 2.0;
+                }
+                let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
+                let modes = ModeSet {
+                    omega_squared: omega,
+                    shapes: raw,
+                };
+                (structure.clone(), modes)
+            })
     })
 }
 
@@ -145,7 +178,10 @@ pub fn noise(rows: usize, columns: usize) -> impl Strategy<Value = DMatrix<f64>>
 
 /// Mass-orthonormal shapes of `size` DOF with a full mass matrix of condition 10, and `modes` frequencies, each 1.2 to
 /// 2 times the one before: apart enough for a first-order theory to hold at the noise used.
-pub fn orthonormal_modes(size: usize, modes: usize) -> impl Strategy<Value = (ModeSet, DMatrix<f64>)> {
+pub fn orthonormal_modes(
+    size: usize,
+    modes: usize,
+) -> impl Strategy<Value = (ModeSet, DMatrix<f64>)> {
     (
         super::strategies::positive_definite(size, 1.0),
         super::strategies::orthogonal(size),
@@ -162,15 +198,21 @@ pub fn orthonormal_modes(size: usize, modes: usize) -> impl Strategy<Value = (Mo
                     Some(omega.powi(2))
                 }),
             );
-            let modes = ModeSet { omega_squared, shapes };
+            let modes = ModeSet {
+                omega_squared,
+                shapes,
+            };
             (modes, mass)
         })
 }
 
 /// A fixed–free chain: `size` masses of 0.5 to 2 lbf·s²/in, springs of 1e3 to 1e5 lbf/in, the first to ground.
 pub fn held_chain(size: usize) -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f64>)> {
-    (prop::collection::vec(3.0..5.0_f64, size), prop::collection::vec(0.5..2.0_f64, size)).prop_map(
-        move |(decades, masses)| {
+    (
+        prop::collection::vec(3.0..5.0_f64, size),
+        prop::collection::vec(0.5..2.0_f64, size),
+    )
+        .prop_map(move |(decades, masses)| {
             let mut stiffness = DMatrix::zeros(size, size);
             for (end, decade) in decades.iter().enumerate() {
                 let spring = 10_f64.powf(*decade);
@@ -181,9 +223,11 @@ pub fn held_chain(size: usize) -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f
                     stiffness[(end - 1, end)] -= spring;
                 }
             }
-            (stiffness, DMatrix::from_diagonal(&DVector::from_vec(masses)))
-        },
-    )
+            (
+                stiffness,
+                DMatrix::from_diagonal(&DVector::from_vec(masses)),
+            )
+        })
 }
 
 /// A mode measured wrong: two other modes mixed in.
@@ -201,7 +245,9 @@ impl Mixture {
         let [wrong, first, second] = self.modes;
         let [a, b] = self.fractions;
         let own = (1.0 - a * a - b * b).sqrt();
-        let shape = own * exact.shapes.column(wrong) + a * exact.shapes.column(first) + b * exact.shapes.column(second);
+        let shape = own * exact.shapes.column(wrong)
+            + a * exact.shapes.column(first)
+            + b * exact.shapes.column(second);
         let mut spoiled = exact.clone();
         spoiled.shapes.set_column(wrong, &shape);
         spoiled
@@ -210,7 +256,15 @@ impl Mixture {
 
 /// A mixture among `modes` modes.
 pub fn mixture(modes: usize) -> impl Strategy<Value = Mixture> {
-    let fraction = || (0.3..0.5_f64, any::<bool>()).prop_map(|(size, up)| if up { size } else { -size });
-    (Just((0..modes).collect::<Vec<_>>()).prop_shuffle(), fraction(), fraction())
-        .prop_map(|(order, a, b)| Mixture { modes: [order[0], order[1], order[2]], fractions: [a, b] })
+    let fraction =
+        || (0.3..0.5_f64, any::<bool>()).prop_map(|(size, up)| if up { size } else { -size });
+    (
+        Just((0..modes).collect::<Vec<_>>()).prop_shuffle(),
+        fraction(),
+        fraction(),
+    )
+        .prop_map(|(order, a, b)| Mixture {
+            modes: [order[0], order[1], order[2]],
+            fractions: [a, b],
+        })
 }

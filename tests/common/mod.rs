@@ -43,7 +43,9 @@ use proptest::test_runner::{Config, FileFailurePersistence};
 /// source for good.
 pub fn config() -> Config {
     Config {
-        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("proptest-regressions"))),
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource(
+            "proptest-regressions",
+        ))),
         ..Config::default()
     }
 }
@@ -51,14 +53,20 @@ pub fn config() -> Config {
 /// The same with an eighth of the cases, for properties that run whole correlations.
 pub fn costly_config() -> Config {
     let config = config();
-    Config { cases: config.cases.div_ceil(8), ..config }
+    Config {
+        cases: config.cases.div_ceil(8),
+        ..config
+    }
 }
 
 /// The same with a thirty-second of the cases, for identities in rational numbers: one that holds at a few random integers is one of
 /// polynomials, and such numbers are slow.
 pub fn exact_config() -> Config {
     let config = config();
-    Config { cases: config.cases.div_ceil(32), ..config }
+    Config {
+        cases: config.cases.div_ceil(32),
+        ..config
+    }
 }
 
 /// Least-squares slope of log(error) against log(size): the order of convergence.
@@ -66,7 +74,10 @@ pub fn log_log_slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     assert!(n >= 2.0, "a slope needs two points");
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
+    let (mx, my) = (
+        logs.iter().map(|p| p.0).sum::<f64>() / n,
+        logs.iter().map(|p| p.1).sum::<f64>() / n,
+    );
     let above: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let below: f64 = logs.iter().map(|p| (p.0 - mx).powi(2)).sum();
     above / below

@@ -100,7 +100,11 @@ impl StoredBoxes {
         });
         let panels = self.panels.iter().zip(1..).map(|(grids, label)| Element {
             label,
-            kind: if stored.membranes.contains(&label) { ElementKind::Membrane } else { ElementKind::ShearPanel },
+            kind: if stored.membranes.contains(&label) {
+                ElementKind::Membrane
+            } else {
+                ElementKind::ShearPanel
+            },
             grids: grids.to_vec(),
             size: stored.gages[label - 1],
             material,
@@ -112,7 +116,9 @@ impl StoredBoxes {
             size: stored.rod_area,
             material,
         });
-        let elements = panels.filter(|panel| !stored.omitted.contains(&panel.label)).chain(rods);
+        let elements = panels
+            .filter(|panel| !stored.omitted.contains(&panel.label))
+            .chain(rods);
         Structure::new(grids.collect(), elements.collect()).unwrap()
     }
 }
@@ -142,15 +148,18 @@ pub fn boxes() -> StoredBoxes {
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
     use corfem::closed_forms::analytical::{
-        no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+        no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
+        sides_14_23_parallel_energy,
     };
-    let [a, b, c, d] = corners[..] else { panic!("four corners") };
+    let [a, b, c, d] = corners[..] else {
+        panic!("four corners")
+    };
     let plane = corfem::method::elements::panel::mean_plane(&[a, b, c, d]).unwrap();
     let [_, c2, c3, c4] = plane.corners;
     let tangent = 0.01;
     let parallel_12_34 = (c3.y - c4.y).abs() < tangent * (c3.x - c4.x).abs();
-    let parallel_14_23 =
-        (c4.y * (c3.x - c2.x) - c3.y * c4.x).abs() < tangent * (c4.x * (c3.x - c2.x) + c4.y * c3.y).abs();
+    let parallel_14_23 = (c4.y * (c3.x - c2.x) - c3.y * c4.x).abs()
+        < tangent * (c4.x * (c3.x - c2.x) + c4.y * c3.y).abs();
     let energy = match (parallel_12_34, parallel_14_23) {
         (true, true) => parallelogram_energy,
         (true, false) => sides_12_34_parallel_energy,

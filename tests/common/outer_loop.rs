@@ -62,13 +62,23 @@ pub fn stored_wing() -> StoredWing {
 pub fn stored() -> Vec<StoredCase> {
     let text = include_str!("../../golden/nastran95/outer_loop.toml");
     let stored: Stored = toml::from_str(text).expect("the golden reads");
-    assert_eq!(stored.case.iter().map(|case| case.number).collect::<Vec<_>>(), CASES);
+    assert_eq!(
+        stored
+            .case
+            .iter()
+            .map(|case| case.number)
+            .collect::<Vec<_>>(),
+        CASES
+    );
     stored.case
 }
 
 pub fn assert_near(found: &[f64], expected: &[f64], relative: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (a, b) in found.iter().zip(expected) {
-        assert!((a - b).abs() <= relative * b.abs(), "{what}: {found:?}, expected {expected:?}");
+        assert!(
+            (a - b).abs() <= relative * b.abs(),
+            "{what}: {found:?}, expected {expected:?}"
+        );
     }
 }

@@ -30,12 +30,17 @@ impl Rearrangement {
 
 /// Any order of `count` modes with any signs; shrinks towards no change.
 pub fn rearrangement(count: usize) -> impl Strategy<Value = Rearrangement> {
-    (Just((0..count).collect::<Vec<_>>()).prop_shuffle(), prop::collection::vec(prop::bool::ANY, count)).prop_map(
-        |(order, flips)| Rearrangement {
-            order,
-            sign: flips.into_iter().map(|flip| if flip { -1.0 } else { 1.0 }).collect(),
-        },
+    (
+        Just((0..count).collect::<Vec<_>>()).prop_shuffle(),
+        prop::collection::vec(prop::bool::ANY, count),
     )
+        .prop_map(|(order, flips)| Rearrangement {
+            order,
+            sign: flips
+                .into_iter()
+                .map(|flip| if flip { -1.0 } else { 1.0 })
+                .collect(),
+        })
 }
 
 /// Numbers of analysis modes (1 to 7) and of test modes (1 to as many).
@@ -56,7 +61,11 @@ pub fn cross() -> impl Strategy<Value = DMatrix<f64>> {
 pub fn cross_with_ties() -> impl Strategy<Value = DMatrix<f64>> {
     counts().prop_flat_map(|(analysis, test)| {
         prop::collection::vec(-4..=4_i32, analysis * test).prop_map(move |entries| {
-            DMatrix::from_iterator(analysis, test, entries.into_iter().map(|entry| f64::from(entry) / 3.0))
+            DMatrix::from_iterator(
+                analysis,
+                test,
+                entries.into_iter().map(|entry| f64::from(entry) / 3.0),
+            )
         })
     })
 }
@@ -65,8 +74,11 @@ pub fn cross_with_ties() -> impl Strategy<Value = DMatrix<f64>> {
 /// 1.35, all others below 0.35, so that every pair is nearer to one than any other entry.
 pub fn noisy_pairs() -> impl Strategy<Value = (DMatrix<f64>, Rearrangement)> {
     counts().prop_flat_map(|(analysis, test)| {
-        (rearrangement(analysis), prop::collection::vec(-0.35..0.35_f64, analysis * test)).prop_map(
-            move |(mut pairs, noise)| {
+        (
+            rearrangement(analysis),
+            prop::collection::vec(-0.35..0.35_f64, analysis * test),
+        )
+            .prop_map(move |(mut pairs, noise)| {
                 pairs.order.truncate(test);
                 pairs.sign.truncate(test);
                 let mut cross = DMatrix::from_vec(analysis, test, noise);
@@ -74,8 +86,7 @@ pub fn noisy_pairs() -> impl Strategy<Value = (DMatrix<f64>, Rearrangement)> {
                     cross[(pairs.order[j], j)] += pairs.sign[j];
                 }
                 (cross, pairs)
-            },
-        )
+            })
     })
 }
 

@@ -18,20 +18,42 @@ impl Change {
     /// $\beta = tB$ and $\alpha = tA$ as series in $t$.
     pub fn series(pencil: &IntegerPencil, terms: usize) -> Self {
         let linear = |matrix: &[Vec<i64>]| {
-            matrix.iter().map(|row| row.iter().map(|&entry| Series::linear(entry, terms)).collect()).collect()
+            matrix
+                .iter()
+                .map(|row| {
+                    row.iter()
+                        .map(|&entry| Series::linear(entry, terms))
+                        .collect()
+                })
+                .collect()
         };
-        let k = pencil.k.iter().map(|&k| Series::integer(k, terms)).collect();
-        Self { k, beta: linear(&pencil.b), alpha: linear(&pencil.a) }
+        let k = pencil
+            .k
+            .iter()
+            .map(|&k| Series::integer(k, terms))
+            .collect();
+        Self {
+            k,
+            beta: linear(&pencil.b),
+            alpha: linear(&pencil.a),
+        }
     }
 
     /// The same at one $t$, as numbers.
     pub fn at(pencil: &IntegerPencil, t: &BigRational) -> Self {
         let scaled = |matrix: &[Vec<i64>]| {
             let entry = |&entry: &i64| Series(vec![rational(entry) * t]);
-            matrix.iter().map(|row| row.iter().map(entry).collect()).collect()
+            matrix
+                .iter()
+                .map(|row| row.iter().map(entry).collect())
+                .collect()
         };
         let k = pencil.k.iter().map(|&k| Series::integer(k, 1)).collect();
-        Self { k, beta: scaled(&pencil.b), alpha: scaled(&pencil.a) }
+        Self {
+            k,
+            beta: scaled(&pencil.b),
+            alpha: scaled(&pencil.a),
+        }
     }
 
     fn size(&self) -> usize {
@@ -49,7 +71,9 @@ impl Change {
     /// Rows of what an entry function says, one on the diagonal.
     fn shapes(&self, entry: impl Fn(usize, usize) -> Series) -> Matrix {
         let of = |i: usize, j: usize| if i == j { self.number(1) } else { entry(i, j) };
-        (0..self.size()).map(|i| (0..self.size()).map(|j| of(i, j)).collect()).collect()
+        (0..self.size())
+            .map(|i| (0..self.size()).map(|j| of(i, j)).collect())
+            .collect()
     }
 
     /// The sum over all $s$ but those left out; zero stands for an empty one.
@@ -84,7 +108,10 @@ impl Change {
                 let denominator = own(i) - &self.number(1) / &before.roots[j];
                 self.number(0) - &(self.beta[i][j].clone() + sum) / &denominator
             });
-            Found { roots: (0..self.size()).map(root).collect(), shapes }
+            Found {
+                roots: (0..self.size()).map(root).collect(),
+                shapes,
+            }
         })
     }
 
@@ -100,7 +127,10 @@ impl Change {
     /// The formulae of 1947 for stiffness alone: first order, then the root once more.
     pub fn original(&self) -> Found {
         let Found { shapes, .. } = self.first_order();
-        Found { roots: self.explicit_roots(&shapes), shapes }
+        Found {
+            roots: self.explicit_roots(&shapes),
+            shapes,
+        }
     }
 
     /// Recursive 2 (C.24) for stiffness alone, order by order.
@@ -115,7 +145,11 @@ impl Change {
     /// $k_i(\gamma - \lambda_i) + \beta_{ii}\gamma - \alpha_{ii}$, or off the diagonal $\beta_{is}\gamma - \alpha_{is}$.
     fn row(&self, i: usize, s: usize, gamma: &Series) -> Series {
         let change = &self.beta[i][s] * gamma - self.alpha[i][s].clone();
-        if i == s { &self.k[i] * &(gamma.clone() - self.lambda(i)) + change } else { change }
+        if i == s {
+            &self.k[i] * &(gamma.clone() - self.lambda(i)) + change
+        } else {
+            change
+        }
     }
 
     /// Every shape from all rows but its own, by Gauss's elimination.
@@ -125,14 +159,17 @@ impl Change {
                 let others: Vec<usize> = (0..self.size()).filter(|&i| i != j).collect();
                 let row = |&i: &usize| {
                     let left = others.iter().map(|&s| self.row(i, s, &roots[j]));
-                    left.chain([self.number(0) - self.row(i, j, &roots[j])]).collect()
+                    left.chain([self.number(0) - self.row(i, j, &roots[j])])
+                        .collect()
                 };
                 let mut solution = solved(others.iter().map(row).collect());
                 solution.insert(j, self.number(1));
                 solution
             })
             .collect();
-        (0..self.size()).map(|i| columns.iter().map(|column| column[i].clone()).collect()).collect()
+        (0..self.size())
+            .map(|i| columns.iter().map(|column| column[i].clone()).collect())
+            .collect()
     }
 
     /// Recursive 1 in full (C.22 with $\alpha$), order by order, from shapes before the change and Rayleigh's quotients on them.
@@ -144,18 +181,30 @@ impl Change {
             shapes: self.shapes(|_, _| self.number(0)),
         };
         let next = move |before: &Found| {
-            let sum =
-                |i: usize, j: usize| self.sum([i, i], |s| &self.row(i, s, &before.roots[j]) * &before.shapes[s][j]);
-            let shapes = self.shapes(|i, j| self.number(0) - &sum(i, j) / &self.row(i, i, &before.roots[j]));
-            Found { roots: (0..self.size()).map(|j| &(unchanged(j) - sum(j, j)) / &own(j)).collect(), shapes }
+            let sum = |i: usize, j: usize| {
+                self.sum([i, i], |s| {
+                    &self.row(i, s, &before.roots[j]) * &before.shapes[s][j]
+                })
+            };
+            let shapes =
+                self.shapes(|i, j| self.number(0) - &sum(i, j) / &self.row(i, i, &before.roots[j]));
+            Found {
+                roots: (0..self.size())
+                    .map(|j| &(unchanged(j) - sum(j, j)) / &own(j))
+                    .collect(),
+                shapes,
+            }
         };
         orders(next(&start), next)
     }
 
     fn general_explicit_roots(&self, shapes: &Matrix) -> Vec<Series> {
         let root = |i: usize| {
-            let of = |matrix: &Matrix| Series::sum((0..self.size()).map(|j| &matrix[i][j] * &shapes[j][i]));
-            &(&self.k[i] * &self.lambda(i) + of(&self.alpha)) / &(self.k[i].clone() + of(&self.beta))
+            let of = |matrix: &Matrix| {
+                Series::sum((0..self.size()).map(|j| &matrix[i][j] * &shapes[j][i]))
+            };
+            &(&self.k[i] * &self.lambda(i) + of(&self.alpha))
+                / &(self.k[i].clone() + of(&self.beta))
         };
         (0..self.size()).map(root).collect()
     }
@@ -163,7 +212,10 @@ impl Change {
     /// The formulae of 1947 in full.
     pub fn general_original(&self) -> Found {
         let Found { shapes, .. } = self.general_first_order();
-        Found { roots: self.general_explicit_roots(&shapes), shapes }
+        Found {
+            roots: self.general_explicit_roots(&shapes),
+            shapes,
+        }
     }
 
     /// First order in full.
@@ -192,7 +244,9 @@ fn solved(mut rows: Matrix) -> Vec<Series> {
     let size = rows.len();
     for pivot in 0..size {
         let scale = rows[pivot][pivot].clone();
-        rows[pivot].iter_mut().for_each(|entry| *entry = &*entry / &scale);
+        rows[pivot]
+            .iter_mut()
+            .for_each(|entry| *entry = &*entry / &scale);
         let pivot_row = rows[pivot].clone();
         for row in (0..size).filter(|&row| row != pivot) {
             let factor = rows[row][pivot].clone();

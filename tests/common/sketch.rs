@@ -20,8 +20,16 @@ pub struct Series {
 }
 
 impl Series {
-    pub fn new(name: &'static str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self { name, mark, points: points.into_iter().collect() }
+    pub fn new(
+        name: &'static str,
+        mark: Mark,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        Self {
+            name,
+            mark,
+            points: points.into_iter().collect(),
+        }
     }
 }
 
@@ -46,8 +54,11 @@ const COLORS: [&str; 4] = ["#3b82c4", "#d9822b", "#4a9e5c", "#b05fb5"];
 fn ticks((low, high): (f64, f64)) -> (Vec<f64>, usize) {
     let rough = (high - low) / 6.0;
     let power = 10f64.powf(rough.log10().floor());
-    let step =
-        [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * power).find(|step| *step >= rough * 0.999).unwrap_or(power);
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|n| n * power)
+        .find(|step| *step >= rough * 0.999)
+        .unwrap_or(power);
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     let decimals = (-step.log10().floor()).max(0.0) as usize;
@@ -70,8 +81,14 @@ impl Sketch {
         let (xs, x_decimals) = ticks(self.x);
         for x in xs {
             let at = self.across(x);
-            let _ = writeln!(svg, r#"<path d="M{at:.1} {bottom:.1}v4" stroke="currentColor"/>"#);
-            let _ = writeln!(svg, r#"<text x="{at:.1}" y="238" text-anchor="middle">{x:.x_decimals$}</text>"#);
+            let _ = writeln!(
+                svg,
+                r#"<path d="M{at:.1} {bottom:.1}v4" stroke="currentColor"/>"#
+            );
+            let _ = writeln!(
+                svg,
+                r#"<text x="{at:.1}" y="238" text-anchor="middle">{x:.x_decimals$}</text>"#
+            );
         }
         // Every power of ten, or every other where there are many.
         let powers = |(low, high): (f64, f64)| {
@@ -79,16 +96,26 @@ impl Sketch {
             (low..=high).step_by(if high - low > 7 { 2 } else { 1 })
         };
         let ys: Vec<(f64, String)> = if self.is_logarithmic {
-            powers(self.y).map(|power| (10f64.powi(power), format!("1e{power}"))).collect()
+            powers(self.y)
+                .map(|power| (10f64.powi(power), format!("1e{power}")))
+                .collect()
         } else {
             let (ys, decimals) = ticks(self.y);
-            ys.into_iter().map(|y| (y, format!("{y:.decimals$}"))).collect()
+            ys.into_iter()
+                .map(|y| (y, format!("{y:.decimals$}")))
+                .collect()
         };
         for (y, text) in ys {
             let at = self.height(y);
-            let _ = writeln!(svg, r#"<path d="M{left} {at:.1}H{right}" stroke="currentColor" stroke-opacity="0.2"/>"#);
+            let _ = writeln!(
+                svg,
+                r#"<path d="M{left} {at:.1}H{right}" stroke="currentColor" stroke-opacity="0.2"/>"#
+            );
             let base = at + 4.0;
-            let _ = writeln!(svg, r#"<text x="52" y="{base:.1}" text-anchor="end">{text}</text>"#);
+            let _ = writeln!(
+                svg,
+                r#"<text x="52" y="{base:.1}" text-anchor="end">{text}</text>"#
+            );
         }
         let (width, height) = (right - left, bottom - top);
         let _ = writeln!(
@@ -96,7 +123,11 @@ impl Sketch {
             r#"<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="none" stroke="currentColor"/>"#
         );
         let middle = 0.5 * (left + right);
-        let _ = writeln!(svg, r#"<text x="{middle}" y="258" text-anchor="middle">{}</text>"#, self.labels[0]);
+        let _ = writeln!(
+            svg,
+            r#"<text x="{middle}" y="258" text-anchor="middle">{}</text>"#,
+            self.labels[0]
+        );
         let middle = 0.5 * (top + bottom);
         let _ = writeln!(
             svg,
@@ -108,7 +139,10 @@ impl Sketch {
     fn series(&self, svg: &mut String, row: usize) {
         let Series { name, mark, points } = &self.series[row];
         let color = COLORS[row % COLORS.len()];
-        let places: Vec<(f64, f64)> = points.iter().map(|&(x, y)| (self.across(x), self.height(y))).collect();
+        let places: Vec<(f64, f64)> = points
+            .iter()
+            .map(|&(x, y)| (self.across(x), self.height(y)))
+            .collect();
         match mark {
             Mark::Line | Mark::Dashed => {
                 let path: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
@@ -129,8 +163,14 @@ impl Sketch {
             }),
         }
         let (y, base) = (26 + 16 * row, 30 + 16 * row);
-        let _ = writeln!(svg, r#"<text x="474" y="{base}" text-anchor="end">{name}</text>"#);
-        let _ = writeln!(svg, r#"<path d="M480 {y}h18" stroke="{color}" stroke-width="4"/>"#);
+        let _ = writeln!(
+            svg,
+            r#"<text x="474" y="{base}" text-anchor="end">{name}</text>"#
+        );
+        let _ = writeln!(
+            svg,
+            r#"<path d="M480 {y}h18" stroke="{color}" stroke-width="4"/>"#
+        );
     }
 
     /// The drawing as it stands in a text.
@@ -151,9 +191,18 @@ impl Sketch {
 #[test]
 fn a_sketch_puts_points_where_its_axes_say() {
     let points = [(0.0, 0.0), (1.0, 10.0)];
-    let series = vec![Series::new("a", Mark::Line, points), Series::new("b", Mark::Dots, points)];
-    let sketch =
-        Sketch { title: "t", labels: ["x", "y"], x: (0.0, 1.0), y: (0.0, 10.0), is_logarithmic: false, series };
+    let series = vec![
+        Series::new("a", Mark::Line, points),
+        Series::new("b", Mark::Dots, points),
+    ];
+    let sketch = Sketch {
+        title: "t",
+        labels: ["x", "y"],
+        x: (0.0, 1.0),
+        y: (0.0, 10.0),
+        is_logarithmic: false,
+        series,
+    };
     let svg = sketch.svg();
     assert!(svg.contains("M58.0 222.0L506.0 12.0"), "{svg}");
     assert!(svg.contains(r#"cx="506.0" cy="12.0""#) && !svg.contains("\n\n"));

@@ -10,8 +10,9 @@ pub fn point() -> impl Strategy<Value = Vector3<f64>> {
 
 /// A rotation by any angle about any axis; shrinks to the identity.
 pub fn rotation() -> impl Strategy<Value = Rotation3<f64>> {
-    (-3.2..3.2, -1.6..1.6, -3.2..3.2)
-        .prop_map(|(roll, pitch, yaw): (f64, f64, f64)| Rotation3::from_euler_angles(roll, pitch, yaw))
+    (-3.2..3.2, -1.6..1.6, -3.2..3.2).prop_map(|(roll, pitch, yaw): (f64, f64, f64)| {
+        Rotation3::from_euler_angles(roll, pitch, yaw)
+    })
 }
 
 /// An orthogonal matrix from n(n−1)/2 Givens angles; shrinks to the identity.
@@ -35,7 +36,10 @@ pub fn orthogonal(size: usize) -> impl Strategy<Value = DMatrix<f64>> {
 
 /// A symmetric positive definite matrix Q·diag(10^e)·Qᵗ with its exponents e: the spectrum is known, the condition
 /// number at most 10^`decades`.
-pub fn positive_definite(size: usize, decades: f64) -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>)> {
+pub fn positive_definite(
+    size: usize,
+    decades: f64,
+) -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>)> {
     (orthogonal(size), prop::collection::vec(0.0..=decades, size)).prop_map(|(q, exponents)| {
         let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
             exponents.len(),

@@ -16,11 +16,21 @@ pub fn unit_material() -> Material {
 }
 
 pub fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
-    Grid { label, position: position.into(), constrained }
+    Grid {
+        label,
+        position: position.into(),
+        constrained,
+    }
 }
 
 pub fn rod(label: usize, ends: [usize; 2], area: f64) -> Element {
-    Element { label, kind: ElementKind::Rod, grids: ends.to_vec(), size: area, material: unit_material() }
+    Element {
+        label,
+        kind: ElementKind::Rod,
+        grids: ends.to_vec(),
+        size: area,
+        material: unit_material(),
+    }
 }
 
 /// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
@@ -30,13 +40,21 @@ pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
 
 /// Elements that change together, with bounds on their sizes.
 pub fn group(name: &str, elements: &[usize], size_range: Option<Range>) -> Parameter {
-    Parameter { size_range, ..Parameter::group(name, elements) }
+    Parameter {
+        size_range,
+        ..Parameter::group(name, elements)
+    }
 }
 
 /// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
 pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
     let identity = DMatrix::identity(3, 3);
-    FiniteElementModel::new(spring_chain(&[2.0, 4.0, 8.0], [true, false]), identity.clone(), identity, parameters)
+    FiniteElementModel::new(
+        spring_chain(&[2.0, 4.0, 8.0], [true, false]),
+        identity.clone(),
+        identity,
+        parameters,
+    )
 }
 
 /// A four-bar linkage in the xz-plane: grids 1 and 2 fixed, 3 and 4 free in the plane, rods 1-4, 4-3, 3-2 and, if it is
@@ -50,7 +68,9 @@ pub fn linkage(apex: [[f64; 2]; 2], areas: [f64; 4], braced: bool) -> Structure 
         grid(4, [apex[1][0], 0.0, apex[1][1]], free),
     ];
     let ends = [[1, 4], [4, 3], [3, 2], [1, 3]];
-    let rods = (0..if braced { 4 } else { 3 }).map(|k| rod(k + 1, ends[k], areas[k])).collect();
+    let rods = (0..if braced { 4 } else { 3 })
+        .map(|k| rod(k + 1, ends[k], areas[k]))
+        .collect();
     Structure::new(grids, rods).expect("a linkage")
 }
 
@@ -59,8 +79,13 @@ pub fn linkage(apex: [[f64; 2]; 2], areas: [f64; 4], braced: bool) -> Structure 
 pub fn linkage_data() -> impl Strategy<Value = ([[f64; 2]; 2], [f64; 4])> {
     let lean = -0.4..0.4_f64;
     let height = 0.5..1.5_f64;
-    ((lean.clone(), height.clone(), lean, height), prop::array::uniform4(-1.0..1.0_f64))
-        .prop_map(|((x3, z3, x4, z4), decades)| ([[1.0 + x3, z3], [x4, z4]], decades.map(|d| 10f64.powf(d))))
+    (
+        (lean.clone(), height.clone(), lean, height),
+        prop::array::uniform4(-1.0..1.0_f64),
+    )
+        .prop_map(|((x3, z3, x4, z4), decades)| {
+            ([[1.0 + x3, z3], [x4, z4]], decades.map(|d| 10f64.powf(d)))
+        })
 }
 
 /// Gages or areas of `count` elements over two decades, 0.003 to 0.3: condition numbers of the box up to some 1e8.
@@ -70,7 +95,11 @@ pub fn sizes_of(count: usize) -> impl Strategy<Value = Vec<f64>> {
 
 /// Gages and areas as a structure has them.
 pub fn sizes(structure: &Structure) -> Vec<f64> {
-    structure.elements().iter().map(|element| element.size).collect()
+    structure
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect()
 }
 
 /// The stiffness of a structure by dense assembly.
@@ -94,7 +123,12 @@ pub fn as_element(stiffness: &DMatrix<f64>) -> (Vec<ElementMatrix>, Vec<Structur
         unit: stiffness.clone(),
         unit_mass: DVector::zeros(count),
     };
-    let free = (0..count).map(|row| StructuralDof { grid: row / 3 + 1, direction: row % 3 }).collect();
+    let free = (0..count)
+        .map(|row| StructuralDof {
+            grid: row / 3 + 1,
+            direction: row % 3,
+        })
+        .collect();
     (vec![element], free)
 }
 
@@ -118,17 +152,29 @@ pub fn condition(stiffness: &DMatrix<f64>) -> f64 {
 pub fn free_motions(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
     let (scaled, scale) = unit_diagonal(stiffness);
     let eigen = scaled.symmetric_eigen();
-    let free: Vec<usize> =
-        (0..scale.len()).filter(|&k| eigen.eigenvalues[k].abs() < super::tolerances::MATRIX_ROUND_OFF).collect();
+    let free: Vec<usize> = (0..scale.len())
+        .filter(|&k| eigen.eigenvalues[k].abs() < super::tolerances::MATRIX_ROUND_OFF)
+        .collect();
     DMatrix::from_diagonal(&scale) * eigen.eigenvectors.select_columns(&free)
 }
 
 /// Wings of any shape with up to five, four and three bays or cells; an interior angle of a panel is 30° at least.
 pub fn wings() -> impl Strategy<Value = Wing> {
-    let shape = (20.0..100.0, 0.2..1.5_f64, 100.0..500.0, -50.0..50.0, -10.0..10.0, 0.05..0.3);
+    let shape = (
+        20.0..100.0,
+        0.2..1.5_f64,
+        100.0..500.0,
+        -50.0..50.0,
+        -10.0..10.0,
+        0.05..0.3,
+    );
     let bays = (1..=5_usize, 1..=4_usize, 1..=3_usize);
     (shape, bays, (1..=5_usize, 1..=5_usize, 1..=5_usize)).prop_map(
-        |((chord, taper, span, sweep, twist, thickness), (ribs, spars, cells), (zones, on_span, on_rib))| Wing {
+        |(
+            (chord, taper, span, sweep, twist, thickness),
+            (ribs, spars, cells),
+            (zones, on_span, on_rib),
+        )| Wing {
             bays: [ribs, spars, cells],
             chords: [chord, taper * chord],
             span,

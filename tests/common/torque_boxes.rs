@@ -21,7 +21,12 @@ pub fn factors(count: usize) -> impl Strategy<Value = Vec<f64>> {
 
 /// The model of a case with every one of its 39 elements a parameter, the rods too.
 pub fn with_every_element(case: &Case) -> FiniteElementModel {
-    with_parameters(case, (1..=39).map(|label| Parameter::element(label, None)).collect())
+    with_parameters(
+        case,
+        (1..=39)
+            .map(|label| Parameter::element(label, None))
+            .collect(),
+    )
 }
 
 /// The model of a case with parameters of one's own.
@@ -54,7 +59,13 @@ pub fn reconstruction() -> impl Strategy<Value = Reconstruction> {
                 grids.insert(upper + 1, [x, y, height - depth / 2.0]);
             }
         }
-        Reconstruction { youngs_modulus: 1e7, poissons_ratio: 0.3, mid_chord_fraction, masses: vec![1.0; 9], grids }
+        Reconstruction {
+            youngs_modulus: 1e7,
+            poissons_ratio: 0.3,
+            mid_chord_fraction,
+            masses: vec![1.0; 9],
+            grids,
+        }
     })
 }
 

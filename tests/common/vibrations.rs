@@ -13,11 +13,13 @@ use proptest::prelude::*;
 /// 1e10, as stiff and soft elements in one structure give; masses up to 1e4, which is a wide structure.
 pub fn pencil() -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f64>, f64)> {
     (1..=6_usize).prop_flat_map(|size| {
-        (positive_definite(size, 10.0), positive_definite(size, 4.0)).prop_map(|((stiffness, _), (mass, exponents))| {
-            let span = exponents.iter().fold(0.0_f64, |a, &b| a.max(b))
-                - exponents.iter().fold(f64::INFINITY, |a, &b| a.min(b));
-            (stiffness, mass, 10f64.powf(span))
-        })
+        (positive_definite(size, 10.0), positive_definite(size, 4.0)).prop_map(
+            |((stiffness, _), (mass, exponents))| {
+                let span = exponents.iter().fold(0.0_f64, |a, &b| a.max(b))
+                    - exponents.iter().fold(f64::INFINITY, |a, &b| a.min(b));
+                (stiffness, mass, 10f64.powf(span))
+            },
+        )
     })
 }
 
@@ -55,8 +57,11 @@ pub fn separated_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
 /// A change in which every pair of modes is coupled, |S_ij| from half to all of √(k_i k_j), either sign: no
 /// coefficient of the error's expansion is small by accident of a zero entry.
 pub fn full_change(size: usize) -> impl Strategy<Value = Change> {
-    (separated_spectrum(size), prop::collection::vec((0.5..1.0_f64, any::<bool>()), size * (size + 1) / 2)).prop_map(
-        move |(stiffness, entries)| {
+    (
+        separated_spectrum(size),
+        prop::collection::vec((0.5..1.0_f64, any::<bool>()), size * (size + 1) / 2),
+    )
+        .prop_map(move |(stiffness, entries)| {
             let mut entry = entries.into_iter();
             let mut direction = DMatrix::zeros(size, size);
             for column in 0..size {
@@ -68,20 +73,27 @@ pub fn full_change(size: usize) -> impl Strategy<Value = Change> {
                     direction[(column, row)] = value;
                 }
             }
-            Change { stiffness, direction }
-        },
-    )
+            Change {
+                stiffness,
+                direction,
+            }
+        })
 }
 
 /// Any symmetric change of 1 to 5 modes, up to three times their stiffness: far beyond where the perturbation holds.
 pub fn any_change() -> impl Strategy<Value = Change> {
     (1..=5_usize).prop_flat_map(|size| {
-        (separated_spectrum(size), super::strategies::symmetric(size)).prop_map(|(stiffness, entries)| {
-            let direction = DMatrix::from_fn(stiffness.len(), stiffness.len(), |i, j| {
-                3.0 * entries[(i, j)] * (stiffness[i] * stiffness[j]).sqrt()
-            });
-            Change { stiffness, direction }
-        })
+        (separated_spectrum(size), super::strategies::symmetric(size)).prop_map(
+            |(stiffness, entries)| {
+                let direction = DMatrix::from_fn(stiffness.len(), stiffness.len(), |i, j| {
+                    3.0 * entries[(i, j)] * (stiffness[i] * stiffness[j]).sqrt()
+                });
+                Change {
+                    stiffness,
+                    direction,
+                }
+            },
+        )
     })
 }
 
@@ -98,7 +110,10 @@ pub struct Chain {
 impl Chain {
     /// A chain of `count` springs of 1000 lbf/in and masses of 0.01 lbf·s²/in.
     pub fn uniform(count: usize) -> Self {
-        Self { springs: vec![1000.0; count], masses: vec![0.01; count] }
+        Self {
+            springs: vec![1000.0; count],
+            masses: vec![0.01; count],
+        }
     }
 
     /// The mass matrix, lbf·s²/in.
@@ -109,8 +124,9 @@ impl Chain {
     /// The model with its springs multiplied by factors: the analysis of a structure whose B never changes.
     pub fn model(&self, factors: &[f64]) -> DynamicModel {
         let count = self.masses.len();
-        let shares: Vec<DMatrix<f64>> =
-            (0..count).map(|s| spring_stiffness(count, s, factors[s] * self.springs[s])).collect();
+        let shares: Vec<DMatrix<f64>> = (0..count)
+            .map(|s| spring_stiffness(count, s, factors[s] * self.springs[s]))
+            .collect();
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: self.mass(),
@@ -121,13 +137,17 @@ impl Chain {
     /// All exact modes with its springs multiplied by factors.
     pub fn modes(&self, factors: &[f64]) -> Modes {
         let model = self.model(factors);
-        corfem::method::modes::solve(&model.stiffness, &model.mass, self.masses.len()).expect("a chain vibrates")
+        corfem::method::modes::solve(&model.stiffness, &model.mass, self.masses.len())
+            .expect("a chain vibrates")
     }
 }
 
 /// A chain of `count` springs and masses that differ by a factor of two at most.
 pub fn chain(count: usize) -> impl Strategy<Value = Chain> {
-    (prop::collection::vec(1000.0..2000.0_f64, count), prop::collection::vec(0.01..0.02_f64, count))
+    (
+        prop::collection::vec(1000.0..2000.0_f64, count),
+        prop::collection::vec(0.01..0.02_f64, count),
+    )
         .prop_map(|(springs, masses)| Chain { springs, masses })
 }
 
@@ -135,14 +155,18 @@ pub fn chain(count: usize) -> impl Strategy<Value = Chain> {
 /// or down, so that the error sum is well away from zero, where it has a kink.
 pub fn chain_and_truth() -> impl Strategy<Value = (Chain, Vec<f64>)> {
     (3..=5_usize).prop_flat_map(|count| {
-        let factor = (1.1..1.4_f64, any::<bool>()).prop_map(|(factor, soft)| if soft { 1.0 / factor } else { factor });
+        let factor = (1.1..1.4_f64, any::<bool>())
+            .prop_map(|(factor, soft)| if soft { 1.0 / factor } else { factor });
         (chain(count), prop::collection::vec(factor, count))
     })
 }
 
 /// Squared circular frequencies (ascending) and mass-orthonormal shapes through nalgebra: M^(−1/2) from M's own
 /// eigenvectors, then the symmetric eigenproblem of M^(−1/2) K M^(−1/2).
-pub fn modes_by_nalgebra(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+pub fn modes_by_nalgebra(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+) -> (DVector<f64>, DMatrix<f64>) {
     let of_mass = mass.clone().symmetric_eigen();
     let root = DMatrix::from_diagonal(&of_mass.eigenvalues.map(|value| 1.0 / value.sqrt()));
     let inverse_root = &of_mass.eigenvectors * root * of_mass.eigenvectors.transpose();
@@ -150,12 +174,19 @@ pub fn modes_by_nalgebra(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> (DVec
     let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
     let mut order: Vec<usize> = (0..stiffness.nrows()).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    (eigen.eigenvalues.select_rows(&order), inverse_root * eigen.eigenvectors.select_columns(&order))
+    (
+        eigen.eigenvalues.select_rows(&order),
+        inverse_root * eigen.eigenvectors.select_columns(&order),
+    )
 }
 
 /// The error sum written from its definition on all exact modes through nalgebra, paired and signed by their
 /// mass-weighted products.
-pub fn error_sum_by_definition(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &ModeSet) -> f64 {
+pub fn error_sum_by_definition(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    test: &ModeSet,
+) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
     let cross = shapes.transpose() * mass * &test.shapes;
     let (mut frequency, mut shape) = (0.0, 0.0);

@@ -26,7 +26,10 @@ pub fn chain_of_springs(ends: ChainEnds, count: usize, spring: f64) -> SparseMat
 
 /// A diagonal mass.
 pub fn masses(values: &[f64]) -> SparseMatrix {
-    let entries = values.iter().enumerate().map(|(row, &value)| (row, row, value));
+    let entries = values
+        .iter()
+        .enumerate()
+        .map(|(row, &value)| (row, row, value));
     SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).expect("masses")
 }
 
@@ -40,11 +43,20 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Range>) -> Whole
         range,
     });
     let all: Vec<_> = (0..count).map(story).collect();
-    WholeModel::new(springs(count, &all), masses(&vec![mass; count]), parameters.collect()).expect("a building")
+    WholeModel::new(
+        springs(count, &all),
+        masses(&vec![mass; count]),
+        parameters.collect(),
+    )
+    .expect("a building")
 }
 
 /// Sensors that read single degrees of freedom.
 pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
-    let entries = rows.iter().enumerate().map(|(sensor, &row)| (sensor, row, 1.0)).collect();
+    let entries = rows
+        .iter()
+        .enumerate()
+        .map(|(sensor, &row)| (sensor, row, 1.0))
+        .collect();
     SparseMatrix::new("sensors", rows.len(), count, entries).expect("sensors")
 }

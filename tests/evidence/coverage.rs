@@ -43,8 +43,13 @@ pub struct Coverage {
 impl Coverage {
     /// Part of the intervals that hold the truth, of parameters of which the data learned at least so much; zero of none.
     pub fn overall(&self, least_learned: f64) -> f64 {
-        let seen = self.parameters.iter().filter(|held| held.learned >= least_learned);
-        let (count, held) = seen.fold((0, 0), |(count, held), of| (count + self.tests, held + of.tests));
+        let seen = self
+            .parameters
+            .iter()
+            .filter(|held| held.learned >= least_learned);
+        let (count, held) = seen.fold((0, 0), |(count, held), of| {
+            (count + self.tests, held + of.tests)
+        });
         held as f64 / count.max(1) as f64
     }
 }
@@ -54,13 +59,28 @@ impl Coverage {
 fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
     let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
     let weights = equal_weights(Noise::USUAL, known.test.len())?;
-    let names = known.model.parameters().iter().map(|parameter| parameter.name.clone());
-    let mut parameters: Vec<Held> = names.map(|parameter| Held { parameter, ..Held::default() }).collect();
+    let names = known
+        .model
+        .parameters()
+        .iter()
+        .map(|parameter| parameter.name.clone());
+    let mut parameters: Vec<Held> = names
+        .map(|parameter| Held {
+            parameter,
+            ..Held::default()
+        })
+        .collect();
     let mut tests = 0;
     for seed in seeds {
         let test = with_noise(&known.test, Noise::USUAL, seed)?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &test, None);
-        let found = gauss_newton(analyze, &ones, &ranges, &weights, &WeightedSettings::default())?;
+        let found = gauss_newton(
+            analyze,
+            &ones,
+            &ranges,
+            &weights,
+            &WeightedSettings::default(),
+        )?;
         let intervals = found.identifiability.intervals(&found.factors)?;
         tests += 1;
         for (e, held) in parameters.iter_mut().enumerate() {
@@ -68,8 +88,14 @@ fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseE
             held.learned += found.identifiability.learned[e];
         }
     }
-    parameters.iter_mut().for_each(|held| held.learned /= tests as f64);
-    Ok(Coverage { name: known.name.clone(), tests, parameters })
+    parameters
+        .iter_mut()
+        .for_each(|held| held.learned /= tests as f64);
+    Ok(Coverage {
+        name: known.name.clone(),
+        tests,
+        parameters,
+    })
 }
 
 /// Case 2 with the two covers of each bay, which its modes do not tell apart, as one parameter.
@@ -78,17 +104,31 @@ fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseE
 /// Those of the case and its model.
 fn case_2_by_bays() -> Result<Known, CaseError> {
     let known = Known::of_case(2)?;
-    let (structure, t, mass) = (known.model.structure(), known.model.load_distribution(), known.model.mass());
+    let (structure, t, mass) = (
+        known.model.structure(),
+        known.model.load_distribution(),
+        known.model.mass(),
+    );
     let elements = known.model.parameters().iter().zip(&known.truth);
     let alone = elements.filter(|(element, _)| !BAYS.as_flattened().contains(&element.members[0]));
-    let (mut parameters, mut truth): (Vec<Parameter>, Vec<f64>) =
-        alone.map(|(element, truth)| (element.clone(), *truth)).unzip();
+    let (mut parameters, mut truth): (Vec<Parameter>, Vec<f64>) = alone
+        .map(|(element, truth)| (element.clone(), *truth))
+        .unzip();
     for bay in BAYS {
-        parameters.push(Parameter::group(&format!("{} and {}", bay[0], bay[1]), &bay));
+        parameters.push(Parameter::group(
+            &format!("{} and {}", bay[0], bay[1]),
+            &bay,
+        ));
         truth.push(known.truth[bay[0] - 1]);
     }
-    let model = FiniteElementModel::with_loads(structure.clone(), t.clone(), mass.clone(), parameters)?;
-    Ok(Known { name: "Case 2 by bays".to_owned(), model, test: known.test, truth })
+    let model =
+        FiniteElementModel::with_loads(structure.clone(), t.clone(), mass.clone(), parameters)?;
+    Ok(Known {
+        name: "Case 2 by bays".to_owned(),
+        model,
+        test: known.test,
+        truth,
+    })
 }
 
 /// Coverage on Cases 2 and 3, on the delta wing, and on [`case_2_by_bays`], with weights of the noise, [`Noise::USUAL`].
@@ -99,8 +139,15 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
 /// # Errors
 /// Those of the structures, of [`with_noise`] and of [`gauss_newton`].
 pub fn all_coverages(seeds: RangeInclusive<u64>) -> Result<Vec<Coverage>, CaseError> {
-    let all = [Known::of_case(2)?, Known::of_case(3)?, Known::delta_wing()?, case_2_by_bays()?];
-    all.iter().map(|known| coverage(known, seeds.clone())).collect()
+    let all = [
+        Known::of_case(2)?,
+        Known::of_case(3)?,
+        Known::delta_wing()?,
+        case_2_by_bays()?,
+    ];
+    all.iter()
+        .map(|known| coverage(known, seeds.clone()))
+        .collect()
 }
 
 /// How often 95 % intervals hold the truth: a line for each structure, then a table of each one's parameters.
@@ -122,17 +169,35 @@ pub fn coverage_tables(coverages: &[Coverage]) -> Vec<Table> {
         let held = |tests: usize| tests as f64 / of.tests.max(1) as f64;
         let seen = || of.parameters.iter().filter(|held| held.learned >= SEEN);
         let least = seen().map(|seen| seen.tests).min();
-        let fractions = [least.map(|_| of.overall(SEEN)), least.map(held), Some(of.overall(f64::NEG_INFINITY))];
+        let fractions = [
+            least.map(|_| of.overall(SEEN)),
+            least.map(held),
+            Some(of.overall(f64::NEG_INFINITY)),
+        ];
         let counts = [of.parameters.len(), seen().count()].map(Cell::count);
-        all.row(&of.name, counts.into_iter().chain(percents(fractions, PERCENT)));
+        all.row(
+            &of.name,
+            counts.into_iter().chain(percents(fractions, PERCENT)),
+        );
         let name = format!("coverage_{}", of.name.to_lowercase().replace(' ', "_"));
-        let title = format!("{}: intervals that hold the truth, and what the test says", of.name);
+        let title = format!(
+            "{}: intervals that hold the truth, and what the test says",
+            of.name
+        );
         let parameters = || of.parameters.iter();
         tables.push(
             Table::new(name, title, "Parameter")
                 .labels(parameters().map(|of| &of.parameter))
-                .column("Held", "%", percents(parameters().map(|of| held(of.tests)), PERCENT))
-                .column("Learned", "%", percents(parameters().map(|of| of.learned), PERCENT)),
+                .column(
+                    "Held",
+                    "%",
+                    percents(parameters().map(|of| held(of.tests)), PERCENT),
+                )
+                .column(
+                    "Learned",
+                    "%",
+                    percents(parameters().map(|of| of.learned), PERCENT),
+                ),
         );
     }
     tables.insert(0, all);

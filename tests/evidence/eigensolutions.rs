@@ -45,25 +45,56 @@ pub struct Counted {
 ///
 /// # Errors
 /// Those of the analysis and of [`correlate`].
-pub fn counted(known: &Known, modes: Option<usize>, settings: &Settings, error: f64) -> Result<Counted, Error> {
+pub fn counted(
+    known: &Known,
+    modes: Option<usize>,
+    settings: &Settings,
+    error: f64,
+) -> Result<Counted, Error> {
     let effort = |inner: InnerSettings| {
-        let mut settings = Settings { inner, later_inner_tolerance: 0.5 * error, ..settings.clone() };
+        let mut settings = Settings {
+            inner,
+            later_inner_tolerance: 0.5 * error,
+            ..settings.clone()
+        };
         (settings.inner.tolerance, settings.error_sum_tolerance) = (error, error);
         // Neither error alone exceeds the sum.
-        (settings.frequency_tolerance, settings.shape_tolerance, settings.most_passes) = (error, error, MOST_PASSES);
+        (
+            settings.frequency_tolerance,
+            settings.shape_tolerance,
+            settings.most_passes,
+        ) = (error, error, MOST_PASSES);
         let mut analyses = 0;
         let analyze = |factors: &[f64]| {
             analyses += 1;
             known.model.analyze(factors, &known.test, modes)
         };
         let found = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
-        let steps = found.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
-        Ok(Effort { analyses, steps, reached: found.converged })
+        let steps = found
+            .passes
+            .iter()
+            .map(|pass| pass.inner.iterations.len())
+            .sum();
+        Ok(Effort {
+            analyses,
+            steps,
+            reached: found.converged,
+        })
     };
     let inner = settings.inner.clone();
-    let single = InnerSettings { iterations: 1, first_relaxation: inner.relaxation, ..inner.clone() };
+    let single = InnerSettings {
+        iterations: 1,
+        first_relaxation: inner.relaxation,
+        ..inner.clone()
+    };
     let (name, parameters) = (known.name.clone(), known.truth.len());
-    Ok(Counted { name, error, parameters, perturbation: effort(inner)?, reanalysis: effort(single)? })
+    Ok(Counted {
+        name,
+        error,
+        parameters,
+        perturbation: effort(inner)?,
+        reanalysis: effort(single)?,
+    })
 }
 
 /// Cases 1 to 3, the delta wing and the wing of 1,458 structural DOF, each to all the errors.
@@ -74,10 +105,17 @@ pub fn count_all(errors: &[f64]) -> Result<Vec<Counted>, CaseError> {
     let of = |number: usize| -> Result<Vec<Counted>, CaseError> {
         let (known, modes, settings) = match number {
             4 => (Known::delta_wing()?, None, correlation::settings()),
-            5 => (planted(&Wing::default())?, Some(WING_MODES), correlation::settings()),
+            5 => (
+                planted(&Wing::default())?,
+                Some(WING_MODES),
+                correlation::settings(),
+            ),
             case => (Known::of_case(case)?, None, Case::new(case)?.settings),
         };
-        Ok(errors.iter().map(|error| counted(&known, modes, &settings, *error)).collect::<Result<_, _>>()?)
+        Ok(errors
+            .iter()
+            .map(|error| counted(&known, modes, &settings, *error))
+            .collect::<Result<_, _>>()?)
     };
     Ok((1..=5).map(of).collect::<Result<Vec<_>, _>>()?.concat())
 }
@@ -87,10 +125,22 @@ pub fn eigensolution_table(counted: &[Counted]) -> Table {
     let note = "Perturbation: the method, whose steps within a pass take no eigensolution. Re-analysis: the same rule of the step with \
         an analysis after every one. And differences: derivatives by an eigensolution per parameter and step too. A + says that \
         the error was not reached.";
-    let mut table =
-        Table::new("eigensolutions", "Full eigensolutions to an error sum, counted", "Structure, error sum")
-            .headings(["Steps", "Perturbation", "Steps one by one", "Re-analysis", "And differences"], "")
-            .notes([note]);
+    let mut table = Table::new(
+        "eigensolutions",
+        "Full eigensolutions to an error sum, counted",
+        "Structure, error sum",
+    )
+    .headings(
+        [
+            "Steps",
+            "Perturbation",
+            "Steps one by one",
+            "Re-analysis",
+            "And differences",
+        ],
+        "",
+    )
+    .notes([note]);
     for of in counted {
         let solutions = |analyses: usize, reached| match reached {
             true => Cell::count(analyses),
@@ -98,9 +148,16 @@ pub fn eigensolution_table(counted: &[Counted]) -> Table {
         };
         let (quick, slow) = (of.perturbation, of.reanalysis);
         let all = slow.analyses + slow.steps * of.parameters;
-        let cells = [Cell::count(quick.steps), solutions(quick.analyses, quick.reached), Cell::count(slow.steps)];
+        let cells = [
+            Cell::count(quick.steps),
+            solutions(quick.analyses, quick.reached),
+            Cell::count(slow.steps),
+        ];
         let others = [slow.analyses, all].map(|count| solutions(count, slow.reached));
-        table.row(format!("{}, {} %", of.name, 100.0 * of.error), cells.into_iter().chain(others));
+        table.row(
+            format!("{}, {} %", of.name, 100.0 * of.error),
+            cells.into_iter().chain(others),
+        );
     }
     table
 }

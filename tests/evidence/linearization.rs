@@ -15,7 +15,10 @@ pub fn linearization_table(structures: &[(&str, Vec<Prediction>)], exact: Exact)
         for (what, measure) in MEASURES {
             for of in predictions.iter().step_by(2).take(3) {
                 let errors = of.errors.iter().map(|error| error.as_ref().map(measure));
-                table.row(format!("{structure}, {}, {what}", of.step), percents(errors, Digits::Scientific(1)));
+                table.row(
+                    format!("{structure}, {}, {what}", of.step),
+                    percents(errors, Digits::Scientific(1)),
+                );
             }
         }
     }

@@ -13,7 +13,10 @@ use corfem::studies::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Noise of the study: 1 % of shapes, 0.5 % of frequencies.
-pub const NOISE: Noise = Noise { shape: 0.01, frequency: 0.005 };
+pub const NOISE: Noise = Noise {
+    shape: 0.01,
+    frequency: 0.005,
+};
 /// Seeds of the noise, one test each.
 pub const SEEDS: RangeInclusive<u64> = 1..=100;
 /// Gages of the culprit over the true one: Case 4's error, and one that is not gross.
@@ -43,9 +46,14 @@ pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseErro
     let case = Case::new(4)?;
     let exact = ModeSet::from(case.test_modes()?);
     let weights = equal_weights(NOISE, exact.len())?;
-    let noisy = seeds.map(|seed| with_noise(&exact, NOISE, seed)).collect::<Result<Vec<_>, Error>>()?;
+    let noisy = seeds
+        .map(|seed| with_noise(&exact, NOISE, seed))
+        .collect::<Result<Vec<_>, Error>>()?;
     let mut located = Vec::new();
-    for (ratio, culprit) in RATIOS.into_iter().flat_map(|ratio| (0..PANEL_COUNT).map(move |panel| (ratio, panel))) {
+    for (ratio, culprit) in RATIOS
+        .into_iter()
+        .flat_map(|ratio| (0..PANEL_COUNT).map(move |panel| (ratio, panel)))
+    {
         let mut gages = [TEST_GAGE; PANEL_COUNT];
         gages[culprit] *= ratio;
         let model = case.model_with(&gages)?;
@@ -53,15 +61,28 @@ pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseErro
             let mut found = [[0; 2]; 2];
             for test in tests {
                 let modal = model.analyze(&[1.0; PANEL_COUNT], test, None)?;
-                let rankings = [by_factor(&modal, &case.settings.inner)?, by_single_fit(&modal, &weights)?];
+                let rankings = [
+                    by_factor(&modal, &case.settings.inner)?,
+                    by_single_fit(&modal, &weights)?,
+                ];
                 for (found, suspects) in found.iter_mut().zip(rankings) {
-                    let place = suspects.iter().position(|suspect| suspect.parameter == culprit);
+                    let place = suspects
+                        .iter()
+                        .position(|suspect| suspect.parameter == culprit);
                     found[0] += usize::from(place == Some(0));
                     found[1] += usize::from(place.is_some_and(|place| place < 3));
                 }
             }
-            let (panel, tests, [by_factor, by_single_fit]) = (case.panels[culprit].label, tests.len(), found);
-            located.push(Located { panel, ratio, is_noisy, tests, by_factor, by_single_fit });
+            let (panel, tests, [by_factor, by_single_fit]) =
+                (case.panels[culprit].label, tests.len(), found);
+            located.push(Located {
+                panel,
+                ratio,
+                is_noisy,
+                tests,
+                by_factor,
+                by_single_fit,
+            });
         }
     }
     Ok(located)
@@ -72,7 +93,9 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
     let table = |ratio: f64| {
         let of_ratio = || located.iter().filter(move |of| of.ratio == ratio);
         let tests = of_ratio().find(|of| of.is_noisy).map_or(0, |of| of.tests);
-        let title = format!("One panel {ratio} times as thick as it should be: found, of {tests} noisy tests");
+        let title = format!(
+            "One panel {ratio} times as thick as it should be: found, of {tests} noisy tests"
+        );
         let mut table = Table::new(format!("localization_{ratio}"), title, "Panel")
             .headings(["Factor, no noise", "Factor first", "Factor in three"], "")
             .headings(["Fit, no noise", "Fit first", "Fit in three"], "");
@@ -80,8 +103,17 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
         for pair in of_ratio().collect::<Vec<_>>().chunks_exact(2) {
             let (exact, noisy) = (pair[0], pair[1]);
             let ([factor, factor_three], [fit, fit_three]) = (noisy.by_factor, noisy.by_single_fit);
-            let counts = [exact.by_factor[0], factor, factor_three, exact.by_single_fit[0], fit, fit_three];
-            sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+            let counts = [
+                exact.by_factor[0],
+                factor,
+                factor_three,
+                exact.by_single_fit[0],
+                fit,
+                fit_three,
+            ];
+            sums.iter_mut()
+                .zip(counts)
+                .for_each(|(sum, count)| *sum += count);
             table.row(exact.panel, counts.map(Cell::count));
         }
         table.row("all", sums.map(Cell::count));

@@ -7,8 +7,8 @@ use corfem::cases::error::CaseError;
 use corfem::cases::fit::rms;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use corfem::method::appendix_b::{
-    Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports, balance, examine,
-    rigid_body_vectors,
+    Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports,
+    balance, examine, rigid_body_vectors,
 };
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
@@ -26,7 +26,11 @@ pub const NOISY_CASE: usize = 2;
 /// Seeds of the noise, one run each.
 pub const SEEDS: RangeInclusive<u64> = 1..=20;
 /// Limits that no mode exceeds, to balance and orthogonalize without deleting.
-const NO_LIMITS: MovementLimits = MovementLimits { balance: 0.999, frequency: f64::MAX, shape: f64::MAX };
+const NO_LIMITS: MovementLimits = MovementLimits {
+    balance: 0.999,
+    frequency: f64::MAX,
+    shape: f64::MAX,
+};
 /// Rigid-body motions that points which move along z can show.
 const MOTIONS: [Motion; 3] = [Motion::Plunge, Motion::Roll, Motion::Pitch];
 
@@ -91,15 +95,32 @@ pub struct NoisyModes {
 ///
 /// # Errors
 /// Those of the model, of Appendix B and of the loops.
-pub fn noisy_modes(case: &Case, noise: Noise, seeds: RangeInclusive<u64>) -> Result<NoisyModes, CaseError> {
+pub fn noisy_modes(
+    case: &Case,
+    noise: Noise,
+    seeds: RangeInclusive<u64>,
+) -> Result<NoisyModes, CaseError> {
     let model = case.model()?;
     let exact = ModeSet::from(case.test_modes()?);
     let first = model.matrices(&vec![1.0; model.parameters().len()])?;
-    let point = |position| MeasuringPoint { position, direction: Vector3::z_axis() };
-    let points: Vec<_> = dynamic_points(&case.reconstruction)?.into_iter().map(point).collect();
+    let point = |position| MeasuringPoint {
+        position,
+        direction: Vector3::z_axis(),
+    };
+    let points: Vec<_> = dynamic_points(&case.reconstruction)?
+        .into_iter()
+        .map(point)
+        .collect();
     let rigid_body = &rigid_body_vectors(&MOTIONS, &points)?;
-    let (supports, support_ratio) = match balance(&exact, &first.stiffness, &first.mass, rigid_body) {
-        Ok(_) => (Supports::Free { stiffness: &first.stiffness, rigid_body }, None),
+    let (supports, support_ratio) = match balance(&exact, &first.stiffness, &first.mass, rigid_body)
+    {
+        Ok(_) => (
+            Supports::Free {
+                stiffness: &first.stiffness,
+                rigid_body,
+            },
+            None,
+        ),
         Err(Error::Supported { ratio, .. }) => (Supports::Held, Some(ratio)),
         Err(error) => return Err(error.into()),
     };
@@ -107,24 +128,50 @@ pub fn noisy_modes(case: &Case, noise: Noise, seeds: RangeInclusive<u64>) -> Res
     let run = |(seed, noise): (Option<u64>, Noise)| {
         let raw = with_noise(&exact, noise, seed.unwrap_or_default())?;
         let orthogonal = examine(&raw, &first.mass, supports, &NO_LIMITS)?.modes;
-        let Examination { modes, kept, .. } = examine(&raw, &first.mass, supports, &MovementLimits::default())?;
-        Ok(NoisyRun { seed, kept, raw: found(&raw)?, orthogonal: found(&orthogonal)?, screened: found(&modes)? })
+        let Examination { modes, kept, .. } =
+            examine(&raw, &first.mass, supports, &MovementLimits::default())?;
+        Ok(NoisyRun {
+            seed,
+            kept,
+            raw: found(&raw)?,
+            orthogonal: found(&orthogonal)?,
+            screened: found(&modes)?,
+        })
     };
     let all = std::iter::once((None, Noise::NONE)).chain(seeds.map(|seed| (Some(seed), noise)));
-    Ok(NoisyModes { case: case.number, noise, support_ratio, runs: all.map(run).collect::<Result<_, CaseError>>()? })
+    Ok(NoisyModes {
+        case: case.number,
+        noise,
+        support_ratio,
+        runs: all.map(run).collect::<Result<_, CaseError>>()?,
+    })
 }
 
-fn correlated(case: &Case, model: &FiniteElementModel, exact: &ModeSet, test: &ModeSet) -> Result<Found, CaseError> {
+fn correlated(
+    case: &Case,
+    model: &FiniteElementModel,
+    exact: &ModeSet,
+    test: &ModeSet,
+) -> Result<Found, CaseError> {
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
-    let correlation = correlate(|factors| model.analyze(factors, test, None), &ranges, &settings, |_, _| {})?;
+    let correlation = correlate(
+        |factors| model.analyze(factors, test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )?;
     let factors = &correlation.best_factors;
     let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(factors, exact, None)?.exact.errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {
         converged: correlation.converged,
-        iterations: correlation.passes.iter().map(|pass| pass.inner.iterations.len()).sum(),
+        iterations: correlation
+            .passes
+            .iter()
+            .map(|pass| pass.inner.iterations.len())
+            .sum(),
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
         gage_rms: rms(&errors),
@@ -140,24 +187,37 @@ type Quantity = (&'static str, &'static str, Digits, fn(&Found) -> f64);
 
 const GAGES: [Quantity; 3] = [
     ("shear", "%", PERCENT, |found| 100.0 * found.shear_gage_rms),
-    ("membrane", "%", PERCENT, |found| 100.0 * found.membrane_gage_rms),
+    ("membrane", "%", PERCENT, |found| {
+        100.0 * found.membrane_gage_rms
+    }),
     ("all", "%", PERCENT, |found| 100.0 * found.gage_rms),
 ];
 const COURSE: [Quantity; 2] = [
-    ("iterations", "", Digits::Fixed(0), |found| found.iterations as f64),
-    ("error sum", "%", RMS_PERCENT, |found| 100.0 * found.error_sum),
+    ("iterations", "", Digits::Fixed(0), |found| {
+        found.iterations as f64
+    }),
+    ("error sum", "%", RMS_PERCENT, |found| {
+        100.0 * found.error_sum
+    }),
 ];
 const TRUE_ERRORS: [Quantity; 2] = [
-    ("frequency", "%", RMS_PERCENT, |found| 100.0 * found.true_frequency_rms),
-    ("shape", "%", RMS_PERCENT, |found| 100.0 * found.true_shape_rms),
+    ("frequency", "%", RMS_PERCENT, |found| {
+        100.0 * found.true_frequency_rms
+    }),
+    ("shape", "%", RMS_PERCENT, |found| {
+        100.0 * found.true_shape_rms
+    }),
 ];
 
 /// One of a run's three correlations.
 type Side = fn(&NoisyRun) -> &Found;
 
 /// The names of the test modes that they are given.
-const SIDES: [(&str, Side); 3] =
-    [("Raw", |run| &run.raw), ("Orthogonal", |run| &run.orthogonal), ("Screened", |run| &run.screened)];
+const SIDES: [(&str, Side); 3] = [
+    ("Raw", |run| &run.raw),
+    ("Orthogonal", |run| &run.orthogonal),
+    ("Screened", |run| &run.screened),
+];
 
 /// The study's tables: the gages found, how the correlations went, and how far they end from the true modes; a row
 /// without noise, one for every seed, and the median and the worst over the seeds.
@@ -195,20 +255,36 @@ pub fn noisy_tables(study: &NoisyModes) -> Vec<Table> {
     let kept = study.runs.iter().map(|run| Cell::count(run.kept.len()));
     vec![
         table(study, "gages", "RMS gage errors", &GAGES).notes([noise, balance, gains]),
-        table(study, "course", "how the correlations went", &COURSE).column("Modes kept", "", kept).notes([met]),
-        table(study, "truth", "RMS errors beside the modes without noise", &TRUE_ERRORS),
+        table(study, "course", "how the correlations went", &COURSE)
+            .column("Modes kept", "", kept)
+            .notes([met]),
+        table(
+            study,
+            "truth",
+            "RMS errors beside the modes without noise",
+            &TRUE_ERRORS,
+        ),
     ]
 }
 
 /// Quantities of all correlations run by run, and their median and largest value over the seeds.
 fn table(study: &NoisyModes, name: &str, what: &str, quantities: &[Quantity]) -> Table {
     let title = format!("Case {} with noisy test modes: {what}", study.case);
-    let labels = study.runs.iter().map(|run| run.seed.map_or_else(|| "no noise".to_owned(), |seed| seed.to_string()));
-    let mut table = Table::new(format!("noisy_{name}"), title, "Seed").labels(labels).labels(["median", "worst"]);
+    let labels = study.runs.iter().map(|run| {
+        run.seed
+            .map_or_else(|| "no noise".to_owned(), |seed| seed.to_string())
+    });
+    let mut table = Table::new(format!("noisy_{name}"), title, "Seed")
+        .labels(labels)
+        .labels(["median", "worst"]);
     for (name, unit, digits, value) in quantities {
         for (side_name, side) in SIDES {
             let values = study.runs.iter().map(|run| value(side(run)));
-            let of_seeds = study.runs.iter().filter(|run| run.seed.is_some()).map(|run| value(side(run)));
+            let of_seeds = study
+                .runs
+                .iter()
+                .filter(|run| run.seed.is_some())
+                .map(|run| value(side(run)));
             let mut of_seeds: Vec<f64> = of_seeds.collect();
             of_seeds.sort_by(f64::total_cmp);
             let last = of_seeds.len().checked_sub(1);

@@ -34,7 +34,18 @@ pub enum Mistake {
 /// All mistakes.
 pub const MISTAKES: [Mistake; 10] = {
     use Mistake::*;
-    [Factor, Reversed, Exchanged, Reordered, TwoColumns, Columns, Transposed, Frequencies, Repeated, FewPoints]
+    [
+        Factor,
+        Reversed,
+        Exchanged,
+        Reordered,
+        TwoColumns,
+        Columns,
+        Transposed,
+        Frequencies,
+        Repeated,
+        FewPoints,
+    ]
 };
 
 /// Numbers below a bound, from a seed.
@@ -54,7 +65,9 @@ impl Draw {
 
     fn order(&mut self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..count).collect();
-        (1..count).rev().for_each(|last| order.swap(last, self.below(last + 1)));
+        (1..count)
+            .rev()
+            .for_each(|last| order.swap(last, self.below(last + 1)));
         order
     }
 }
@@ -76,7 +89,10 @@ pub(super) type Planted = (Specimen, Box<dyn Fn(&Finding) -> Naming>);
 fn names(change: Change) -> Box<dyn Fn(&Finding) -> Naming> {
     Box::new(move |finding| match finding {
         Finding::Mended(mended) if mended.change == change => Naming::First,
-        Finding::Mended(Mended { next: Some((next, _)), .. }) if *next == change => Naming::Next,
+        Finding::Mended(Mended {
+            next: Some((next, _)),
+            ..
+        }) if *next == change => Naming::Next,
         _ => Naming::Not,
     })
 }
@@ -105,8 +121,15 @@ fn inverse(order: &[usize]) -> Vec<usize> {
 }
 
 /// A structure whose test has noise, with a mistake; none where the structure does not allow it.
-pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Option<Planted>, Error> {
-    let mut specimen = Specimen { test: with_noise(&right.test, Noise::USUAL, seed)?, ..right.clone() };
+pub(super) fn plant(
+    right: &Specimen,
+    mistake: Mistake,
+    seed: u64,
+) -> Result<Option<Planted>, Error> {
+    let mut specimen = Specimen {
+        test: with_noise(&right.test, Noise::USUAL, seed)?,
+        ..right.clone()
+    };
     let (points, modes) = specimen.test.shapes.shape();
     let mut draw = Draw(seed);
     let shapes = &mut specimen.test.shapes;
@@ -115,7 +138,9 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
             let known = FACTORS[seed as usize % FACTORS.len()];
             specimen.test.omega_squared *= known.factor.powi(2);
             Box::new(move |finding| {
-                either(matches!(finding, Finding::CommonFactor(found) if found.named == Some(known)))
+                either(
+                    matches!(finding, Finding::CommonFactor(found) if found.named == Some(known)),
+                )
             })
         }
         Mistake::Reversed => {
@@ -145,7 +170,11 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
                 names(Change::Columns(inverse(&order)))
             } else {
                 specimen.model.mass = reordered(&specimen.model.mass, &order);
-                names(if mistake == Mistake::Columns { Change::Reordered(order) } else { Change::Exchanged(two) })
+                names(if mistake == Mistake::Columns {
+                    Change::Reordered(order)
+                } else {
+                    Change::Exchanged(two)
+                })
             }
         }
         Mistake::Transposed if points == modes => {
@@ -157,7 +186,9 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
             let two = draw.two(modes);
             specimen.test.omega_squared.swap_rows(two[0], two[1]);
             Box::new(move |finding| {
-                either(matches!(finding, Finding::FrequenciesExchanged(found) if found.modes == two))
+                either(
+                    matches!(finding, Finding::FrequenciesExchanged(found) if found.modes == two),
+                )
             })
         }
         Mistake::Repeated => {
@@ -166,7 +197,9 @@ pub(super) fn plant(right: &Specimen, mistake: Mistake, seed: u64) -> Result<Opt
             let again = with_noise(&right.test, Noise::USUAL, seed + 1_000_000)?;
             shapes.set_column(two[1], &again.shapes.column(two[0]));
             specimen.test.omega_squared[two[1]] = again.omega_squared[two[0]];
-            Box::new(move |finding| either(matches!(finding, Finding::NearlySame { modes, .. } if *modes == two)))
+            Box::new(move |finding| {
+                either(matches!(finding, Finding::NearlySame { modes, .. } if *modes == two))
+            })
         }
         Mistake::FewPoints => {
             let mut kept = draw.order(points);

@@ -58,23 +58,42 @@ pub fn rates(specimen: &Specimen, seeds: RangeInclusive<u64>) -> Result<Rates, E
     let is_low = |finding: &Finding| matches!(finding, Finding::LowPair { .. });
     // A low pair with other digits is the same one.
     let is_new = |finding: &&Finding| match finding {
-        Finding::LowPair { test, .. } => {
-            !clean.iter().any(|known| matches!(known, Finding::LowPair { test: t, .. } if t == test))
-        }
+        Finding::LowPair { test, .. } => !clean
+            .iter()
+            .any(|known| matches!(known, Finding::LowPair { test: t, .. } if t == test)),
         other => !clean.contains(other),
     };
     let name = specimen.name.clone();
-    let mut found = Rates { name, seeds: 0, clean: clean.clone(), false_alarms: 0, low_pairs: 0, rates: Vec::new() };
+    let mut found = Rates {
+        name,
+        seeds: 0,
+        clean: clean.clone(),
+        false_alarms: 0,
+        low_pairs: 0,
+        rates: Vec::new(),
+    };
     for seed in seeds.clone() {
         let findings = specimen.findings(&with_noise(&specimen.test, Noise::USUAL, seed)?)?;
         found.seeds += 1;
-        found.false_alarms += usize::from(findings.iter().filter(is_new).any(|finding| !is_low(finding)));
+        found.false_alarms += usize::from(
+            findings
+                .iter()
+                .filter(is_new)
+                .any(|finding| !is_low(finding)),
+        );
         found.low_pairs += usize::from(findings.iter().filter(is_new).any(is_low));
     }
     for mistake in MISTAKES {
-        let mut rate = Rate { mistake, named: 0, told: 0, said: 0 };
+        let mut rate = Rate {
+            mistake,
+            named: 0,
+            told: 0,
+            said: 0,
+        };
         for seed in seeds.clone() {
-            let Some((planted, naming)) = plant(specimen, mistake, seed)? else { break };
+            let Some((planted, naming)) = plant(specimen, mistake, seed)? else {
+                break;
+            };
             let findings = planted.findings(&planted.test)?;
             let naming = findings.iter().map(naming).max().unwrap_or(Naming::Not);
             rate.named += usize::from(naming == Naming::First);
@@ -95,14 +114,25 @@ const SPRING_ERRORS: [f64; 8] = [0.8, 1.25, 1.0, 0.75, 1.0, 1.3, 0.9, 1.0];
 /// Those of [`solve`].
 pub fn spring_chain() -> Result<Specimen, Error> {
     let count = SPRING_ERRORS.len();
-    let spring = |s: usize, error: f64| spring_stiffness(count, s, 1e6 * error * (1.0 - 0.08 * s as f64));
+    let spring =
+        |s: usize, error: f64| spring_stiffness(count, s, 1e6 * error * (1.0 - 0.08 * s as f64));
     let right: DMatrix<f64> = (0..count).map(|s| spring(s, 1.0)).sum();
-    let wrong = SPRING_ERRORS.iter().enumerate().map(|(s, &error)| spring(s, error)).sum();
-    let mass = DMatrix::from_diagonal(&DVector::from_fn(count, |point, _| 1.0 - 0.06 * point as f64));
+    let wrong = SPRING_ERRORS
+        .iter()
+        .enumerate()
+        .map(|(s, &error)| spring(s, error))
+        .sum();
+    let mass = DMatrix::from_diagonal(&DVector::from_fn(count, |point, _| {
+        1.0 - 0.06 * point as f64
+    }));
     Ok(Specimen {
         name: "Spring chain".to_owned(),
         test: solve(&right, &mass, count)?.into(),
-        model: DynamicModel { stiffness: wrong, mass, shares: Vec::new() },
+        model: DynamicModel {
+            stiffness: wrong,
+            mass,
+            shares: Vec::new(),
+        },
         settings: Settings::default(),
         ranges: vec![None; count],
     })
@@ -115,7 +145,10 @@ pub fn spring_chain() -> Result<Specimen, Error> {
 pub fn all_rates(seeds: RangeInclusive<u64>) -> Result<Vec<Rates>, CaseError> {
     let [case_2, case_3] = [2, 3].map(|case| Specimen::of_case(&Case::new(case)?));
     let specimens = [case_2?, case_3?, Specimen::delta_wing()?, spring_chain()?];
-    specimens.iter().map(|specimen| Ok(rates(specimen, seeds.clone())?)).collect()
+    specimens
+        .iter()
+        .map(|specimen| Ok(rates(specimen, seeds.clone())?))
+        .collect()
 }
 
 /// A count over the seeds of one mistake.
@@ -131,15 +164,23 @@ pub fn rate_tables(rates: &[Rates]) -> Vec<Table> {
     ];
     let mut tables = sides.map(|(name, what, count)| {
         let title = format!("Mistakes made on purpose: {what}, of {seeds} seeds");
-        let table = Table::new(format!("preflight_{name}"), title, "Mistake").labels(MISTAKES.map(words));
+        let table =
+            Table::new(format!("preflight_{name}"), title, "Mistake").labels(MISTAKES.map(words));
         rates.iter().fold(table, |table, rates| {
             let rate = |mistake| rates.rates.iter().find(|rate| rate.mistake == mistake);
-            let counts = MISTAKES.map(|mistake| rate(mistake).map_or(Cell::Blank, |rate| Cell::count(count(rate))));
+            let counts = MISTAKES
+                .map(|mistake| rate(mistake).map_or(Cell::Blank, |rate| Cell::count(count(rate))));
             table.column(&rates.name, "", counts)
         })
     });
-    tables[0].row("none: false alarms", rates.iter().map(|rates| Cell::count(rates.false_alarms)));
-    tables[0].row("none: a low pair by noise", rates.iter().map(|rates| Cell::count(rates.low_pairs)));
+    tables[0].row(
+        "none: false alarms",
+        rates.iter().map(|rates| Cell::count(rates.false_alarms)),
+    );
+    tables[0].row(
+        "none: a low pair by noise",
+        rates.iter().map(|rates| Cell::count(rates.low_pairs)),
+    );
     tables[0].notes.push(format!(
         "Noise: {}. What a mistake hits is drawn anew with every seed. Named: with all its places right.",
         noise_words(Noise::USUAL)

@@ -29,10 +29,28 @@ pub struct Compared {
 }
 
 /// How far factors are from the true ones, and what it took to find them.
-fn compared(known: &Known, rule: &'static str, [steps, analyses]: [usize; 2], factors: &[f64]) -> Compared {
-    let errors: Vec<f64> = factors.iter().zip(&known.truth).map(|(found, right)| found / right - 1.0).collect();
-    let largest = errors.iter().fold(0.0, |largest, error| error.abs().max(largest));
-    Compared { name: known.name.clone(), rule, steps, analyses, factor_rms: rms(&errors), largest }
+fn compared(
+    known: &Known,
+    rule: &'static str,
+    [steps, analyses]: [usize; 2],
+    factors: &[f64],
+) -> Compared {
+    let errors: Vec<f64> = factors
+        .iter()
+        .zip(&known.truth)
+        .map(|(found, right)| found / right - 1.0)
+        .collect();
+    let largest = errors
+        .iter()
+        .fold(0.0, |largest, error| error.abs().max(largest));
+    Compared {
+        name: known.name.clone(),
+        rule,
+        steps,
+        analyses,
+        factor_rms: rms(&errors),
+        largest,
+    }
 }
 
 /// Cases 1 to 3 and the delta wing before correction, by the paper's rule and by Gauss–Newton, within the same bounds.
@@ -42,18 +60,44 @@ fn compared(known: &Known, rule: &'static str, [steps, analyses]: [usize; 2], fa
 pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, CaseError> {
     let of = |number| {
         let (known, paper) = match number {
-            0 => (Known::delta_wing()?, correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation),
-            _ => (Known::of_case(number)?, run_case(&Case::new(number)?, |_, _| {})?.correlation),
+            0 => (
+                Known::delta_wing()?,
+                correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation,
+            ),
+            _ => (
+                Known::of_case(number)?,
+                run_case(&Case::new(number)?, |_, _| {})?.correlation,
+            ),
         };
         let weights = equal_weights(DEVIATIONS, known.test.len())?;
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
-        let found = gauss_newton(analyze, &ones, &known.model.factor_ranges()?, &weights, settings)?;
-        let steps = paper.passes.iter().map(|pass| pass.inner.iterations.len()).sum();
+        let found = gauss_newton(
+            analyze,
+            &ones,
+            &known.model.factor_ranges()?,
+            &weights,
+            settings,
+        )?;
+        let steps = paper
+            .passes
+            .iter()
+            .map(|pass| pass.inner.iterations.len())
+            .sum();
         Ok([
             compared(&known, "none", [0, 1], &ones),
-            compared(&known, "paper", [steps, paper.passes.len() + 1], &paper.best_factors),
-            compared(&known, "gauss_newton", [found.iterations.len(), found.analyses], &found.factors),
+            compared(
+                &known,
+                "paper",
+                [steps, paper.passes.len() + 1],
+                &paper.best_factors,
+            ),
+            compared(
+                &known,
+                "gauss_newton",
+                [found.iterations.len(), found.analyses],
+                &found.factors,
+            ),
         ])
     };
     [1, 2, 3, 0].into_iter().map(of).collect()
@@ -75,7 +119,10 @@ pub fn rules_table(compared: &[[Compared; 3]]) -> Table {
             _ => "weighted",
         };
         let counts = [of.steps, of.analyses].map(Cell::count).into_iter();
-        table.row(format!("{}, {rule}", of.name), counts.chain(percents([of.factor_rms, of.largest], RMS_PERCENT)));
+        table.row(
+            format!("{}, {rule}", of.name),
+            counts.chain(percents([of.factor_rms, of.largest], RMS_PERCENT)),
+        );
     }
     table
 }

@@ -32,7 +32,12 @@ impl Specimen {
     /// Those of its model.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         let (model, test) = (case.model()?, case.test_modes()?.into());
-        Self::of(&format!("Case {}", case.number), &model, test, case.settings.clone())
+        Self::of(
+            &format!("Case {}", case.number),
+            &model,
+            test,
+            case.settings.clone(),
+        )
     }
 
     /// The delta wing with its wrong gages, and ten modes at 19 points.
@@ -40,14 +45,27 @@ impl Specimen {
     /// # Errors
     /// Those of the wing and of its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let Known { name, model, test, .. } = Known::delta_wing()?;
+        let Known {
+            name, model, test, ..
+        } = Known::delta_wing()?;
         Self::of(&name, &model, test, correlation::settings())
     }
 
-    fn of(name: &str, model: &FiniteElementModel, test: ModeSet, settings: Settings) -> Result<Self, CaseError> {
+    fn of(
+        name: &str,
+        model: &FiniteElementModel,
+        test: ModeSet,
+        settings: Settings,
+    ) -> Result<Self, CaseError> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
         let model = model.matrices(&vec![1.0; ranges.len()])?;
-        Ok(Self { name, model, test, settings, ranges })
+        Ok(Self {
+            name,
+            model,
+            test,
+            settings,
+            ranges,
+        })
     }
 
     /// What the pre-flight finds beside a test.

@@ -70,10 +70,22 @@ fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
 fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    let lower = stiffness.clone().cholesky().expect("a constrained structure").l();
-    let half = lower.solve_lower_triangular(mass).expect("a nonzero diagonal");
-    let reduced = lower.solve_lower_triangular(&half.transpose()).expect("a nonzero diagonal");
-    let mut roots: Vec<f64> = SymmetricEigen::new(symmetric(&reduced)).eigenvalues.iter().copied().collect();
+    let lower = stiffness
+        .clone()
+        .cholesky()
+        .expect("a constrained structure")
+        .l();
+    let half = lower
+        .solve_lower_triangular(mass)
+        .expect("a nonzero diagonal");
+    let reduced = lower
+        .solve_lower_triangular(&half.transpose())
+        .expect("a nonzero diagonal");
+    let mut roots: Vec<f64> = SymmetricEigen::new(symmetric(&reduced))
+        .eigenvalues
+        .iter()
+        .copied()
+        .collect();
     roots.sort_by(|a, b| b.total_cmp(a));
     roots
 }
@@ -84,17 +96,22 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
         let case = Case::new(number).expect("a case");
         let model = case.model().expect("a model");
         let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
-        let modes = corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+        let modes =
+            corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let sizes = model.sizes(&[1.0; 15]).expect("sizes");
         let stiffness =
-            corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, 36).expect("stiffness");
+            corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, 36)
+                .expect("stiffness");
         let t = &model.load_distribution().dense();
         let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
         assert_eq!(roots.len(), 36);
         for (omega_squared, root) in modes.omega_squared.iter().zip(&roots) {
             approx::assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
         }
-        assert!(roots[9].abs() < SINGULAR_MASS_ROOT * roots[8], "case {number}: {roots:?}");
+        assert!(
+            roots[9].abs() < SINGULAR_MASS_ROOT * roots[8],
+            "case {number}: {roots:?}"
+        );
     }
 }
 
@@ -103,7 +120,10 @@ fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     let case = Case::new(number).expect("a case");
     let points = dynamic_points(&case.reconstruction).expect("points");
     let bulk = BulkData::of(&case.model().expect("a model"), factors, &points).expect("bulk data");
-    let task = Task::Modes { count: 9, range_hz: [5.0, 3000.0] };
+    let task = Task::Modes {
+        count: 9,
+        range_hz: [5.0, 3000.0],
+    };
     let text = deck::write(&bulk, "box", &task).expect("a deck");
     (bulk, text)
 }
@@ -118,7 +138,8 @@ fn the_box_read_from_its_deck_has_its_modes() {
         let found = deck::modes(&read.model).expect("modes");
         let model = Case::new(number).expect("a case").model().expect("a model");
         let dynamic = model.matrices(&factors).expect("an analysis");
-        let expected = corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+        let expected =
+            corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();
         assert_eq!(labels, (101..=109).collect::<Vec<_>>());
         assert!(found.dof.iter().all(|dof| dof.direction == 2));
@@ -126,28 +147,55 @@ fn the_box_read_from_its_deck_has_its_modes() {
         // An eigensolution rounds by the largest of its eigenvalues, in the lowest mode 1e5 times its own.
         let highest = expected.omega_squared.max();
         let lowest = expected.omega_squared.iter().map(|value| highest / value);
-        for ((a, b), spread) in found.modes.frequencies_hz().iter().zip(expected.frequencies_hz()).zip(lowest) {
-            approx::assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING + f64::EPSILON * spread);
+        for ((a, b), spread) in found
+            .modes
+            .frequencies_hz()
+            .iter()
+            .zip(expected.frequencies_hz())
+            .zip(lowest)
+        {
+            approx::assert_relative_eq!(
+                *a,
+                b,
+                max_relative = DECK_ROUNDING + f64::EPSILON * spread
+            );
         }
         // A shape component moves with the tenth digit of T by as much as modes are close.
         let largest = expected.shapes.amax();
-        approx::assert_relative_eq!(found.modes.shapes, expected.shapes, epsilon = 1e3 * DECK_ROUNDING * largest);
-        let generalized = found.modes.shapes.tr_mul(&(model.mass() * &found.modes.shapes));
-        approx::assert_relative_eq!(generalized, DMatrix::identity(9, 9), epsilon = 1e3 * ROUND_OFF);
+        approx::assert_relative_eq!(
+            found.modes.shapes,
+            expected.shapes,
+            epsilon = 1e3 * DECK_ROUNDING * largest
+        );
+        let generalized = found
+            .modes
+            .shapes
+            .tr_mul(&(model.mass() * &found.modes.shapes));
+        approx::assert_relative_eq!(
+            generalized,
+            DMatrix::identity(9, 9),
+            epsilon = 1e3 * ROUND_OFF
+        );
     }
 }
 
 #[test]
 fn mpc_cards_are_the_load_distribution() {
     let (_, text) = box_deck(2, &[1.0; 15]);
-    let read = deck::read("box", text.as_bytes(), &[]).expect("it reads").model;
+    let read = deck::read("box", text.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
     let elements = element_matrices(&structure).expect("elements");
     let dynamic = read.mass_dof(&structure, &elements).expect("masses");
     assert_eq!(dynamic.load_distribution.shape(), (36, 9));
-    for (read, meant) in dynamic.load_distribution.iter().zip(model.load_distribution().dense().iter()) {
+    for (read, meant) in dynamic
+        .load_distribution
+        .iter()
+        .zip(model.load_distribution().dense().iter())
+    {
         assert_eq!(*read, nearest_in_field(*meant));
     }
     assert_eq!(DMatrix::from_diagonal(&dynamic.mass), *model.mass());
@@ -163,9 +211,21 @@ fn dynamic_points_lie_at_mid_depth() {
     for (rib, first) in [(0, 1), (1, 5), (2, 9)] {
         let at = |grid: usize| nalgebra::Vector3::from(grids[&grid]);
         let point = |k: usize| bulk.grids[16 + 3 * rib + k].position;
-        approx::assert_relative_eq!(point(0), 0.5 * (at(first) + at(first + 1)), epsilon = ROUND_OFF);
-        approx::assert_relative_eq!(point(2), 0.5 * (at(first + 2) + at(first + 3)), epsilon = ROUND_OFF);
+        approx::assert_relative_eq!(
+            point(0),
+            0.5 * (at(first) + at(first + 1)),
+            epsilon = ROUND_OFF
+        );
+        approx::assert_relative_eq!(
+            point(2),
+            0.5 * (at(first + 2) + at(first + 3)),
+            epsilon = ROUND_OFF
+        );
         let fraction = case.reconstruction.mid_chord_fraction;
-        approx::assert_relative_eq!(point(1) - point(0), fraction * (point(2) - point(0)), epsilon = 100.0 * ROUND_OFF);
+        approx::assert_relative_eq!(
+            point(1) - point(0),
+            fraction * (point(2) - point(0)),
+            epsilon = 100.0 * ROUND_OFF
+        );
     }
 }

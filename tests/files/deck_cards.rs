@@ -16,7 +16,12 @@ fn refused(deck: &str) -> Vec<Unread> {
 }
 
 fn unknown(card: &str, line: usize, count: usize) -> Unread {
-    Unread { card: card.into(), line, count, reason: Reason::Unknown }
+    Unread {
+        card: card.into(),
+        line,
+        count,
+        reason: Reason::Unknown,
+    }
 }
 
 /// One test for every family of cards, by name: cards of the family, the last with two lines of one card.
@@ -61,10 +66,17 @@ families! {
 
 #[test]
 fn all_of_them_stand_in_one_error_before_any_other() {
-    let deck = format!("CBAR,1,1,1,2\n{GOOD}CSHAER,9,9,1,2,1,2\nGRID,x\nCBAR,2,1,1,2,,,,,+A\n+A,9\nFORCE,1,2\n");
-    assert_eq!(refused(&deck), [unknown("CBAR", 1, 2), unknown("CSHAER", 9, 1)]);
+    let deck = format!(
+        "CBAR,1,1,1,2\n{GOOD}CSHAER,9,9,1,2,1,2\nGRID,x\nCBAR,2,1,1,2,,,,,+A\n+A,9\nFORCE,1,2\n"
+    );
     assert_eq!(
-        deck::read("wing.dat", deck.as_bytes(), &[]).expect_err("three cards").to_string(),
+        refused(&deck),
+        [unknown("CBAR", 1, 2), unknown("CSHAER", 9, 1)]
+    );
+    assert_eq!(
+        deck::read("wing.dat", deck.as_bytes(), &[])
+            .expect_err("three cards")
+            .to_string(),
         "wing.dat: expected cards that are read here, found CBAR (line 1, 2 cards), CSHAER (line 9, 1 card); they may \
          carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them out \
          with --ignore 'CBAR,CSHAER'"
@@ -73,9 +85,13 @@ fn all_of_them_stand_in_one_error_before_any_other() {
 
 #[test]
 fn other_files_are_refused_in_every_section() {
-    let deck =
-        format!("ID A\nREADFILE exec\nCEND\n  include 'case.inc'\nSPC = 1\nBEGIN BULK\n{GOOD}INCLUDE'bulk.bdf'\n");
-    assert_eq!(refused(&deck), [unknown("READFILE", 2, 1), unknown("INCLUDE", 4, 2)]);
+    let deck = format!(
+        "ID A\nREADFILE exec\nCEND\n  include 'case.inc'\nSPC = 1\nBEGIN BULK\n{GOOD}INCLUDE'bulk.bdf'\n"
+    );
+    assert_eq!(
+        refused(&deck),
+        [unknown("READFILE", 2, 1), unknown("INCLUDE", 4, 2)]
+    );
     let title = format!("TITLE = INCLUDE NOTHING\nSPC = 1\nBEGIN BULK\n{GOOD}");
     assert!(deck::read("wing.dat", title.as_bytes(), &[]).is_ok());
 }
@@ -83,8 +99,9 @@ fn other_files_are_refused_in_every_section() {
 #[test]
 fn a_slip_in_any_name_is_refused() {
     let names = [
-        "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "EIGR",
-        "EIGRL", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM", "PTRMEM", "FORCE", "LOAD",
+        "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD",
+        "PARAM", "EIGR", "EIGRL", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM",
+        "PTRMEM", "FORCE", "LOAD",
     ];
     for name in names {
         for place in 0..name.len() {
@@ -93,8 +110,13 @@ fn a_slip_in_any_name_is_refused() {
             let mut exchanged: Vec<char> = name.chars().collect();
             exchanged.swap(place, (place + 1) % name.len());
             for slip in [without, doubled, exchanged.into_iter().collect()] {
-                if slip.starts_with(|c: char| c.is_ascii_alphabetic()) && !names.contains(&slip.as_str()) {
-                    assert_eq!(refused(&format!("{GOOD}{slip},9\n")), [unknown(&slip, 8, 1)]);
+                if slip.starts_with(|c: char| c.is_ascii_alphabetic())
+                    && !names.contains(&slip.as_str())
+                {
+                    assert_eq!(
+                        refused(&format!("{GOOD}{slip},9\n")),
+                        [unknown(&slip, 8, 1)]
+                    );
                 }
             }
         }
@@ -104,7 +126,11 @@ fn a_slip_in_any_name_is_refused() {
 #[test]
 fn a_consistent_mass_that_is_off_is_a_note() {
     for value in ["-1", "0", "NO", ""] {
-        let read = deck::read("wing.dat", format!("{GOOD}PARAM,COUPMASS,{value}\n").as_bytes(), &[]);
+        let read = deck::read(
+            "wing.dat",
+            format!("{GOOD}PARAM,COUPMASS,{value}\n").as_bytes(),
+            &[],
+        );
         // A blank is not off for sure.
         assert_eq!(read.is_ok(), !value.is_empty(), "{value}");
     }
@@ -113,10 +139,21 @@ fn a_consistent_mass_that_is_off_is_a_note() {
 #[test]
 fn what_is_read_cannot_be_ignored() {
     for name in ["GRID", "CROD", "PSHEAR", "MAT1", "SPCADD", "PARAM WTMASS"] {
-        let error = deck::read("wing.dat", GOOD.as_bytes(), &["CBAR".into(), name.into()]).expect_err(name);
-        assert_eq!(error.to_string(), format!("--ignore: expected a card that is not read here, found {name}"));
+        let error =
+            deck::read("wing.dat", GOOD.as_bytes(), &["CBAR".into(), name.into()]).expect_err(name);
+        assert_eq!(
+            error.to_string(),
+            format!("--ignore: expected a card that is not read here, found {name}")
+        );
     }
     assert!(
-        deck::read("wing.dat", GOOD.as_bytes(), &["CBAR".into(), "FORCE".into()]).expect("it reads").unread.is_empty()
+        deck::read(
+            "wing.dat",
+            GOOD.as_bytes(),
+            &["CBAR".into(), "FORCE".into()]
+        )
+        .expect("it reads")
+        .unread
+        .is_empty()
     );
 }

@@ -107,11 +107,22 @@ fn a_bad_field_is_named_with_file_line_and_card() {
         let field: usize = field.parse().expect(row);
         let error = error(line, card);
         let name = card.split([',', '*']).next().expect("a name");
-        let FileError::DeckField { file, line: at, card: of, field: number, expected: wanted, found: there } = &error
+        let FileError::DeckField {
+            file,
+            line: at,
+            card: of,
+            field: number,
+            expected: wanted,
+            found: there,
+        } = &error
         else {
             panic!("{card}: {error}");
         };
-        assert_eq!((file.as_str(), *at, of.as_str()), ("wing.dat", line.unwrap_or(8), name), "{card}");
+        assert_eq!(
+            (file.as_str(), *at, of.as_str()),
+            ("wing.dat", line.unwrap_or(8), name),
+            "{card}"
+        );
         assert_eq!((*number, there.as_str()), (field, found), "{card}: {error}");
         assert!(wanted.contains(expected), "{card}: {error}");
     }
@@ -128,7 +139,14 @@ fn a_bad_field_of_a_continuation_has_its_own_line_and_number() {
     assert_eq!(field_of("SPC1,1,1,1,1,1,1,1,1,+S\n+S,1,7"), (9, 13));
     let tied = "MPC,1,2,1,-1.,1,1,1.,,+M\n+M,,1,2,1.,2,3,x,,+N\n+N,,1,1,1.";
     assert_eq!(field_of(tied), (9, 18));
-    assert_eq!(field_of(&tied.replace(",x,", ",1.,").replace("+N,,1,1,1.", "+N,,1,9,1.")), (10, 24));
+    assert_eq!(
+        field_of(
+            &tied
+                .replace(",x,", ",1.,")
+                .replace("+N,,1,1,1.", "+N,,1,9,1.")
+        ),
+        (10, 24)
+    );
 }
 
 #[test]
@@ -146,12 +164,22 @@ MPC,1,3,1,-1.,1,2,1.,,+M
         matches!(&error, FileError::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
         "{error}"
     );
-    let error = deck::read("wing.dat", deck.replace("MPC,1,3,1", "MPC,1,2,1").as_bytes(), &[]).expect_err("tied twice");
+    let error = deck::read(
+        "wing.dat",
+        deck.replace("MPC,1,3,1", "MPC,1,2,1").as_bytes(),
+        &[],
+    )
+    .expect_err("tied twice");
     assert!(
         matches!(&error, FileError::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
         "{error}"
     );
-    let error = deck::read("wing.dat", deck.replace("MPC,1,3,1", "MPC,7,3,1").as_bytes(), &[]).expect_err("two sets");
+    let error = deck::read(
+        "wing.dat",
+        deck.replace("MPC,1,3,1", "MPC,7,3,1").as_bytes(),
+        &[],
+    )
+    .expect_err("two sets");
     assert!(
         matches!(&error, FileError::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
         "{error}"
@@ -172,12 +200,21 @@ fn messages_say_what_was_expected_and_found() {
 
 #[test]
 fn what_no_deck_can_hold_is_refused() {
-    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("it reads").model;
+    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let write = |model: &deck::BulkData| deck::bulk_data(model);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");
     assert!(
-        matches!(error, FileError::Method(Error::NotFinite { what: "number on a bulk data card", column: 3, .. })),
+        matches!(
+            error,
+            FileError::Method(Error::NotFinite {
+                what: "number on a bulk data card",
+                column: 3,
+                ..
+            })
+        ),
         "{error}"
     );
     model.grids[0].position.y = 0.0;

@@ -45,8 +45,16 @@ pub fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
             Parameter::group("webs", &WEBS),
             Parameter::of("mass of covers", Scaled::ElementMass, &COVERS),
             Parameter::of("mass of rods", Scaled::ElementMass, &rods),
-            Parameter::of("mass at the tip", Scaled::PointMass, &(0..12).collect::<Vec<_>>()),
-            Parameter::of("mass inboard", Scaled::PointMass, &(24..36).collect::<Vec<_>>()),
+            Parameter::of(
+                "mass at the tip",
+                Scaled::PointMass,
+                &(0..12).collect::<Vec<_>>(),
+            ),
+            Parameter::of(
+                "mass inboard",
+                Scaled::PointMass,
+                &(24..36).collect::<Vec<_>>(),
+            ),
         ],
     )
     .expect("a model")
@@ -58,7 +66,9 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
     let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes");
     let bulk = BulkData::of(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
     let text = bulk_data(&bulk).expect("a deck");
-    let read = deck::read("box", text.as_bytes(), &[]).expect("it reads").model;
+    let read = deck::read("box", text.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let modes = deck::modes(&read).expect("modes").modes;
     [&own.omega_squared, &modes.omega_squared].map(|squared| squared.as_slice().to_vec())
 }

@@ -31,8 +31,16 @@ fn one_mass_on_one_rod() {
         let found = modes(&format!("{ROD}CMASS2,7,{text},2,1")).expect("modes");
         assert_eq!(found.modes.shapes.shape(), (1, 1));
         let frequency = (1000.0 / mass).sqrt() / (2.0 * PI);
-        approx::assert_relative_eq!(found.modes.frequencies_hz()[0], frequency, max_relative = EIGEN_ROUND_OFF);
-        approx::assert_relative_eq!(found.modes.shapes[0], mass.powf(-0.5), max_relative = EIGEN_ROUND_OFF);
+        approx::assert_relative_eq!(
+            found.modes.frequencies_hz()[0],
+            frequency,
+            max_relative = EIGEN_ROUND_OFF
+        );
+        approx::assert_relative_eq!(
+            found.modes.shapes[0],
+            mass.powf(-0.5),
+            max_relative = EIGEN_ROUND_OFF
+        );
         assert_eq!((found.dof[0].grid, found.dof[0].direction), (2, 0));
     }
 }
@@ -40,10 +48,17 @@ fn one_mass_on_one_rod() {
 #[test]
 fn conm2_moves_where_the_grid_can() {
     // Held directions carry mass that does not move; grid 1 none at all.
-    let found = modes(&format!("{ROD}CONM2,7,2,,.3\nCONM2,8,1,0,5.\nCMASS2,9,.1,2,1")).expect("modes");
+    let found = modes(&format!(
+        "{ROD}CONM2,7,2,,.3\nCONM2,8,1,0,5.\nCMASS2,9,.1,2,1"
+    ))
+    .expect("modes");
     assert_eq!(found.dof.len(), 1);
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(found.modes.frequencies_hz()[0], frequency, max_relative = EIGEN_ROUND_OFF);
+    approx::assert_relative_eq!(
+        found.modes.frequencies_hz()[0],
+        frequency,
+        max_relative = EIGEN_ROUND_OFF
+    );
 }
 
 #[test]
@@ -51,57 +66,119 @@ fn density_lumps_half_a_rod_at_either_end() {
     let found = modes(&ROD.replace("1.+6,,.3", "1.+6,,.3,2.-4")).expect("modes");
     let mass = 2e-4 * 0.01 * 10.0 / 2.0;
     let frequency = (1000.0_f64 / mass).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(found.modes.frequencies_hz()[0], frequency, max_relative = EIGEN_ROUND_OFF);
+    approx::assert_relative_eq!(
+        found.modes.frequencies_hz()[0],
+        frequency,
+        max_relative = EIGEN_ROUND_OFF
+    );
 }
 
 #[test]
 fn masses_that_the_structure_cannot_tell_apart_make_one_mode() {
     // Grid 3 follows grid 2 at twice its motion: mass 0.1 there counts four times.
-    let tied = format!("{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-.5,2,1,1.\nCMASS2,7,.4,2,1\nCMASS2,8,.1,3,1");
+    let tied = format!(
+        "{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-.5,2,1,1.\nCMASS2,7,.4,2,1\nCMASS2,8,.1,3,1"
+    );
     let found = modes(&tied).expect("modes");
     assert_eq!(found.dof.len(), 2);
     assert_eq!(found.modes.shapes.shape(), (2, 1));
     let frequency = (1000.0 / 0.8_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(found.modes.frequencies_hz()[0], frequency, max_relative = EIGEN_ROUND_OFF);
-    approx::assert_relative_eq!(found.modes.shapes[1], 2.0 * found.modes.shapes[0], max_relative = EIGEN_ROUND_OFF);
-    approx::assert_relative_eq!(found.modes.shapes[0], 0.8_f64.powf(-0.5), max_relative = EIGEN_ROUND_OFF);
+    approx::assert_relative_eq!(
+        found.modes.frequencies_hz()[0],
+        frequency,
+        max_relative = EIGEN_ROUND_OFF
+    );
+    approx::assert_relative_eq!(
+        found.modes.shapes[1],
+        2.0 * found.modes.shapes[0],
+        max_relative = EIGEN_ROUND_OFF
+    );
+    approx::assert_relative_eq!(
+        found.modes.shapes[0],
+        0.8_f64.powf(-0.5),
+        max_relative = EIGEN_ROUND_OFF
+    );
 }
 
 #[test]
 fn two_masses_and_two_rods_in_ascending_order() {
-    let chain = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nCONROD,2,2,3,1,.01\nCMASS2,7,1.,2,1\nCMASS2,8,1.,3,1");
+    let chain = format!(
+        "{ROD}GRID,3,,20.,0.,0.,,23456\nCONROD,2,2,3,1,.01\nCMASS2,7,1.,2,1\nCMASS2,8,1.,3,1"
+    );
     let found = modes(&chain).expect("modes");
     // Two equal masses and springs: ω² = (3 ∓ √5)/2 k/m.
     for (root, sign) in found.modes.omega_squared.iter().zip([-1.0, 1.0]) {
         let expected = 1000.0 * (3.0 + sign * 5.0_f64.sqrt()) / 2.0;
         approx::assert_relative_eq!(*root, expected, max_relative = EIGEN_ROUND_OFF);
     }
-    assert!(found.modes.shapes.column(0).min() > 0.0, "the first moves one way");
+    assert!(
+        found.modes.shapes.column(0).min() > 0.0,
+        "the first moves one way"
+    );
 }
 
 #[test]
 fn a_tie_to_a_held_dof_adds_nothing() {
-    let tied = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nMPC,1,3,1,-1.,2,1,1.,,+A\n+A,,1,1,7.\nCMASS2,8,.4,3,1");
+    let tied = format!(
+        "{ROD}GRID,3,,20.,0.,0.,,23456\nMPC,1,3,1,-1.,2,1,1.,,+A\n+A,,1,1,7.\nCMASS2,8,.4,3,1"
+    );
     let found = modes(&tied).expect("modes");
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(found.modes.frequencies_hz()[0], frequency, max_relative = EIGEN_ROUND_OFF);
+    approx::assert_relative_eq!(
+        found.modes.frequencies_hz()[0],
+        frequency,
+        max_relative = EIGEN_ROUND_OFF
+    );
 }
 
 #[test]
 fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
     let error = modes(ROD).expect_err("no mass");
-    assert!(matches!(error, FileError::Method(Error::Empty { what: "degrees of freedom with mass" })), "{error}");
+    assert!(
+        matches!(
+            error,
+            FileError::Method(Error::Empty {
+                what: "degrees of freedom with mass"
+            })
+        ),
+        "{error}"
+    );
     let loose = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nCMASS2,8,.4,2,1");
     let error = modes(&loose).expect_err("grid 3 is loose");
-    assert!(matches!(error, FileError::Method(Error::SingularStiffness { grid: 3, direction: 'x', .. })), "{error}");
+    assert!(
+        matches!(
+            error,
+            FileError::Method(Error::SingularStiffness {
+                grid: 3,
+                direction: 'x',
+                ..
+            })
+        ),
+        "{error}"
+    );
 }
 
 #[test]
 fn an_element_at_a_tied_grid_is_refused() {
-    let tied = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nCROD,2,1,1,3\nMPC,1,3,1,-1.,2,1,1.\nCMASS2,8,.4,3,1");
+    let tied = format!(
+        "{ROD}GRID,3,,20.,0.,0.,,23456\nCROD,2,1,1,3\nMPC,1,3,1,-1.,2,1,1.\nCMASS2,8,.4,3,1"
+    );
     let error = modes(&tied).expect_err("rod 2 is tied");
-    assert!(matches!(error, FileError::TiedElement { element: 2, grid: 3, direction: 'x' }), "{error}");
-    assert_eq!(error.to_string(), "element 2: expected its grids free of MPC equations, found grid 3 tied along x");
+    assert!(
+        matches!(
+            error,
+            FileError::TiedElement {
+                element: 2,
+                grid: 3,
+                direction: 'x'
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!(
+        error.to_string(),
+        "element 2: expected its grids free of MPC equations, found grid 3 tied along x"
+    );
 }
 
 /// Two masses on two rods of 10 in and 1 in² from a fixed grid along x.
@@ -158,7 +235,8 @@ proptest! {
 #[test]
 fn parts_too_unlike_are_named() {
     for power in [14, 16] {
-        let error = modes(&chain([1e6, 1e6 * 10.0_f64.powi(power)], [1.0; 2])).expect_err("too unlike");
+        let error =
+            modes(&chain([1e6, 1e6 * 10.0_f64.powi(power)], [1.0; 2])).expect_err("too unlike");
         let stiff = 1e5 * 10.0_f64.powi(power);
         assert_eq!(
             error.to_string(),
@@ -172,7 +250,10 @@ fn parts_too_unlike_are_named() {
     // Of elements alike the first is named.
     let both = chain([1e16, 1e5], [1.0; 2]) + "CONROD,3,1,2,1,1.\nCONROD,4,2,3,2,1.\n";
     let error = modes(&both).expect_err("too unlike").to_string();
-    assert!(error.ends_with("found 1.000e15 in element 1 and 1.000e4 in element 2"), "{error}");
+    assert!(
+        error.ends_with("found 1.000e15 in element 1 and 1.000e4 in element 2"),
+        "{error}"
+    );
     let error = modes(&chain([1e6; 2], [1.0, 1e-16])).expect_err("a mode is lost");
     assert_eq!(
         error.to_string(),
@@ -191,18 +272,38 @@ fn an_element_that_no_free_motion_stretches_may_be_stiff() {
 #[test]
 fn numbers_beyond_the_range_are_refused() {
     for (modulus, mass, message) in [
-        ("1.+306", "1.-6", "squared frequency of mode 1: expected a positive finite number, found inf"),
-        ("1.-303", "1.+300", "deflections: expected finite numbers, found inf at entry (0, 0)"),
-        ("1.+300", "1.-40", "modes: expected 1, one for every mass that moves by itself, found 0: "),
+        (
+            "1.+306",
+            "1.-6",
+            "squared frequency of mode 1: expected a positive finite number, found inf",
+        ),
+        (
+            "1.-303",
+            "1.+300",
+            "deflections: expected finite numbers, found inf at entry (0, 0)",
+        ),
+        (
+            "1.+300",
+            "1.-40",
+            "modes: expected 1, one for every mass that moves by itself, found 0: ",
+        ),
     ] {
-        let deck = format!("{ROD}CMASS2,7,{mass},2,1").replace("MAT1,1,1.+6", &format!("MAT1,1,{modulus}"));
+        let deck = format!("{ROD}CMASS2,7,{mass},2,1")
+            .replace("MAT1,1,1.+6", &format!("MAT1,1,{modulus}"));
         let error = modes(&deck).expect_err("beyond the range").to_string();
         assert!(error.starts_with(message), "{error}");
     }
     // Together 2e308, which is no number.
-    let pair = format!("{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-1.,2,1,1.\nCMASS2,7,1.+308,2,1\nCMASS2,8,1.+308,3,1");
-    let error = modes(&pair.replace("MAT1,1,1.+6", "MAT1,1,1.+13")).expect_err("beyond the range").to_string();
-    assert_eq!(error, "generalized mass of mode 1: expected a positive finite number, found inf");
+    let pair = format!(
+        "{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-1.,2,1,1.\nCMASS2,7,1.+308,2,1\nCMASS2,8,1.+308,3,1"
+    );
+    let error = modes(&pair.replace("MAT1,1,1.+6", "MAT1,1,1.+13"))
+        .expect_err("beyond the range")
+        .to_string();
+    assert_eq!(
+        error,
+        "generalized mass of mode 1: expected a positive finite number, found inf"
+    );
 }
 
 #[test]
@@ -229,7 +330,11 @@ fn a_free_structure_has_its_rigid_body_modes_counted_and_left_out() {
                 CMASS2,7,.4,1,1\nCMASS2,8,.1,2,1";
     let found = modes(free).expect("modes");
     assert_eq!((found.rigid_body, found.modes.len()), (1, 1));
-    approx::assert_relative_eq!(found.modes.omega_squared[0], 1000.0 * (2.5 + 10.0), max_relative = COUNTED_ROOT);
+    approx::assert_relative_eq!(
+        found.modes.omega_squared[0],
+        1000.0 * (2.5 + 10.0),
+        max_relative = COUNTED_ROOT
+    );
     // They move against each other, the lighter one four times as far.
     let ratio = found.modes.shapes[1] / found.modes.shapes[0];
     approx::assert_relative_eq!(ratio, -4.0, max_relative = COUNTED_ROOT);

@@ -23,8 +23,8 @@ fn reals_read_as_nastran_reads_them() {
         assert_eq!(parse_real(text), Some(value), "{text}");
     }
     for text in [
-        "", ".", "-", "1", "1+7", "1E7", "1.E", "1.+", "1.2.3", "--1.", "1.-+2", "E5", ".E5", "1.X", "x1.", "NAN",
-        "INF", "1.+999", "1.+7X",
+        "", ".", "-", "1", "1+7", "1E7", "1.E", "1.+", "1.2.3", "--1.", "1.-+2", "E5", ".E5",
+        "1.X", "x1.", "NAN", "INF", "1.+999", "1.+7X",
     ] {
         assert_eq!(parse_real(text), None, "{text}");
     }
@@ -57,7 +57,10 @@ fn reals_are_written_short() {
     assert_eq!(exact_real(1.234567, 8).as_deref(), Some("1.234567"));
     assert_eq!(large_real(1.0 / 3.0).as_deref(), Some(".333333333333333"));
     assert_eq!(large_real(-2.0 / 3.0).as_deref(), Some("-.66666666666667"));
-    assert_eq!(large_real(-1.0 / 3.0e-200).as_deref(), Some("-3.333333333+199"));
+    assert_eq!(
+        large_real(-1.0 / 3.0e-200).as_deref(),
+        Some("-3.333333333+199")
+    );
     assert_eq!(large_real(f64::NAN), None);
     assert_eq!(large_real(f64::INFINITY), None);
     assert!(nearest_in_field(f64::NAN).is_nan());

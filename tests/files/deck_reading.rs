@@ -24,7 +24,12 @@ fn case_control_selects_the_sets() {
          MPC,5,3,1,-1.,2,1,3.\nSPC1,2,1,2\nCMASS2,8,.4,3,1\nENDDATA\nnonsense"
     );
     let read = deck::read("test", deck.as_bytes(), &[]).expect("it reads");
-    let skipped = |card: &str, line, count| Unread { card: card.into(), line, count, reason: Reason::NotSelected };
+    let skipped = |card: &str, line, count| Unread {
+        card: card.into(),
+        line,
+        count,
+        reason: Reason::NotSelected,
+    };
     assert_eq!(read.unread, [skipped("MPC", 15, 1), skipped("SPC1", 16, 1)]);
     assert_eq!(read.model.ties.len(), 1);
     assert_eq!(read.model.ties[0].terms[0].1, 1.0);
@@ -33,16 +38,31 @@ fn case_control_selects_the_sets() {
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
     let read = deck::read("test", loose.as_bytes(), &[]).expect("it reads");
     assert_eq!(read.unread, [skipped("SPC1", 8, 2)]);
-    assert!(read.model.grids.iter().all(|grid| grid.constrained == [false; 3]));
+    assert!(
+        read.model
+            .grids
+            .iter()
+            .all(|grid| grid.constrained == [false; 3])
+    );
 }
 
 #[test]
 fn cards_without_part_in_the_model_are_listed_by_name() {
-    let deck = format!("PARAM,GRDPNT,0\n{ROD}CMASS2,8,.4,2,1\nFORCE,9,2,0,1.,1.\nEIGR,1,INV\nPARAM,POST,-1\n+X,MAX\n");
+    let deck = format!(
+        "PARAM,GRDPNT,0\n{ROD}CMASS2,8,.4,2,1\nFORCE,9,2,0,1.,1.\nEIGR,1,INV\nPARAM,POST,-1\n+X,MAX\n"
+    );
     let error = deck::read("test", deck.as_bytes(), &[]).expect_err("+X continues nothing");
-    assert!(matches!(error, FileError::DeckLine { line: 13, .. }), "{error}");
+    assert!(
+        matches!(error, FileError::DeckLine { line: 13, .. }),
+        "{error}"
+    );
     let read = deck::read("test", deck.replace("+X,MAX\n", "").as_bytes(), &[]).expect("it reads");
-    let listed = |card: &str, line, count| Unread { card: card.into(), line, count, reason: Reason::WithoutPart };
+    let listed = |card: &str, line, count| Unread {
+        card: card.into(),
+        line,
+        count,
+        reason: Reason::WithoutPart,
+    };
     assert_eq!(read.unread, [listed("PARAM", 1, 2), listed("FORCE", 10, 1)]);
 }
 
@@ -56,33 +76,74 @@ fn held(control: &str, supports: &str) -> Result<Vec<bool>, FileError> {
 #[test]
 fn spcadd_joins_sets() {
     let supports = "SPCADD,10,1,2\nSPC1,1,1,1\nSPC1,2,1,2,3\n";
-    assert_eq!(held("", supports).expect("one union"), [true, true, true, false]);
+    assert_eq!(
+        held("", supports).expect("one union"),
+        [true, true, true, false]
+    );
     let more = format!("{supports}SPC1,7,1,4\nSPCADD,11,1,,7\n");
-    for (set, expected) in
-        [(10, [true, true, true, false]), (11, [true, false, false, true]), (2, [false, true, true, false])]
-    {
-        assert_eq!(held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).expect("it reads"), expected, "{set}");
+    for (set, expected) in [
+        (10, [true, true, true, false]),
+        (11, [true, false, false, true]),
+        (2, [false, true, true, false]),
+    ] {
+        assert_eq!(
+            held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).expect("it reads"),
+            expected,
+            "{set}"
+        );
     }
     let own = format!("{supports}SPC1,10,1,4\n");
-    assert_eq!(held("SPC = 10\nBEGIN BULK\n", &own).expect("it reads"), [true, true, true, false], "its sets alone");
+    assert_eq!(
+        held("SPC = 10\nBEGIN BULK\n", &own).expect("it reads"),
+        [true, true, true, false],
+        "its sets alone"
+    );
     let long = "SPCADD,10,1,1,1,1,1,1,1,+A\n+A,2\nSPC1,1,1,1\nSPC1,2,1,2\n";
-    assert_eq!(held("", long).expect("it reads"), [true, true, false, false]);
+    assert_eq!(
+        held("", long).expect("it reads"),
+        [true, true, false, false]
+    );
 }
 
 #[test]
 fn mpcadd_joins_sets() {
     let ties = "MPCADD,10,1,2\nMPC,1,2,1,-1.,1,1,1.\nMPC,2,3,1,-1.,1,1,1.\n";
-    let read = deck::read("test", format!("GRID,1\nGRID,2\nGRID,3\n{ties}").as_bytes(), &[]).expect("it reads");
+    let read = deck::read(
+        "test",
+        format!("GRID,1\nGRID,2\nGRID,3\n{ties}").as_bytes(),
+        &[],
+    )
+    .expect("it reads");
     assert_eq!(read.model.ties.len(), 2);
 }
 
 #[test]
 fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
     for (supports, line, field, expected) in [
-        ("SPCADD,10,1,3\nSPC1,1,1,1\n", 5, 4, "the set of an SPC1 card"),
-        ("SPCADD,10\nSPC1,1,1,1\n", 5, 3, "a positive integer of at most eight digits"),
-        ("SPCADD,10,1\nSPC1,1,1,1\nSPC1,2,1,2\n", 7, 2, "set 10 again, for no case control selects one"),
-        ("SPCADD,10,1\nSPC1,1,1,1\nSPCADD,11,1\n", 7, 2, "set 10 again, for no case control selects one"),
+        (
+            "SPCADD,10,1,3\nSPC1,1,1,1\n",
+            5,
+            4,
+            "the set of an SPC1 card",
+        ),
+        (
+            "SPCADD,10\nSPC1,1,1,1\n",
+            5,
+            3,
+            "a positive integer of at most eight digits",
+        ),
+        (
+            "SPCADD,10,1\nSPC1,1,1,1\nSPC1,2,1,2\n",
+            7,
+            2,
+            "set 10 again, for no case control selects one",
+        ),
+        (
+            "SPCADD,10,1\nSPC1,1,1,1\nSPCADD,11,1\n",
+            7,
+            2,
+            "set 10 again, for no case control selects one",
+        ),
     ] {
         let error = held("", supports).expect_err(supports);
         assert!(
@@ -92,10 +153,16 @@ fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
         );
     }
     let error = held("TITLE = A\nSPC = 3\nBEGIN BULK\n", "SPC1,1,1,1\n").expect_err("no set 3");
-    assert_eq!(error.to_string(), "test, line 2: expected a set of constraints that the deck has, found 3");
+    assert_eq!(
+        error.to_string(),
+        "test, line 2: expected a set of constraints that the deck has, found 3"
+    );
     let ignored = ["SPC".to_owned()];
     let deck = "SPC = 3\nBEGIN BULK\nGRID,1\nSPC,3,1,1\n";
-    assert!(deck::read("test", deck.as_bytes(), &ignored).is_ok(), "its cards are left out by request");
+    assert!(
+        deck::read("test", deck.as_bytes(), &ignored).is_ok(),
+        "its cards are left out by request"
+    );
 }
 
 proptest! {
@@ -126,31 +193,66 @@ proptest! {
 fn wtmass_may_stand_in_case_control_and_counts_once() {
     let text = format!("PARAM,WTMASS,.5\nSPC = 1\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1\n");
     for text in [text.clone(), format!("SUBCASE 1\n  {text}")] {
-        assert_eq!(deck::read("test", text.as_bytes(), &[]).expect("it reads").model.masses[0].mass, 0.2);
+        assert_eq!(
+            deck::read("test", text.as_bytes(), &[])
+                .expect("it reads")
+                .model
+                .masses[0]
+                .mass,
+            0.2
+        );
     }
     for (more, line, what) in [
         ("PARAM,WTMASS,.5", 12, "one PARAM,WTMASS at most"),
         ("PARAM,WTMASS,0.", 1, "a positive real number"),
         ("PARAM,WTMASS,2", 1, "a real number with a decimal point"),
-        ("PARAM,WTMASS,1.-308", 1, "a factor that leaves every mass within the range of numbers"),
+        (
+            "PARAM,WTMASS,1.-308",
+            1,
+            "a factor that leaves every mass within the range of numbers",
+        ),
     ] {
-        let text = if line == 1 { text.replace("PARAM,WTMASS,.5", more) } else { format!("{text}{more}\n") };
-        let error = deck::read("test", text.as_bytes(), &[]).expect_err(more).to_string();
-        assert!(error.starts_with(&format!("test, line {line}:")) && error.contains(what), "{error}");
+        let text = if line == 1 {
+            text.replace("PARAM,WTMASS,.5", more)
+        } else {
+            format!("{text}{more}\n")
+        };
+        let error = deck::read("test", text.as_bytes(), &[])
+            .expect_err(more)
+            .to_string();
+        assert!(
+            error.starts_with(&format!("test, line {line}:")) && error.contains(what),
+            "{error}"
+        );
     }
 }
 
 #[test]
 fn latin_1_and_a_byte_order_mark_are_read() {
     let expected = deck::read("test", ROD.as_bytes(), &[]).expect("it reads");
-    let marked = [b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(), ROD.as_bytes()].concat();
-    let latin_1 = [b"$ \xC4nderung f\xFCr Fl\xFCgel\n".as_slice(), ROD.as_bytes()].concat();
-    for bytes in [[b"\xEF\xBB\xBF".as_slice(), ROD.as_bytes()].concat(), marked, latin_1] {
+    let marked = [
+        b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(),
+        ROD.as_bytes(),
+    ]
+    .concat();
+    let latin_1 = [
+        b"$ \xC4nderung f\xFCr Fl\xFCgel\n".as_slice(),
+        ROD.as_bytes(),
+    ]
+    .concat();
+    for bytes in [
+        [b"\xEF\xBB\xBF".as_slice(), ROD.as_bytes()].concat(),
+        marked,
+        latin_1,
+    ] {
         assert_eq!(deck::read("test", &bytes, &[]).expect("it reads"), expected);
     }
     let name = [ROD.as_bytes(), b"CR\xD6D,2,1,1,2\n"].concat();
     let error = deck::read("test", &name, &[]).expect_err("no card has such a letter");
-    assert!(matches!(&error, FileError::DeckCards { cards, .. } if cards[0].card == "CR\u{d6}D"), "{error}");
+    assert!(
+        matches!(&error, FileError::DeckCards { cards, .. } if cards[0].card == "CR\u{d6}D"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -171,14 +273,23 @@ PSHEAR,41,1,.3,,40,1,.4
 PQDMEM,50,1,.5
 MAT1,1,1.04+7,4.+6
 ";
-    let model = deck::read("test", deck.as_bytes(), &[]).expect("it reads").model;
+    let model = deck::read("test", deck.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let sizes: Vec<f64> = model.elements.iter().map(|element| element.size).collect();
     assert_eq!(sizes, [0.5, 0.25, 0.1, 0.4, 0.5]);
     assert_eq!(model.elements[1].grids, [2, 3]);
     assert_eq!(model.elements[2].grids, [1, 2, 3]);
     assert_eq!(model.elements[3].grids, [1, 2, 3, 1]);
-    assert_eq!(model.grids[2].constrained, [false, false, true], "its own card counts");
-    assert_eq!(model.grids[0].constrained, [false; 3], "rotations have no place");
+    assert_eq!(
+        model.grids[2].constrained,
+        [false, false, true],
+        "its own card counts"
+    );
+    assert_eq!(
+        model.grids[0].constrained, [false; 3],
+        "rotations have no place"
+    );
     let material = model.elements[0].material;
     assert_eq!(material.shear_modulus, 4e6);
     approx::assert_relative_eq!(material.poissons_ratio, 0.3, epsilon = ROUND_OFF);
@@ -194,7 +305,10 @@ fn mat1_derives_what_is_blank() {
     let material = with("1.+7,,.25,3.-4").expect("E and nu");
     assert_eq!((material.shear_modulus, material.density), (4e6, 3e-4));
     let material = with(",4.+6,.25").expect("G and nu");
-    assert_eq!((material.youngs_modulus, material.shear_modulus), (1e7, 4e6));
+    assert_eq!(
+        (material.youngs_modulus, material.shear_modulus),
+        (1e7, 4e6)
+    );
     let material = with("1.+7,3.+6,.25").expect("all three");
     assert_eq!(material.shear_modulus, 3e6);
     for (fields, field) in [
@@ -228,7 +342,9 @@ SPC1,1,23,5,,9,,,,+B
 SPC1,1,3,12,THRU,12
 +B,12
 ";
-    let model = deck::read("test", deck.as_bytes(), &[]).expect("it reads").model;
+    let model = deck::read("test", deck.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let constrained: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.constrained).collect();
     let x = [true, false, false];
     let yz = [false, true, true];
@@ -240,20 +356,28 @@ SPC1,1,3,12,THRU,12
 fn a_range_may_go_on_in_the_next_line() {
     let grids = "GRID,1\nGRID,2\nGRID,3\nGRID,4\n";
     let supports = "SPC1,1,1,,,,,,1,+B\n+B,THRU,3\nSPC1,1,2,,,,,2,THRU,+C\n+C,3,4\n";
-    let model = deck::read("test", format!("{grids}{supports}").as_bytes(), &[]).expect("it reads").model;
+    let model = deck::read("test", format!("{grids}{supports}").as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let constrained = model.grids.iter().map(|grid| grid.constrained);
     let x = [true, false, false];
     let xy = [true, true, false];
     assert!(constrained.eq([x, xy, xy, [false, true, false]]));
     let unknown = format!("{grids}SPC1,1,1,,,,,,1,+B\n+B,7\n");
     let error = deck::read("test", unknown.as_bytes(), &[]).expect_err("there is no grid 7");
-    assert!(matches!(&error, FileError::DeckField { line: 6, field: 12, found, .. } if found == "7"), "{error}");
+    assert!(
+        matches!(&error, FileError::DeckField { line: 6, field: 12, found, .. } if found == "7"),
+        "{error}"
+    );
 }
 
 #[test]
 fn grdset_holds_where_a_grid_says_nothing() {
     let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
-    let grids = deck::read("test", deck.as_bytes(), &[]).expect("it reads").model.grids;
+    let grids = deck::read("test", deck.as_bytes(), &[])
+        .expect("it reads")
+        .model
+        .grids;
     assert_eq!(grids[0].constrained, [false, false, true]);
     assert_eq!(grids[1].constrained, [true, false, false]);
 }
@@ -261,14 +385,23 @@ fn grdset_holds_where_a_grid_says_nothing() {
 #[test]
 fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
-    let model = deck::read("test", deck.as_bytes(), &[]).expect("it reads").model;
+    let model = deck::read("test", deck.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     let text = bulk_data(&model).expect("a deck");
     let constrained: Vec<Vec<&str>> = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))
         .map(|line| line.split_whitespace().skip(2).collect())
         .collect();
-    assert_eq!(constrained, [vec!["12456", "1", "THRU", "2"], vec!["3456", "3"], vec!["456", "4"]]);
+    assert_eq!(
+        constrained,
+        [
+            vec!["12456", "1", "THRU", "2"],
+            vec!["3456", "3"],
+            vec!["456", "4"]
+        ]
+    );
 }
 
 #[test]
@@ -280,7 +413,9 @@ GRID\t2\t\t3.\t4.\t5.\t\t12\t\tremark
 MPC     1       1       1       1.      2       3       .5
         \t2\t3\t1.5
 ";
-    let model = deck::read("test", deck.as_bytes(), &[]).expect("it reads").model;
+    let model = deck::read("test", deck.as_bytes(), &[])
+        .expect("it reads")
+        .model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 2.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [3.0, 4.0, 5.0]);
     assert_eq!(model.grids[1].constrained, [true, true, false]);
@@ -291,8 +426,13 @@ MPC     1       1       1       1.      2       3       .5
 #[test]
 fn what_stands_behind_column_80_does_not_count() {
     let card = format!("{:80}12345678", "GRID    1               1.");
-    let more = format!("{:80}12345678", "GRID*                  2                              1.              2.");
-    let model = deck::read("test", format!("{card}\n{more}\n").as_bytes(), &[]).expect("it reads").model;
+    let more = format!(
+        "{:80}12345678",
+        "GRID*                  2                              1.              2."
+    );
+    let model = deck::read("test", format!("{card}\n{more}\n").as_bytes(), &[])
+        .expect("it reads")
+        .model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 0.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [1.0, 2.0, 0.0]);
 }

@@ -18,15 +18,30 @@ fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
         let mut fields = fields.to_vec();
         fields.resize(8, String::new());
         let half = |first: &str, fields: &[String]| {
-            fields.iter().fold(format!("{first:8}"), |line, field| line + &format!("{field:>16}"))
+            fields.iter().fold(format!("{first:8}"), |line, field| {
+                line + &format!("{field:>16}")
+            })
         };
         let first = half(&format!("{name}*"), &fields[..4]);
-        format!("{first}{}\n{}\n", ends[0], half(&ends[1], &fields[4..]).trim_end())
+        format!(
+            "{first}{}\n{}\n",
+            ends[0],
+            half(&ends[1], &fields[4..]).trim_end()
+        )
     };
     match style {
-        0 => fields.iter().fold(format!("{name:8}"), |line, field| line + &format!("{field:8}")) + " $ kept\n",
+        0 => {
+            fields.iter().fold(format!("{name:8}"), |line, field| {
+                line + &format!("{field:8}")
+            }) + " $ kept\n"
+        }
         1 => {
-            fields.iter().fold(format!("{:8}", name.to_lowercase()), |line, field| line + &format!("{field:>8}")) + "\n"
+            fields
+                .iter()
+                .fold(format!("{:8}", name.to_lowercase()), |line, field| {
+                    line + &format!("{field:>8}")
+                })
+                + "\n"
         }
         2 => large([String::new(), "*".to_owned()]),
         3 => large([format!("*T{tag}"), format!("*T{tag}")]),
@@ -37,38 +52,67 @@ fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
 /// A deck of up to ten elements of two kinds that share up to three properties of each and two materials, and new sizes and
 /// densities of some elements.
 fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
-    let element = (any::<bool>(), 0..3_usize, 0..5_usize, prop::option::of((0..3_usize, 0..3_usize)));
+    let element = (
+        any::<bool>(),
+        0..3_usize,
+        0..5_usize,
+        prop::option::of((0..3_usize, 0..3_usize)),
+    );
     let property = (0..2_usize, 1..9999_u32, 0..5_usize);
     let weight = prop::option::of(0.001..2.0_f64);
-    let factors = (prop::array::uniform3(0.2..5.0_f64), prop::array::uniform3(0.2..5.0_f64));
-    (prop::collection::vec(element, 1..10), prop::array::uniform6(property), weight, factors, any::<bool>()).prop_map(
-        |(drawn, properties, weight, (sizes, densities), windows)| {
+    let factors = (
+        prop::array::uniform3(0.2..5.0_f64),
+        prop::array::uniform3(0.2..5.0_f64),
+    );
+    (
+        prop::collection::vec(element, 1..10),
+        prop::array::uniform6(property),
+        weight,
+        factors,
+        any::<bool>(),
+    )
+        .prop_map(|(drawn, properties, weight, (sizes, densities), windows)| {
             let mut text = "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\n$ properties\n".to_owned();
             for (row, (material, size, style)) in properties.iter().enumerate() {
-                let fields = [(row + 5).to_string(), (material + 1).to_string(), format!(".{size:04}")];
+                let fields = [
+                    (row + 5).to_string(),
+                    (material + 1).to_string(),
+                    format!(".{size:04}"),
+                ];
                 text += &card(["PROD", "PTRMEM"][row / 3], &fields, *style, row);
             }
             text += "MAT1,1,1.+7,,.3,2.5-4\nMAT1    2       1.+7            .3\n";
             for (row, (is_rod, property, style, _)) in drawn.iter().enumerate() {
-                let (name, property) = if *is_rod { ("CROD", 5 + property) } else { ("CTRMEM", 8 + property) };
+                let (name, property) = if *is_rod {
+                    ("CROD", 5 + property)
+                } else {
+                    ("CTRMEM", 8 + property)
+                };
                 let corners = if *is_rod { 2 } else { 3 };
-                let labels = [row + 1, property].into_iter().chain(1..=corners).map(|label| label.to_string());
+                let labels = [row + 1, property]
+                    .into_iter()
+                    .chain(1..=corners)
+                    .map(|label| label.to_string());
                 text += &card(name, &labels.collect::<Vec<_>>(), *style, 10 + row);
             }
             if let Some(weight) = weight {
                 text += &format!("PARAM,WTMASS,{weight:.4}\n");
             }
-            let text = if windows { text.replace('\n', "\r\n") } else { text };
+            let text = if windows {
+                text.replace('\n', "\r\n")
+            } else {
+                text
+            };
             let mut wanted = elements(text.as_bytes());
             for (element, (.., change)) in wanted.iter_mut().zip(&drawn) {
                 if let Some((size, density)) = change {
                     element.size = nearest_in_field(element.size * sizes[*size]);
-                    element.material.density = nearest_in_field(element.material.density * densities[*density]);
+                    element.material.density =
+                        nearest_in_field(element.material.density * densities[*density]);
                 }
             }
             (text, wanted)
-        },
-    )
+        })
 }
 
 proptest! {

@@ -9,14 +9,20 @@ use tempfile::TempDir;
 /// A job in a folder of its own.
 pub fn placed(files: &Files) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
-    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).expect("written"));
+    files
+        .iter()
+        .for_each(|(name, text)| std::fs::write(folder.path().join(name), text).expect("written"));
     let path = folder.path().join("job.toml");
     (folder, path)
 }
 
 /// The files with one text replaced by another in one of them.
 pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
-    let text = &mut files.iter_mut().find(|(name, _)| name == file).expect("a file").1;
+    let text = &mut files
+        .iter_mut()
+        .find(|(name, _)| name == file)
+        .expect("a file")
+        .1;
     assert!(text.contains(old), "{old} is not in {text}");
     *text = text.replacen(old, new, 1);
     files
@@ -25,7 +31,9 @@ pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
 /// What is said of a job, without its folder.
 pub fn said(files: &Files) -> String {
     let (folder, path) = placed(files);
-    let error = Prepared::new(&path).and_then(|prepared| run(&prepared, |_| {}, || true)).map(drop);
+    let error = Prepared::new(&path)
+        .and_then(|prepared| run(&prepared, |_| {}, || true))
+        .map(drop);
     let error = error.expect_err("a mistake").to_string();
     error.replace(&format!("{}/", folder.path().display()), "")
 }
@@ -56,27 +64,65 @@ fn a_job_names_its_model_once_and_whole() {
     let what = "job.toml: expected either model.deck, or model.stiffness and model.mass, found";
     for (model, found) in [
         ("", "neither"),
-        ("deck = \"model.bdf\"\nstiffness = \"k.mtx\"", "a deck and matrices"),
-        ("deck = \"model.bdf\"\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"", "a deck and matrices"),
+        (
+            "deck = \"model.bdf\"\nstiffness = \"k.mtx\"",
+            "a deck and matrices",
+        ),
+        (
+            "deck = \"model.bdf\"\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"",
+            "a deck and matrices",
+        ),
         ("stiffness = \"k.mtx\"", "one matrix alone"),
         ("mass = \"m.mtx\"", "one matrix alone"),
     ] {
-        assert_eq!(said(&with(rods(), "job.toml", DECK, model)), format!("{what} {found}"));
+        assert_eq!(
+            said(&with(rods(), "job.toml", DECK, model)),
+            format!("{what} {found}")
+        );
     }
     check(&[
-        ("model.bdf", "no.bdf", "no.bdf: expected to read it, found an error"),
-        ("test.csv", "no.csv", "no.csv: expected to read it, found an error"),
+        (
+            "model.bdf",
+            "no.bdf",
+            "no.bdf: expected to read it, found an error",
+        ),
+        (
+            "test.csv",
+            "no.csv",
+            "no.csv: expected to read it, found an error",
+        ),
         ("[model]", "[model]\ndek = 1", "unknown field `dek`"),
-        ("[model]", "[model", "job.toml: expected a job as corfem init explains it, found TOML parse error at line 1"),
+        (
+            "[model]",
+            "[model",
+            "job.toml: expected a job as corfem init explains it, found TOML parse error at line 1",
+        ),
         ("gauss_newton", "newton", "unknown variant `newton`"),
     ]);
     let mut none = rods();
-    none[0].1 = none[0].1.split("[[parameter]]").next().expect("a beginning").to_owned();
-    assert_eq!(said(&none), "job.toml: expected at least one [[parameter]], found none");
+    none[0].1 = none[0]
+        .1
+        .split("[[parameter]]")
+        .next()
+        .expect("a beginning")
+        .to_owned();
+    assert_eq!(
+        said(&none),
+        "job.toml: expected at least one [[parameter]], found none"
+    );
     let (folder, path) = placed(&rods());
     std::fs::remove_file(&path).expect("removed");
-    let missing = Prepared::new(&path).map(drop).expect_err("no job").to_string();
-    assert!(missing.starts_with(&format!("{}/job.toml: expected to read it", folder.path().display())), "{missing}");
+    let missing = Prepared::new(&path)
+        .map(drop)
+        .expect_err("no job")
+        .to_string();
+    assert!(
+        missing.starts_with(&format!(
+            "{}/job.toml: expected to read it",
+            folder.path().display()
+        )),
+        "{missing}"
+    );
 }
 
 #[test]
@@ -92,17 +138,61 @@ fn a_parameter_names_what_the_deck_has() {
             "elements = [\"1-x\"]",
             "expected a range of numbers such as \"10-19\", in all at most 10000000, found 1-x",
         ),
-        (A, "elements = [\"2-10000002\"]", "in all at most 10000000, found 2-10000002"),
-        (A, "elements = [3, \"1-10000000\"]", "in all at most 10000000, found 1-10000000"),
-        (A, "elements = [\"9999990-9999999\"]", "expected elements of the deck in parameter a, found 9999990"),
-        (A, "elements = [1, 9]", "expected elements of the deck in parameter a, found 9"),
-        (A, "properties = [1, 7]", "expected properties and materials of the deck's elements in parameter a, found 7"),
-        (A, "materials = [8]", "expected properties and materials of the deck's elements in parameter a, found 8"),
-        (A, "", "expected elements or masses in parameter a, found none that the deck has"),
-        (A, "matrix = \"k.mtx\"", "expected parameters of a deck by elements or masses, found a matrix"),
-        (A, "masses = [12]", "expected scales = \"mass\" for point masses, found stiffness in parameter a"),
-        (A, "masses = [12, 19]\nscales = \"mass\"", "expected point masses of the deck in parameter a, found 19"),
-        (A, "elements = [1]\nlower = 0.5", "expected both lower and upper in parameter a, found one of them"),
+        (
+            A,
+            "elements = [\"2-10000002\"]",
+            "in all at most 10000000, found 2-10000002",
+        ),
+        (
+            A,
+            "elements = [3, \"1-10000000\"]",
+            "in all at most 10000000, found 1-10000000",
+        ),
+        (
+            A,
+            "elements = [\"9999990-9999999\"]",
+            "expected elements of the deck in parameter a, found 9999990",
+        ),
+        (
+            A,
+            "elements = [1, 9]",
+            "expected elements of the deck in parameter a, found 9",
+        ),
+        (
+            A,
+            "properties = [1, 7]",
+            "expected properties and materials of the deck's elements in parameter a, found 7",
+        ),
+        (
+            A,
+            "materials = [8]",
+            "expected properties and materials of the deck's elements in parameter a, found 8",
+        ),
+        (
+            A,
+            "",
+            "expected elements or masses in parameter a, found none that the deck has",
+        ),
+        (
+            A,
+            "matrix = \"k.mtx\"",
+            "expected parameters of a deck by elements or masses, found a matrix",
+        ),
+        (
+            A,
+            "masses = [12]",
+            "expected scales = \"mass\" for point masses, found stiffness in parameter a",
+        ),
+        (
+            A,
+            "masses = [12, 19]\nscales = \"mass\"",
+            "expected point masses of the deck in parameter a, found 19",
+        ),
+        (
+            A,
+            "elements = [1]\nlower = 0.5",
+            "expected both lower and upper in parameter a, found one of them",
+        ),
         (
             A,
             "elements = [1]\nlower_size = 0.5",
@@ -118,10 +208,26 @@ fn a_parameter_names_what_the_deck_has() {
             "elements = [1]\nscales = \"mass\"\nlower_size = 0.05\nupper_size = 0.3",
             "expected the stiffness of a deck's elements where parameter a has bounds on sizes, found another",
         ),
-        (A, "elements = [1]\nlower = 1.5\nupper = 2.0", "a: expected limits that hold its start, 1, found 1.5 to 2"),
-        (A, "elements = [1]\nlower = 2.0\nupper = 0.5", "expected a positive lower limit below a finite upper one"),
-        (A, "elements = [\"1-2\"]", "element 2: expected in one parameter at most, found in a and in b"),
-        ("\"b\"", "\"a\"", "job.toml: expected every name of a parameter once, found a again"),
+        (
+            A,
+            "elements = [1]\nlower = 1.5\nupper = 2.0",
+            "a: expected limits that hold its start, 1, found 1.5 to 2",
+        ),
+        (
+            A,
+            "elements = [1]\nlower = 2.0\nupper = 0.5",
+            "expected a positive lower limit below a finite upper one",
+        ),
+        (
+            A,
+            "elements = [\"1-2\"]",
+            "element 2: expected in one parameter at most, found in a and in b",
+        ),
+        (
+            "\"b\"",
+            "\"a\"",
+            "job.toml: expected every name of a parameter once, found a again",
+        ),
     ]);
 }
 
@@ -130,12 +236,24 @@ fn a_parameter_names_what_the_deck_has() {
 fn bounds_on_sizes_are_bounds_on_the_factor() {
     let deck = with(rods(), "model.bdf", "PROD,2,2,.1", "PROD,2,2,.2");
     let rule = "elements = [1, 2]\nlower = 0.5\nupper = 1.9\nlower_size = 0.06\nupper_size = 0.3";
-    let files = with(with(deck, "job.toml", A, rule), "job.toml", "elements = [\"2-3\"]", "elements = [3]");
+    let files = with(
+        with(deck, "job.toml", A, rule),
+        "job.toml",
+        "elements = [\"2-3\"]",
+        "elements = [3]",
+    );
     let (_folder, path) = placed(&files);
-    let range =
-        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")).source.whole.ranges()[0].expect("a range");
+    let range = Prepared::new(&path)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .source
+        .whole
+        .ranges()[0]
+        .expect("a range");
     // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
-    assert!((range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF, "{range:?}");
+    assert!(
+        (range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF,
+        "{range:?}"
+    );
     let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
     let (_folder, path) = placed(&narrow);
     let range = Prepared::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
@@ -146,19 +264,48 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
 fn properties_materials_masses_and_each_say_what_they_scale() {
     let members = |old: &str, new: &str| {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
-        let source = Prepared::new(&path).unwrap_or_else(|error| panic!("{new}: {error}")).source;
-        let names: Vec<String> = source.whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
+        let source = Prepared::new(&path)
+            .unwrap_or_else(|error| panic!("{new}: {error}"))
+            .source;
+        let names: Vec<String> = source
+            .whole
+            .parameters()
+            .iter()
+            .map(|parameter| parameter.name.clone())
+            .collect();
         (names, source.members.clone())
     };
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let names = |names: &[&str]| {
+        names
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect::<Vec<_>>()
+    };
     let b = "elements = [\"2-3\"]";
-    for by in ["properties = [2]", "materials = [2]", "properties = [2]\nmaterials = [2]\nelements = [3, 2]"] {
-        assert_eq!(members(b, by), (names(&["a", "b"]), vec![vec![1], vec![2, 3]]), "{by}");
+    for by in [
+        "properties = [2]",
+        "materials = [2]",
+        "properties = [2]\nmaterials = [2]\nelements = [3, 2]",
+    ] {
+        assert_eq!(
+            members(b, by),
+            (names(&["a", "b"]), vec![vec![1], vec![2, 3]]),
+            "{by}"
+        );
     }
     let each = members(b, "properties = [2]\neach = true");
-    assert_eq!(each, (names(&["a", "b 2", "b 3"]), vec![vec![1], vec![2], vec![3]]));
+    assert_eq!(
+        each,
+        (names(&["a", "b 2", "b 3"]), vec![vec![1], vec![2], vec![3]])
+    );
     let masses = members(b, "masses = [\"13-14\"]\nscales = \"mass\"\neach = true");
-    assert_eq!(masses, (names(&["a", "b mass 13", "b mass 14"]), vec![vec![1], vec![], vec![]]));
+    assert_eq!(
+        masses,
+        (
+            names(&["a", "b mass 13", "b mass 14"]),
+            vec![vec![1], vec![], vec![]]
+        )
+    );
 }
 
 /// A mass that is named twice counts once, and a deck cannot say what factors of point masses say.
@@ -167,35 +314,92 @@ fn point_masses_count_once_and_have_no_corrected_deck() {
     let masses = |list: &str| {
         let rule = format!("elements = [1]\nmasses = {list}\nscales = \"mass\"");
         let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
-        (folder, Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")))
+        (
+            folder,
+            Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")),
+        )
     };
     let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
     assert_eq!(once.source.whole, twice.source.whole);
     assert!(once.corrected_deck(&[1.0, 1.2]).expect("a deck").is_some());
-    let refused = once.corrected_deck(&[1.1, 1.0]).expect_err("a factor of point masses").to_string();
-    assert!(refused.contains("a is one of point masses, found a factor of 1.1"), "{refused}");
+    let refused = once
+        .corrected_deck(&[1.1, 1.0])
+        .expect_err("a factor of point masses")
+        .to_string();
+    assert!(
+        refused.contains("a is one of point masses, found a factor of 1.1"),
+        "{refused}"
+    );
 }
 
 #[test]
 fn sensors_are_those_of_the_test_at_what_moves() {
     let place = |sensor: &str, grid: usize, direction: &str| {
-        format!("[sensors]\nplace = [{{ sensor = \"{sensor}\", grid = {grid}, direction = \"{direction}\" }}]")
+        format!(
+            "[sensors]\nplace = [{{ sensor = \"{sensor}\", grid = {grid}, direction = \"{direction}\" }}]"
+        )
     };
     let distant = "[sensors]\nby = \"nearest\"\ndistance = 0.5";
     check(&[
-        (SENSORS, "[sensors]\nleave_out = [\"S9\"]", "expected names of sensors that the test has, found S9"),
-        (SENSORS, &place("S9", 2, "x"), "expected names of sensors that the test has, found S9"),
-        (SENSORS, &place("S2", 1, "x"), "that moves for sensor S2, found grid 1 x"),
-        (SENSORS, &place("S2", 2, "z"), "that moves for sensor S2, found grid 2 z"),
-        (SENSORS, &place("S2", 77, "x"), "that moves for sensor S2, found grid 77 x"),
-        (SENSORS, &place("S2", 2, "w"), "expected a direction x, y, z or -x, -y, -z of sensor S2, found w"),
-        (SENSORS, &place("S2", 3, "x"), "expected one sensor a degree of freedom, found S2 and S3 at grid 3 x"),
-        (SENSORS, "[sensors]\nby = \"name\"", "expected sensors of the test on the model, found none"),
+        (
+            SENSORS,
+            "[sensors]\nleave_out = [\"S9\"]",
+            "expected names of sensors that the test has, found S9",
+        ),
+        (
+            SENSORS,
+            &place("S9", 2, "x"),
+            "expected names of sensors that the test has, found S9",
+        ),
+        (
+            SENSORS,
+            &place("S2", 1, "x"),
+            "that moves for sensor S2, found grid 1 x",
+        ),
+        (
+            SENSORS,
+            &place("S2", 2, "z"),
+            "that moves for sensor S2, found grid 2 z",
+        ),
+        (
+            SENSORS,
+            &place("S2", 77, "x"),
+            "that moves for sensor S2, found grid 77 x",
+        ),
+        (
+            SENSORS,
+            &place("S2", 2, "w"),
+            "expected a direction x, y, z or -x, -y, -z of sensor S2, found w",
+        ),
+        (
+            SENSORS,
+            &place("S2", 3, "x"),
+            "expected one sensor a degree of freedom, found S2 and S3 at grid 3 x",
+        ),
+        (
+            SENSORS,
+            "[sensors]\nby = \"name\"",
+            "expected sensors of the test on the model, found none",
+        ),
     ]);
-    let far = with(with(rods(), "job.toml", SENSORS, distant), "test.csv", "+,10.0,", "+,11.0,");
-    assert_eq!(said(&far), "job.toml: expected sensor S2 within 0.5 of a grid, found grid 2 at 1.0000");
-    let nowhere = with(with(rods(), "job.toml", SENSORS, distant), "test.csv", "+,10.0,0.0,0.0", "+,,,");
-    let expected = "job.toml: expected a place of sensor S2 and of the model's grids, found none in the test";
+    let far = with(
+        with(rods(), "job.toml", SENSORS, distant),
+        "test.csv",
+        "+,10.0,",
+        "+,11.0,",
+    );
+    assert_eq!(
+        said(&far),
+        "job.toml: expected sensor S2 within 0.5 of a grid, found grid 2 at 1.0000"
+    );
+    let nowhere = with(
+        with(rods(), "job.toml", SENSORS, distant),
+        "test.csv",
+        "+,10.0,0.0,0.0",
+        "+,,,",
+    );
+    let expected =
+        "job.toml: expected a place of sensor S2 and of the model's grids, found none in the test";
     assert_eq!(said(&nowhere), expected);
     let rows = building().into_iter().map(|(name, text)| match &name[..] {
         "rows.csv" => (name, (1..=10).map(|row| format!("{row},x\n")).collect()),
@@ -205,7 +409,10 @@ fn sensors_are_those_of_the_test_at_what_moves() {
     let error = said(&rows.collect());
     assert!(error.ends_with("found none in the model"), "{error}");
     let unnamed = said(&with(rods(), "test.csv", "\n2,", "\n,"));
-    assert!(unnamed.ends_with("expected a grid for sensor S2, found none in the test"), "{unnamed}");
+    assert!(
+        unnamed.ends_with("expected a grid for sensor S2, found none in the test"),
+        "{unnamed}"
+    );
 }
 
 #[test]
@@ -213,19 +420,43 @@ fn test_modes_are_there_and_named_once() {
     const FILE: &str = "file = \"test.csv\"";
     let modes = |list: &str| format!("{FILE}\nmodes = {list}");
     check(&[
-        (FILE, &modes("[4]"), "expected test.modes from 1 to 3, found 4"),
-        (FILE, &modes("[0]"), "expected test.modes from 1 to 3, found 0"),
-        (FILE, &modes("[2, 1, 2]"), "expected every mode of test.modes once, found 2 again"),
-        (FILE, &modes("[]"), "test modes: expected at least one, found none"),
+        (
+            FILE,
+            &modes("[4]"),
+            "expected test.modes from 1 to 3, found 4",
+        ),
+        (
+            FILE,
+            &modes("[0]"),
+            "expected test.modes from 1 to 3, found 0",
+        ),
+        (
+            FILE,
+            &modes("[2, 1, 2]"),
+            "expected every mode of test.modes once, found 2 again",
+        ),
+        (
+            FILE,
+            &modes("[]"),
+            "test modes: expected at least one, found none",
+        ),
         (COMPARE, "[compare]\nanalysis_modes = 0", "expected"),
         (COMPARE, "[compare]\nanalysis_modes = 4", "expected at most"),
-        (COMPARE, "[compare]\nstarts = 0", "starts: expected at least one, found none"),
+        (
+            COMPARE,
+            "[compare]\nstarts = 0",
+            "starts: expected at least one, found none",
+        ),
         (
             "method = \"gauss_newton\"",
             "starts = 2",
             "expected one of compare.starts where the method is \"paper\", found 2",
         ),
-        (COMPARE, "[compare]\nfloor = 1.5", "with a modal assurance of 1.5 or more for one test mode at least"),
+        (
+            COMPARE,
+            "[compare]\nfloor = 1.5",
+            "with a modal assurance of 1.5 or more for one test mode at least",
+        ),
     ]);
 }
 
@@ -236,34 +467,67 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
     let text = &mut files[2].1;
     let more = [",999.0", ",mode 4", ",1.0", ",-1.0", ",1.0"];
     assert_eq!(text.lines().count(), more.len());
-    *text = text.lines().zip(more).map(|(line, more)| format!("{line}{more}\n")).collect();
+    *text = text
+        .lines()
+        .zip(more)
+        .map(|(line, more)| format!("{line}{more}\n"))
+        .collect();
     let (_folder, path) = placed(&files);
     let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(prepared.modes, [0, 1, 2]);
-    assert!(matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0));
+    assert!(
+        matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0)
+    );
 }
 
 #[test]
 fn weights_are_one_a_test_mode_and_some_may_be_zero() {
     check(&[
-        (COMPARE, "[compare]\nshape_weights = [1, 1]", "expected 3 shape_weights, one a test mode of the job, found 2"),
-        (COMPARE, "[compare]\nfrequency_weights = [1]", "expected 3 frequency_weights, one a test mode of the job"),
-        (COMPARE, "[compare]\nfrequency_weights = [1, -1, 1]", "weight: expected a finite number from zero up"),
-        (COMPARE, "[compare]\nshape_deviation = 0.0", "weight: expected a finite number from zero up"),
+        (
+            COMPARE,
+            "[compare]\nshape_weights = [1, 1]",
+            "expected 3 shape_weights, one a test mode of the job, found 2",
+        ),
+        (
+            COMPARE,
+            "[compare]\nfrequency_weights = [1]",
+            "expected 3 frequency_weights, one a test mode of the job",
+        ),
+        (
+            COMPARE,
+            "[compare]\nfrequency_weights = [1, -1, 1]",
+            "weight: expected a finite number from zero up",
+        ),
+        (
+            COMPARE,
+            "[compare]\nshape_deviation = 0.0",
+            "weight: expected a finite number from zero up",
+        ),
         (
             COMPARE,
             "[compare]\nfrequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
             "one of them positive, found 0",
         ),
     ]);
-    let frequencies = with(rods(), "job.toml", COMPARE, "[compare]\nshape_weights = [0, 0, 0]");
+    let frequencies = with(
+        rods(),
+        "job.toml",
+        COMPARE,
+        "[compare]\nshape_weights = [0, 0, 0]",
+    );
     let (_folder, path) = placed(&frequencies);
     let prepared = Prepared::new(&path).expect("a job");
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] = [&finished.first, &finished.last].map(|model| model.exact.errors.frequency);
     assert!(last < first, "{last} after {first}");
-    assert!(prepared.weights().expect("weights").iter().all(|weight| weight.shape == 0.0));
+    assert!(
+        prepared
+            .weights()
+            .expect("weights")
+            .iter()
+            .all(|weight| weight.shape == 0.0)
+    );
 }
 
 /// By the paper's rule: ones change nothing, and what a mode of weight zero is measured as is in no error.
@@ -282,18 +546,39 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     let without = ran(&paper(weights));
     assert_ne!(without, ones);
     let (_, test) = &rods()[2];
-    let third = test.lines().find(|line| line.starts_with("frequency_hz")).and_then(|line| line.rsplit(',').next());
-    let frequency: f64 = third.and_then(|cell| cell.parse().ok()).expect("a frequency");
+    let third = test
+        .lines()
+        .find(|line| line.starts_with("frequency_hz"))
+        .and_then(|line| line.rsplit(',').next());
+    let frequency: f64 = third
+        .and_then(|cell| cell.parse().ok())
+        .expect("a frequency");
     let wrong = |weights: &str| {
-        ran(&with(paper(weights), "test.csv", &format!(",{frequency:?}"), &format!(",{:?}", 1.02 * frequency)))
+        ran(&with(
+            paper(weights),
+            "test.csv",
+            &format!(",{frequency:?}"),
+            &format!(",{:?}", 1.02 * frequency),
+        ))
     };
     assert_ne!(wrong("").0, ones.0);
     let (errors, factors) = wrong(weights);
     assert_eq!(errors, without.0);
     // The step measures changes of stiffness by all test modes: another way to the same place.
-    assert!(factors.iter().zip(&without.1).all(|(a, b)| (a / b - 1.0).abs() < WEIGHTED_FACTOR), "{factors:?}");
+    assert!(
+        factors
+            .iter()
+            .zip(&without.1)
+            .all(|(a, b)| (a / b - 1.0).abs() < WEIGHTED_FACTOR),
+        "{factors:?}"
+    );
     let short = said(&paper("shape_weights = [1, 1]"));
-    assert!(short.contains("expected 3 shape_weights, one a test mode of the job, found 2"), "{short}");
-    let none = said(&paper("frequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]"));
+    assert!(
+        short.contains("expected 3 shape_weights, one a test mode of the job, found 2"),
+        "{short}"
+    );
+    let none = said(&paper(
+        "frequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
+    ));
     assert!(none.contains("one of them positive, found 0"), "{none}");
 }

@@ -31,7 +31,12 @@ fn measured_building(stories: usize, modes: usize) -> Files {
         place: None,
     });
     let frequencies_hz = found.frequencies_hz();
-    let data = TestData { frequencies_hz, sensors: sensors.collect(), shapes: found.shapes, ..TestData::default() };
+    let data = TestData {
+        frequencies_hz,
+        sensors: sensors.collect(),
+        shapes: found.shapes,
+        ..TestData::default()
+    };
     let (stiffness, mass) = model.at(&ones).expect("matrices");
     let job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
                [[parameter]]\nname = \"all\"\nmatrix = \"stiffness.mtx\"\n";
@@ -39,7 +44,10 @@ fn measured_building(stories: usize, modes: usize) -> Files {
         ("job.toml", job.to_owned()),
         ("stiffness.mtx", write_matrix_market(&stiffness)),
         ("mass.mtx", write_matrix_market(&mass)),
-        ("rows.csv", (1..=stories).map(|floor| format!("{floor},x\n")).collect()),
+        (
+            "rows.csv",
+            (1..=stories).map(|floor| format!("{floor},x\n")).collect(),
+        ),
         ("test.csv", write_csv(&data)),
     ];
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
@@ -55,7 +63,11 @@ fn a_job_without_a_title_is_called_by_its_file() {
 #[test]
 fn more_modes_of_the_model_are_taken_than_the_test_has() {
     for (stories, modes, expected) in [(16, 10, 15), (16, 5, 9), (6, 5, 6)] {
-        assert_eq!(prepared(&measured_building(stories, modes)).analysis_modes, expected, "{modes} of {stories}");
+        assert_eq!(
+            prepared(&measured_building(stories, modes)).analysis_modes,
+            expected,
+            "{modes} of {stories}"
+        );
     }
 }
 
@@ -63,20 +75,37 @@ fn more_modes_of_the_model_are_taken_than_the_test_has() {
 #[test]
 fn a_model_without_a_vibration_has_no_modes_to_take() {
     let mut files = measured_building(2, 2);
-    files[1].1 = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1e4\n2 1 -1e4\n2 2 1e4\n".to_owned();
+    files[1].1 =
+        "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1e4\n2 1 -1e4\n2 2 1e4\n"
+            .to_owned();
     files[2].1 = "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 60\n".to_owned();
-    assert_eq!(said(&files), "modes of finite frequency: expected at most 0, found 2");
+    assert_eq!(
+        said(&files),
+        "modes of finite frequency: expected at most 0, found 2"
+    );
 }
 
 /// The condensed mass of five floors does for the lowest mode, and for all five it does not.
 #[test]
 fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() {
     let of_modes = |list: &str| {
-        let prepared =
-            prepared(&with(building(), "job.toml", "file = \"test.csv\"", &format!("file = \"test.csv\"\n{list}")));
+        let prepared = prepared(&with(
+            building(),
+            "job.toml",
+            "file = \"test.csv\"",
+            &format!("file = \"test.csv\"\n{list}"),
+        ));
         let model = prepared.analyze(&[1.0; 10]).expect("a model");
-        let (_, condensed) = prepared.source.whole.condensed(&[1.0; 10], &prepared.sensors).expect("condensed");
-        (prepared.mass_at_sensors(&model).expect("a mass"), condensed, model.exact.modes.shapes.clone())
+        let (_, condensed) = prepared
+            .source
+            .whole
+            .condensed(&[1.0; 10], &prepared.sensors)
+            .expect("condensed");
+        (
+            prepared.mass_at_sensors(&model).expect("a mass"),
+            condensed,
+            model.exact.modes.shapes.clone(),
+        )
     };
     let (mass, condensed, _) = of_modes("modes = [1]");
     assert_eq!(mass, condensed);
@@ -84,7 +113,10 @@ fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() 
     assert_ne!(mass, condensed);
     let lowest = shapes.columns(0, 5).into_owned();
     let own = lowest.tr_mul(&(&mass * &lowest));
-    assert!((own - DMatrix::identity(5, 5)).amax() < ROUND_OFF, "the modes themselves are orthogonal with it");
+    assert!(
+        (own - DMatrix::identity(5, 5)).amax() < ROUND_OFF,
+        "the modes themselves are orthogonal with it"
+    );
 }
 
 /// A model is compared with the test modes as they were measured, of another scale and of no other sign.
@@ -92,7 +124,12 @@ fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() 
 fn test_modes_keep_the_sense_in_which_they_were_measured() {
     let prepared = prepared(&rods());
     let model = prepared.analyze(&[1.0, 1.0]).expect("a model");
-    for (compared, measured) in model.test.shapes.column_iter().zip(prepared.test.shapes.column_iter()) {
+    for (compared, measured) in model
+        .test
+        .shapes
+        .column_iter()
+        .zip(prepared.test.shapes.column_iter())
+    {
         assert!(compared.dot(&measured) > 0.0, "{compared} {measured}");
     }
 }
@@ -101,7 +138,10 @@ fn test_modes_keep_the_sense_in_which_they_were_measured() {
 fn a_minus_before_the_direction_turns_the_sensor() {
     let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
     let shapes = |files: &Files| prepared(files).test.shapes;
-    let (plain, turned) = (shapes(&rods()), shapes(&with(rods(), "job.toml", "[sensors]", turned)));
+    let (plain, turned) = (
+        shapes(&rods()),
+        shapes(&with(rods(), "job.toml", "[sensors]", turned)),
+    );
     assert_eq!(plain.row(0), -turned.row(0));
     assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
 }
@@ -122,7 +162,11 @@ fn a_sensor_of_rotations_measures_a_rotation() {
 /// Axes of the test that are oblique to the model's: a sensor sees the part of each motion that is along its own.
 #[test]
 fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
-    let axes = matrix(3, 0, [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
+    let axes = matrix(
+        3,
+        0,
+        [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
+    );
     let node = format!("{:10}{:10}{:10}{:10}", 1, 0, 3, 11) + &row(&[0.0; 3], 13);
     let mode = |values: [f64; 3]| real_mode(&(format!("{:10}\n", 1) + &row(&values, 13)));
     let test = dataset("15", &node)
@@ -130,7 +174,9 @@ fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
         + &mode([0.6, -0.8, 0.0])
         + &mode([0.8, 0.6, 0.0]);
     let mut files = measured_building(2, 2);
-    let diagonal = |a: f64, b: f64| format!("%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {a}\n2 2 {b}\n");
+    let diagonal = |a: f64, b: f64| {
+        format!("%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {a}\n2 2 {b}\n")
+    };
     (files[1].1, files[2].1) = (diagonal(1e4, 2e4), diagonal(1.0, 1.0));
     (files[3].1, files[4].1) = ("1,x\n1,y\n".to_owned(), test);
     let sensors = prepared(&files).sensors.dense();
@@ -139,14 +185,30 @@ fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
 
 #[test]
 fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
-    let nearest = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = 1.0");
+    let nearest = with(
+        rods(),
+        "job.toml",
+        "[sensors]",
+        "[sensors]\nby = \"nearest\"\ndistance = 1.0",
+    );
     let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
     assert_eq!((far.placed[0].grid, far.placed[0].distance), (2, Some(1.0)));
-    let no_number = with(rods(), "job.toml", "[sensors]", "[sensors]\nby = \"nearest\"\ndistance = nan");
+    let no_number = with(
+        rods(),
+        "job.toml",
+        "[sensors]",
+        "[sensors]\nby = \"nearest\"\ndistance = nan",
+    );
     let no_number = said(&no_number);
-    assert_eq!(no_number, "job.toml: expected sensor S2 within NaN of a grid, found grid 2 at 0.0000");
+    assert_eq!(
+        no_number,
+        "job.toml: expected sensor S2 within NaN of a grid, found grid 2 at 0.0000"
+    );
     let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
     let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
     let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));
-    assert_eq!(twice, "job.toml: expected every sensor of sensors.place once, found S2 again");
+    assert_eq!(
+        twice,
+        "job.toml: expected every sensor of sensors.place once, found S2 again"
+    );
 }

@@ -38,9 +38,16 @@ fn exact(files: Files) -> Files {
 fn every_rod_is_found_within_tolerance() {
     let found = ran(&with(rods(), "job.toml", B, EACH));
     for (factor, truth) in found.factors.iter().zip([0.8, 1.1, 1.0]) {
-        assert!((factor / truth - 1.0).abs() < WEIGHTED_FACTOR, "{:?}", found.factors);
+        assert!(
+            (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
+            "{:?}",
+            found.factors
+        );
     }
-    assert_eq!((found.verdict.outcome, found.verdict.is_within), (Outcome::Tolerance, true));
+    assert_eq!(
+        (found.verdict.outcome, found.verdict.is_within),
+        (Outcome::Tolerance, true)
+    );
 }
 
 /// Without a step because none is needed, without a step because none is possible, and after the best that one factor can do.
@@ -48,12 +55,20 @@ fn every_rod_is_found_within_tolerance() {
 fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     let outcome = |files: &Files| {
         let found = ran(files);
-        let History::GaussNewton(Some((run, _))) = found.history else { panic!("by steps") };
-        assert_eq!(found.verdict.is_within, found.verdict.outcome == Outcome::Tolerance);
+        let History::GaussNewton(Some((run, _))) = found.history else {
+            panic!("by steps")
+        };
+        assert_eq!(
+            found.verdict.is_within,
+            found.verdict.outcome == Outcome::Tolerance
+        );
         (found.verdict.outcome, run.iterations.is_empty())
     };
     assert_eq!(outcome(&exact(rods())), (Outcome::Tolerance, true));
-    assert_eq!(outcome(&alone("elements = [1]\nlower = 1.0\nupper = 2.0")), (Outcome::Nothing, true));
+    assert_eq!(
+        outcome(&alone("elements = [1]\nlower = 1.0\nupper = 2.0")),
+        (Outcome::Nothing, true)
+    );
     assert_eq!(outcome(&alone(B)), (Outcome::LocalMinimum, false));
 }
 
@@ -67,40 +82,68 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
             asked.set(asked.get() + 1);
             asked.get() < most
         };
-        let found =
-            run(&prepared, |words| told.push(words.to_owned()), go_on).unwrap_or_else(|error| panic!("{error}"));
+        let found = run(&prepared, |words| told.push(words.to_owned()), go_on)
+            .unwrap_or_else(|error| panic!("{error}"));
         assert!(found.is_interrupted && matches!(found.history, History::GaussNewton(None)));
-        let sum = residuals(&found.last, &prepared.weights().expect("weights")).expect("residuals").norm_squared();
+        let sum = residuals(&found.last, &prepared.weights().expect("weights"))
+            .expect("residuals")
+            .norm_squared();
         assert_eq!(told.last(), Some(&format!("sum of squares {sum:.4e}")));
-        let number = |words: &String| words.rsplit(' ').next().and_then(|word| word.parse().ok()).expect("a number");
+        let number = |words: &String| {
+            words
+                .rsplit(' ')
+                .next()
+                .and_then(|word| word.parse().ok())
+                .expect("a number")
+        };
         let told: Vec<f64> = told.iter().map(number).collect();
         assert!(told.windows(2).all(|pair| pair[1] < pair[0]), "{told:?}");
         (told.len(), found)
     };
     let (count, first) = stopped_after(1);
-    assert_eq!((count, &first.factors[..], first.verdict.outcome), (1, &[1.0; 3][..], Outcome::Cap));
+    assert_eq!(
+        (count, &first.factors[..], first.verdict.outcome),
+        (1, &[1.0; 3][..], Outcome::Cap)
+    );
     let (count, third) = stopped_after(3);
     assert!(count > 1 && third.factors != first.factors, "{count} told");
     let exact = self::prepared(&exact(rods()));
     let found = run(&exact, |_| {}, || false).expect("it runs");
-    assert_eq!((found.is_interrupted, found.verdict.outcome), (true, Outcome::Tolerance));
+    assert_eq!(
+        (found.is_interrupted, found.verdict.outcome),
+        (true, Outcome::Tolerance)
+    );
 }
 
 #[test]
 fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
     let mut told = Vec::new();
     let prepared = prepared(&with(rods(), "job.toml", "method = \"gauss_newton\"", ""));
-    let found = run(&prepared, |words| told.push(words.to_owned()), || true).unwrap_or_else(|error| panic!("{error}"));
-    let History::Paper(run) = found.history else { panic!("by the paper's loops") };
+    let found = run(&prepared, |words| told.push(words.to_owned()), || true)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let History::Paper(run) = found.history else {
+        panic!("by the paper's loops")
+    };
     assert_eq!(told.len(), run.passes.len());
     for ((number, pass), words) in (1..).zip(&run.passes).zip(&told) {
-        assert!(words.starts_with(&format!("pass {number}: frequencies ")), "{words}");
-        let percents = words.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
-        let errors = [pass.check.errors.frequency_rms(), pass.check.errors.shape_rms()];
+        assert!(
+            words.starts_with(&format!("pass {number}: frequencies ")),
+            "{words}"
+        );
+        let percents = words
+            .split_whitespace()
+            .filter_map(|word| word.parse::<f64>().ok());
+        let errors = [
+            pass.check.errors.frequency_rms(),
+            pass.check.errors.shape_rms(),
+        ];
         let percents: Vec<f64> = percents.collect();
         assert_eq!(percents.len(), 2, "{words}");
         for (percent, error) in percents.iter().zip(errors) {
-            assert!((percent / 100.0 - error).abs() <= PRINTED_RMS, "{words}: {error}");
+            assert!(
+                (percent / 100.0 - error).abs() <= PRINTED_RMS,
+                "{words}: {error}"
+            );
         }
     }
 }
@@ -109,29 +152,58 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
 #[test]
 fn bounds_hold_from_wherever_the_papers_loop_starts() {
     let bounds = "elements = [1]\nlower = 0.9\nupper = 1.2";
-    let each = "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
+    let each =
+        "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
     let files = with(with(rods(), "job.toml", A, bounds), "job.toml", B, each);
     let (_folder, path) = placed(&with(files, "job.toml", "method = \"gauss_newton\"", ""));
     let study = Study::new(&path, 5, &[Vary::Start]).unwrap_or_else(|error| panic!("{error}"));
     for sample in 1..=6 {
         let (line, failure) = study.run(sample, || true).expect("a sample");
         assert!(failure.is_none(), "{line}");
-        let factors: Vec<f64> = line.split(',').skip(5).take(3).map(|cell| cell.parse().expect("a number")).collect();
+        let factors: Vec<f64> = line
+            .split(',')
+            .skip(5)
+            .take(3)
+            .map(|cell| cell.parse().expect("a number"))
+            .collect();
         // The rods that the test was made of are beyond both.
-        assert!((factors[0] - 0.9).abs() < ROUND_OFF && (factors[1] - 1.02).abs() < ROUND_OFF, "{factors:?}");
+        assert!(
+            (factors[0] - 0.9).abs() < ROUND_OFF && (factors[1] - 1.02).abs() < ROUND_OFF,
+            "{factors:?}"
+        );
     }
 }
 
 /// A factor on stiffness keeps an element's mass, and one on mass its size.
 #[test]
 fn a_corrected_deck_has_factors_in_sizes_and_densities() {
-    let dense = with(rods(), "model.bdf", "MAT1,1,1.+6,,.3", "MAT1,1,1.+6,,.3,4.-3");
+    let dense = with(
+        rods(),
+        "model.bdf",
+        "MAT1,1,1.+6,,.3",
+        "MAT1,1,1.+6,,.3,4.-3",
+    );
     let corrected = |files: &Files, factors: &[f64]| {
-        let bytes = prepared(files).corrected_deck(factors).expect("it can be written").expect("a deck");
-        let elements = deck::read("corrected", &bytes, &[]).expect("it reads").model.elements;
-        elements.iter().map(|element| (element.size, element.material.density)).collect::<Vec<_>>()
+        let bytes = prepared(files)
+            .corrected_deck(factors)
+            .expect("it can be written")
+            .expect("a deck");
+        let elements = deck::read("corrected", &bytes, &[])
+            .expect("it reads")
+            .model
+            .elements;
+        elements
+            .iter()
+            .map(|element| (element.size, element.material.density))
+            .collect::<Vec<_>>()
     };
-    assert_eq!(corrected(&dense, &[2.5, 0.5]), [(0.25, 1.6e-3), (0.05, 0.0), (0.05, 0.0)]);
+    assert_eq!(
+        corrected(&dense, &[2.5, 0.5]),
+        [(0.25, 1.6e-3), (0.05, 0.0), (0.05, 0.0)]
+    );
     let mass = with(dense, "job.toml", A, "elements = [1]\nscales = \"mass\"");
-    assert_eq!(corrected(&mass, &[2.5, 1.0]), [(0.1, 0.01), (0.1, 0.0), (0.1, 0.0)]);
+    assert_eq!(
+        corrected(&mass, &[2.5, 1.0]),
+        [(0.1, 0.01), (0.1, 0.0), (0.1, 0.0)]
+    );
 }

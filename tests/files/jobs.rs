@@ -1,7 +1,9 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::{Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth};
+use crate::common::jobs::{
+    Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth,
+};
 use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
@@ -16,10 +18,16 @@ use corfem::studies::delta_wing::correlation::GROUPS;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 
-const NUMBERS: Numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: true };
+const NUMBERS: Numbers = Numbers {
+    relative: JOB_RESULTS,
+    absolute: JOB_RESULTS,
+    last_digit: true,
+};
 
 fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/jobs")
+        .join(name)
 }
 
 /// `CORFEM_JOBS=write` writes the files instead of comparing them.
@@ -34,21 +42,35 @@ fn check_files(name: &str, files: &Files) {
         }
         let stored = std::fs::read_to_string(&path).expect("it reads");
         // Numbers that were computed may differ in their last digit on another machine.
-        let numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: false };
+        let numbers = Numbers {
+            relative: JOB_RESULTS,
+            absolute: JOB_RESULTS,
+            last_digit: false,
+        };
         assert!(numbers.agree(&stored, text), "{}", path.display());
     }
 }
 
 fn finished(name: &str) -> (Prepared, Finished) {
-    let prepared = Prepared::new(&folder(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let prepared =
+        Prepared::new(&folder(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
-    let mut tables =
-        vec![doubts_table(&prepared).expect("doubts"), places_table(&prepared, Some(&finished)).expect("sensors")];
-    tables.extend([paired_table(&subject).expect("modes"), factor_table(&subject), history_table(&subject)]);
+    let mut tables = vec![
+        doubts_table(&prepared).expect("doubts"),
+        places_table(&prepared, Some(&finished)).expect("sensors"),
+    ];
+    tables.extend([
+        paired_table(&subject).expect("modes"),
+        factor_table(&subject),
+        history_table(&subject),
+    ]);
     tables.push(seen_table(&prepared, &finished).expect("a table"));
     let text = render::text(&tables);
-    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 100),
+        "{text}"
+    );
     assert_golden(&format!("job_{name}"), &text, NUMBERS);
     (prepared, finished)
 }
@@ -66,12 +88,23 @@ fn condensed(name: &str, analysis_modes: usize) -> Finished {
 #[test]
 fn condensed_to_five_floors_the_building_is_not_found() {
     let found = condensed("building", 5);
-    assert!(found.verdict.error_sum > 0.2 && !found.verdict.is_within, "{}", found.verdict);
+    assert!(
+        found.verdict.error_sum > 0.2 && !found.verdict.is_within,
+        "{}",
+        found.verdict
+    );
     for pair in found.factors.chunks(2) {
-        assert!((pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR, "{pair:?}");
+        assert!(
+            (pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR,
+            "{pair:?}"
+        );
     }
-    let worst =
-        found.factors.iter().zip(&STORIES).map(|(found, truth)| (found / truth - 1.0).abs()).fold(0.0, f64::max);
+    let worst = found
+        .factors
+        .iter()
+        .zip(&STORIES)
+        .map(|(found, truth)| (found / truth - 1.0).abs())
+        .fold(0.0, f64::max);
     assert!(worst > 0.2, "{worst}");
 }
 
@@ -92,13 +125,21 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let (prepared, expected) = finished();
     let text = write_universal(&prepared.data);
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let nodes = lines.iter().position(|line| line.trim() == "15").expect("nodes") + 1;
+    let nodes = lines
+        .iter()
+        .position(|line| line.trim() == "15")
+        .expect("nodes")
+        + 1;
     for (row, system) in [(0, 3), (1, 4)] {
         lines[nodes + row].replace_range(20..30, &format!("{system:10}"));
     }
     let mut at_node = None;
     for line in lines.iter_mut().skip(nodes + 4) {
-        let value = line.split_whitespace().next().unwrap_or_default().to_owned();
+        let value = line
+            .split_whitespace()
+            .next()
+            .unwrap_or_default()
+            .to_owned();
         match (at_node.take(), line.len()) {
             (Some("2"), 39) => *line = format!("{:13}{:>13}{:13}", 0.0, negated(&value), 0.0),
             (Some("3"), 39) => *line = format!("{:13}{:13}{value:>13}", 0.0, 0.0),
@@ -110,38 +151,66 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let points = "         3         0         0         8         1\nSYS\n   0. 0. 0. 0. 1. 0.\n   0. 0. 1.\n";
     let rows = "         1\nPart\n         4         0         8\nCS\n  0. 1. 0.\n  0. 0. 1.\n  1. 0. 0.\n  0. 0. 0.\n";
     let systems = format!("    -1\n    18\n{points}    -1\n    -1\n  2420\n{rows}    -1\n");
-    std::fs::write(folder.path().join("test.csv"), systems + &lines.join("\n") + "\n").expect("written");
+    std::fs::write(
+        folder.path().join("test.csv"),
+        systems + &lines.join("\n") + "\n",
+    )
+    .expect("written");
     let (prepared, found) = finished();
-    let directions: Vec<usize> = prepared.placed.iter().map(|sensor| sensor.direction).collect();
+    let directions: Vec<usize> = prepared
+        .placed
+        .iter()
+        .map(|sensor| sensor.direction)
+        .collect();
     assert_eq!(directions, [1, 2, 0]);
     for (a, b) in found.iter().zip(&expected) {
-        assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{found:?} {expected:?}");
+        assert!(
+            (a / b - 1.0).abs() < WEIGHTED_FACTOR,
+            "{found:?} {expected:?}"
+        );
     }
     let dense = prepared.sensors.dense();
-    assert_eq!((0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(), [-1.0, 1.0, 1.0]);
+    assert_eq!(
+        (0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(),
+        [-1.0, 1.0, 1.0]
+    );
     let table = places_table(&prepared, None).expect("a table");
-    let own: Vec<String> = table.rows.iter().map(|row| row.cells[1].computed()).collect();
+    let own: Vec<String> = table
+        .rows
+        .iter()
+        .map(|row| row.cells[1].computed())
+        .collect();
     assert_eq!(own, ["y", "z", "x"]);
 }
 
 /// A number of a Universal File with the other sign.
 fn negated(value: &str) -> String {
-    value.strip_prefix('-').map_or_else(|| format!("-{value}"), str::to_owned)
+    value
+        .strip_prefix('-')
+        .map_or_else(|| format!("-{value}"), str::to_owned)
 }
 
 /// A job's first model is analyzed once: what prepares it keeps it, unless something else is compared then.
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
-    let prepared = Prepared::new(&folder("building").join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = Prepared::new(&folder("building").join("job.toml"))
+        .unwrap_or_else(|error| panic!("{error}"));
     let first = prepared.analyze(&[1.0; 10]).expect("a model");
     let mut fewer = prepared.clone();
     fewer.analysis_modes = 7;
     let other = fewer.analyze(&[1.0; 10]).expect("a model");
     assert_eq!((first.exact.modes.len(), other.exact.modes.len()), (10, 7));
-    let near = fewer.source.whole.modes(&[1.0; 10], 10).expect("modes").vibrations;
+    let near = fewer
+        .source
+        .whole
+        .modes(&[1.0; 10], 10)
+        .expect("modes")
+        .vibrations;
     assert_eq!(first.exact.modes.frequencies_hz(), near.frequencies_hz());
     let finished = run(&prepared, |_| {}, || true).expect("it runs");
-    let History::Paper(run) = &finished.history else { panic!("by the paper's loops") };
+    let History::Paper(run) = &finished.history else {
+        panic!("by the paper's loops")
+    };
     // One a pass; the first is that of the start, and the last that of the best pass.
     assert_eq!(finished.analyses, 1 + run.passes.len() + 1);
 }
@@ -160,7 +229,11 @@ fn the_building_is_found_story_by_story_from_five_floors() {
     check_files("building", &building());
     let (_, found) = finished("building");
     for (story, (found, truth)) in found.factors.iter().zip(&STORIES).enumerate() {
-        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
+        assert!(
+            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            "story {}: {found} for {truth}",
+            story + 1
+        );
     }
 }
 
@@ -168,14 +241,25 @@ fn the_building_is_found_story_by_story_from_five_floors() {
 fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     check_files("wing", &delta_wing());
     let (prepared, found) = finished("wing");
-    assert!(prepared.placed.iter().all(|sensor| sensor.distance.is_some_and(|distance| distance < 1e-2)));
+    assert!(
+        prepared
+            .placed
+            .iter()
+            .all(|sensor| sensor.distance.is_some_and(|distance| distance < 1e-2))
+    );
     shapes_at_all_grids_are_those_of_the_sensors(&prepared, &found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
     let subject = Subject::of_job(&prepared, Some(&found)).expect("a subject");
     let mut exchanged = subject.clone();
     exchanged.stages[2].check.pairing.analysis_mode.swap(0, 1);
-    let new: Vec<_> = swaps(&exchanged).into_iter().filter(|swap| !swaps(&subject).contains(swap)).collect();
-    assert_eq!(new, [[3, 1, 1, 2], [3, 2, 2, 1], [4, 1, 2, 1], [4, 2, 1, 2]]);
+    let new: Vec<_> = swaps(&exchanged)
+        .into_iter()
+        .filter(|swap| !swaps(&subject).contains(swap))
+        .collect();
+    assert_eq!(
+        new,
+        [[3, 1, 1, 2], [3, 2, 2, 1], [4, 1, 2, 1], [4, 2, 1, 2]]
+    );
     assert!(history_table(&exchanged).notes[0].contains("in pass 3 test mode 1 from 1 to 2"));
     for (group, found) in GROUPS.iter().zip(&found.factors) {
         let error = found * group.first_over_true - 1.0;
@@ -187,9 +271,15 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
 fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &Prepared, found: &Finished) {
     let subject = Subject::of_job(prepared, Some(found)).expect("a subject");
     let moved = subject.moved.as_ref().expect("the whole model");
-    let states =
-        [&found.first, &found.last].map(|model| paired(&model.exact.modes, &model.exact.pairing).expect("modes"));
-    let row = |grid: usize| subject.grids.iter().position(|(label, _)| *label == grid).expect("a grid");
+    let states = [&found.first, &found.last]
+        .map(|model| paired(&model.exact.modes, &model.exact.pairing).expect("modes"));
+    let row = |grid: usize| {
+        subject
+            .grids
+            .iter()
+            .position(|(label, _)| *label == grid)
+            .expect("a grid")
+    };
     for mode in 0..subject.test.len() {
         let (test, last) = (&moved[0][mode], &moved[2][mode]);
         for (sensor, point) in prepared.placed.iter().zip(&subject.sensors) {
@@ -205,10 +295,21 @@ fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &Prepared, found: &Fin
         let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).fold(0.0, f64::max);
         // The two are scaled by their own masses; the shape is the same.
         let scale = largest(last) / largest(test);
-        let apart = test.iter().zip(last).map(|(test, last)| (test * scale - last).amax()).fold(0.0, f64::max);
-        assert!(apart < CONDENSED_GAGES * largest(last), "mode {}: {apart}", mode + 1);
+        let apart = test
+            .iter()
+            .zip(last)
+            .map(|(test, last)| (test * scale - last).amax())
+            .fold(0.0, f64::max);
+        assert!(
+            apart < CONDENSED_GAGES * largest(last),
+            "mode {}: {apart}",
+            mode + 1
+        );
     }
-    assert!(moved[0][0].iter().any(|motion| motion.x != 0.0), "beside what is measured too");
+    assert!(
+        moved[0][0].iter().any(|motion| motion.x != 0.0),
+        "beside what is measured too"
+    );
 }
 
 /// Noisy modes of the box, orthogonalized by Appendix B, which deletes some: the panels that the intervals claim to know are known.
@@ -217,8 +318,14 @@ fn the_box_is_corrected_from_noisy_modes_by_its_deck() {
     check_files("box", &torque_box());
     let (prepared, found) = finished("box");
     assert!(!prepared.deleted.is_empty(), "Appendix B deletes");
-    let start: f64 = torque_box_truth().iter().map(|truth| truth.ln().powi(2)).sum();
-    let end: f64 =
-        torque_box_truth().iter().zip(&found.factors).map(|(truth, found)| (found / truth).ln().powi(2)).sum();
+    let start: f64 = torque_box_truth()
+        .iter()
+        .map(|truth| truth.ln().powi(2))
+        .sum();
+    let end: f64 = torque_box_truth()
+        .iter()
+        .zip(&found.factors)
+        .map(|(truth, found)| (found / truth).ln().powi(2))
+        .sum();
     assert!(end < JOB_BOX * start, "{end} of {start}");
 }

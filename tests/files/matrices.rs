@@ -9,13 +9,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub fn golden(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/formats").join(file)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("golden/formats")
+        .join(file)
 }
 
 /// The lines of a stored table.
 pub fn table(file: &str) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_path(golden(file)).expect("a table");
-    reader.records().map(|line| line.expect("a line").iter().map(str::to_owned).collect()).collect()
+    reader
+        .records()
+        .map(|line| line.expect("a line").iter().map(str::to_owned).collect())
+        .collect()
 }
 
 /// Compares what the crate wrote with the file that another program was given; writes that file on request.
@@ -23,7 +28,11 @@ pub fn assert_written(file: &str, written: &[u8]) {
     if std::env::var("CORFEM_WRITTEN").is_ok_and(|value| value == "write") {
         fs::write(golden(file), written).expect("it writes");
     }
-    assert_eq!(String::from_utf8_lossy(written), fs::read_to_string(golden(file)).expect("it reads"), "{file}");
+    assert_eq!(
+        String::from_utf8_lossy(written),
+        fs::read_to_string(golden(file)).expect("it reads"),
+        "{file}"
+    );
 }
 
 /// A matrix by the names of its rows and columns.
@@ -33,26 +42,44 @@ fn by_name(found: &LabeledMatrix) -> BTreeMap<(String, String), f64> {
         None => (place + 1).to_string(),
     };
     let entries = found.matrix.entries().iter();
-    entries.map(|&(row, column, value)| ((name(&found.rows, row), name(&found.columns, column)), value)).collect()
+    entries
+        .map(|&(row, column, value)| {
+            (
+                (name(&found.rows, row), name(&found.columns, column)),
+                value,
+            )
+        })
+        .collect()
 }
 
 #[test]
 fn matrices_of_the_owners_programs_read_to_the_last_digit() {
     let mut expected: BTreeMap<(String, String), BTreeMap<(String, String), f64>> = BTreeMap::new();
     for line in table("entries.csv") {
-        let [file, name, row, column, value] = &line[..] else { panic!("{line:?}") };
+        let [file, name, row, column, value] = &line[..] else {
+            panic!("{line:?}")
+        };
         let value = value.parse().expect("a number");
-        expected.entry((file.clone(), name.clone())).or_default().insert((row.clone(), column.clone()), value);
+        expected
+            .entry((file.clone(), name.clone()))
+            .or_default()
+            .insert((row.clone(), column.clone()), value);
     }
     let sizes = table("sizes.csv");
     assert_eq!(sizes.len(), 7 + 3 * 2 + 3 * 3);
     for line in sizes {
-        let [file, name, rows, columns] = &line[..] else { panic!("{line:?}") };
+        let [file, name, rows, columns] = &line[..] else {
+            panic!("{line:?}")
+        };
         let bytes = fs::read(golden(file)).expect("it reads");
         let wanted = (!name.is_empty()).then_some(name.as_str());
         let found = read(file, &bytes, wanted).expect("a matrix");
         assert_eq!(found.name.as_deref(), wanted);
-        assert_eq!(by_name(&found), expected[&(file.clone(), name.clone())], "{file} {name}");
+        assert_eq!(
+            by_name(&found),
+            expected[&(file.clone(), name.clone())],
+            "{file} {name}"
+        );
         let size = [found.matrix.rows(), found.matrix.columns()].map(|size| size.to_string());
         match rows.as_str() {
             "symmetric" | "square" => assert!(found.rows.is_some() && found.rows == found.columns),
@@ -66,15 +93,27 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
             assert!(found.matrix.is_symmetric());
         }
         // The same with the line ends of Windows.
-        let text = String::from_utf8(bytes).expect("a text").replace('\n', "\r\n");
-        assert_eq!(read(file, text.as_bytes(), wanted).expect("a matrix"), found, "{file} {name}");
+        let text = String::from_utf8(bytes)
+            .expect("a text")
+            .replace('\n', "\r\n");
+        assert_eq!(
+            read(file, text.as_bytes(), wanted).expect("a matrix"),
+            found,
+            "{file} {name}"
+        );
     }
 }
 
 #[test]
 fn a_matrix_is_chosen_by_its_name() {
     let bytes = fs::read(golden("sparse.op4")).expect("it reads");
-    assert_eq!(read("m", &bytes, Some("kaa")).expect("in any case").name.as_deref(), Some("KAA"));
+    assert_eq!(
+        read("m", &bytes, Some("kaa"))
+            .expect("in any case")
+            .name
+            .as_deref(),
+        Some("KAA")
+    );
     let dmig = fs::read(golden("small.dmig")).expect("it reads");
     for (bytes, wanted, found) in [
         (&bytes[..], None, "KAA, T"),
@@ -83,7 +122,10 @@ fn a_matrix_is_chosen_by_its_name() {
         (&dmig[..], Some("MAA"), "KAAX, BAAX, PAX"),
     ] {
         let error = read("m", bytes, wanted).expect_err(found).to_string();
-        assert!(error.starts_with("m, line 1: expected one matrix of the name asked for"), "{error}");
+        assert!(
+            error.starts_with("m, line 1: expected one matrix of the name asked for"),
+            "{error}"
+        );
         assert!(error.ends_with(&format!("found {found}")), "{error}");
     }
 }
@@ -104,16 +146,46 @@ fn strings_with_nastrans_words_read() {
         is(2, 70),
         is(2, 1),
     );
-    let a = read("m", text.as_bytes(), Some("A")).expect("a matrix").matrix;
+    let a = read("m", text.as_bytes(), Some("A"))
+        .expect("a matrix")
+        .matrix;
     assert_eq!((a.rows(), a.columns()), (70, 3));
-    assert_eq!(a.entries(), [(1, 0, -1e-300), (2, 0, 2.5), (3, 0, 3.0), (69, 0, -1e-101), (0, 2, 4e101)]);
-    let b = read("m", text.as_bytes(), Some("B")).expect("a matrix").matrix;
+    assert_eq!(
+        a.entries(),
+        [
+            (1, 0, -1e-300),
+            (2, 0, 2.5),
+            (3, 0, 3.0),
+            (69, 0, -1e-101),
+            (0, 2, 4e101)
+        ]
+    );
+    let b = read("m", text.as_bytes(), Some("B"))
+        .expect("a matrix")
+        .matrix;
     assert_eq!((b.rows(), b.columns()), (70000, 2));
-    assert_eq!(b.entries(), [(65989, 1, 1.0), (65990, 1, -2.0), (69998, 1, 3.0)]);
-    let error = read("m", text.as_bytes(), Some("C")).expect_err("it is not square").to_string();
-    assert!(error.starts_with("m, line 21: expected a matrix of form 1, 2, 6 or 9, square if it is 6"), "{error}");
-    let zero = text.replace("       1       2       6       2C", "       1       2       2       2C       1P,5E16.9");
-    assert!(read("m", zero.as_bytes(), Some("C")).expect("zeros").matrix.entries().is_empty());
+    assert_eq!(
+        b.entries(),
+        [(65989, 1, 1.0), (65990, 1, -2.0), (69998, 1, 3.0)]
+    );
+    let error = read("m", text.as_bytes(), Some("C"))
+        .expect_err("it is not square")
+        .to_string();
+    assert!(
+        error.starts_with("m, line 21: expected a matrix of form 1, 2, 6 or 9, square if it is 6"),
+        "{error}"
+    );
+    let zero = text.replace(
+        "       1       2       6       2C",
+        "       1       2       2       2C       1P,5E16.9",
+    );
+    assert!(
+        read("m", zero.as_bytes(), Some("C"))
+            .expect("zeros")
+            .matrix
+            .entries()
+            .is_empty()
+    );
 }
 
 /// Of a matrix that is not asked for nothing is read but where it ends, however wide its numbers are.
@@ -124,11 +196,29 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
             "       1       1       2       2{name:8}{format}\n       1       1       1\n{number}\n       2       1       1\n{number}\n"
         )
     };
-    let wide = one("A", "1P,2E40.16", &format!("{:>40}", "1.0000000000000000E+00"));
+    let wide = one(
+        "A",
+        "1P,2E40.16",
+        &format!("{:>40}", "1.0000000000000000E+00"),
+    );
     let text = wide + &one("B", "1P,3E23.16", " 2.0000000000000000E+00");
-    assert_eq!(read("m", text.as_bytes(), Some("B")).expect("a matrix").matrix.entries(), [(0, 0, 2.0)]);
-    assert_eq!(read("m", text.as_bytes(), Some("A")).expect("a matrix").matrix.entries(), [(0, 0, 1.0)]);
-    let none = read("m", text.as_bytes(), Some("C")).expect_err("no such matrix").to_string();
+    assert_eq!(
+        read("m", text.as_bytes(), Some("B"))
+            .expect("a matrix")
+            .matrix
+            .entries(),
+        [(0, 0, 2.0)]
+    );
+    assert_eq!(
+        read("m", text.as_bytes(), Some("A"))
+            .expect("a matrix")
+            .matrix
+            .entries(),
+        [(0, 0, 1.0)]
+    );
+    let none = read("m", text.as_bytes(), Some("C"))
+        .expect_err("no such matrix")
+        .to_string();
     assert!(none.ends_with("found A, B"), "{none}");
 }
 
@@ -141,16 +231,31 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
         )
     };
     let whole = [(0, 0, 1.0), (1, 0, 2.0), (0, 1, 2.0), (1, 1, 3.0)];
-    for (row, numbers) in [(2, " 3.0000000000000000E+00"), (1, " 2.0000000000000000E+00 3.0000000000000000E+00")] {
+    for (row, numbers) in [
+        (2, " 3.0000000000000000E+00"),
+        (1, " 2.0000000000000000E+00 3.0000000000000000E+00"),
+    ] {
         let second = format!("       2{row:8}{:8}\n{numbers}\n", 3 - row);
-        assert_eq!(read("m", text(&second).as_bytes(), None).expect("a matrix").matrix.entries(), whole);
+        assert_eq!(
+            read("m", text(&second).as_bytes(), None)
+                .expect("a matrix")
+                .matrix
+                .entries(),
+            whole
+        );
     }
     let upper = text("       2       1       2\n 2.0000000000000000E+00 3.0000000000000000E+00\n");
     let upper = upper.replace(
         "       1       1       2\n 1.0000000000000000E+00 2.0000000000000000E+00\n",
         "       1       1       1\n 1.0000000000000000E+00\n",
     );
-    assert_eq!(read("m", upper.as_bytes(), None).expect("a matrix").matrix.entries(), whole);
+    assert_eq!(
+        read("m", upper.as_bytes(), None)
+            .expect("a matrix")
+            .matrix
+            .entries(),
+        whole
+    );
 }
 
 #[test]
@@ -164,17 +269,27 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
         .replace("123456780", " 12345678");
     let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(7, 0), (12_345_678, 2)]));
-    assert_eq!(found.matrix.entries(), [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]);
-    let error = read("m", text.as_bytes(), Some("C")).expect_err("complex").to_string();
-    assert_eq!(error, "m, line 7: card DMIG, field 5: expected type 1 or 2, a real matrix, found 3");
+    assert_eq!(
+        found.matrix.entries(),
+        [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]
+    );
+    let error = read("m", text.as_bytes(), Some("C"))
+        .expect_err("complex")
+        .to_string();
+    assert_eq!(
+        error,
+        "m, line 7: card DMIG, field 5: expected type 1 or 2, a real matrix, found 3"
+    );
     // Three entries on a card, and a place for one that has none.
     let text = "DMIG,K,0,2,2,0\nDMIG,K,1,1,,2,1,2.,,+A\n+A,,,,,3,1,3.,,+B\n+B,4,1,4.\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(2, 1), (3, 1), (4, 1)]));
-    assert_eq!(found.matrix.entries(), [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]);
+    assert_eq!(
+        found.matrix.entries(),
+        [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]
+    );
     // Fields of eight characters that touch.
-    let text =
-        "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
+    let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(12_345_678, 3), (12_345_679, 1)]));
     assert_eq!(found.matrix.entries(), [(1, 0, -1.234e-3)]);
@@ -183,24 +298,45 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
 /// What the crate writes, and what SciPy reads from it.
 #[test]
 fn the_owners_programs_read_what_the_crate_writes() {
-    let general =
-        vec![(0, 0, 1e-300), (3, 0, -1.5e10), (1, 1, 0.1 + 0.2), (4, 2, f64::MAX), (0, 2, std::f64::consts::PI)];
-    let mut symmetric: Vec<_> = (0..12).map(|row| (row, row, 2.0 + 1.0 / (row + 1) as f64)).collect();
-    symmetric.extend((1..12).flat_map(|row| [(row, row - 1, -1.0 / row as f64), (row - 1, row, -1.0 / row as f64)]));
-    let written = [("written_general.mtx", 5, 3, general), ("written_symmetric.mtx", 12, 12, symmetric)].map(
-        |(file, rows, columns, entries)| {
-            let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
-            assert_written(file, write_matrix_market(&matrix).as_bytes());
-            (file, matrix)
-        },
-    );
+    let general = vec![
+        (0, 0, 1e-300),
+        (3, 0, -1.5e10),
+        (1, 1, 0.1 + 0.2),
+        (4, 2, f64::MAX),
+        (0, 2, std::f64::consts::PI),
+    ];
+    let mut symmetric: Vec<_> = (0..12)
+        .map(|row| (row, row, 2.0 + 1.0 / (row + 1) as f64))
+        .collect();
+    symmetric.extend((1..12).flat_map(|row| {
+        [
+            (row, row - 1, -1.0 / row as f64),
+            (row - 1, row, -1.0 / row as f64),
+        ]
+    }));
+    let written = [
+        ("written_general.mtx", 5, 3, general),
+        ("written_symmetric.mtx", 12, 12, symmetric),
+    ]
+    .map(|(file, rows, columns, entries)| {
+        let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
+        assert_written(file, write_matrix_market(&matrix).as_bytes());
+        (file, matrix)
+    });
     let stored = table("read_back_matrices.csv");
     for (file, matrix) in written {
         let read = stored.iter().filter(|line| line[0] == file);
         let number = |text: &str| text.parse::<usize>().expect("a number") - 1;
-        let read = read.map(|line| (number(&line[1]), number(&line[2]), line[3].parse().expect("a number")));
+        let read = read.map(|line| {
+            (
+                number(&line[1]),
+                number(&line[2]),
+                line[3].parse().expect("a number"),
+            )
+        });
         assert_eq!(
-            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect()).expect("a matrix"),
+            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect())
+                .expect("a matrix"),
             matrix,
             "{file}"
         );

@@ -22,7 +22,8 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
     let kaa =
-        corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, free.len()).expect("stiffness");
+        corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, free.len())
+            .expect("stiffness");
     let t = &model.load_distribution().dense();
     let mut maa = t * model.mass() * t.transpose();
     // Stiffness factors leave every element the mass of its first size.
@@ -34,34 +35,47 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     // In KGG the elements stand by themselves after all grids, in the order of their numbers.
     let mut rows: Vec<usize> = (0..structure.elements().len()).collect();
     rows.sort_by_key(|&row| structure.elements()[row].label);
-    let corners: usize = structure.elements().iter().map(|element| element.grids.len()).sum();
+    let corners: usize = structure
+        .elements()
+        .iter()
+        .map(|element| element.grids.len())
+        .sum();
     let mut start = 6 * (structure.grids().len() + t.ncols());
     let mut kgg = DMatrix::zeros(start + 6 * corners, start + 6 * corners);
     for row in rows {
         let element = &structure.elements()[row];
-        let unit =
-            corfem::method::elements::unit_stiffness(element.kind, &structure.corners(element), &element.material)
-                .expect("stiffness");
+        let unit = corfem::method::elements::unit_stiffness(
+            element.kind,
+            &structure.corners(element),
+            &element.material,
+        )
+        .expect("stiffness");
         for (a, b) in (0..unit.nrows()).flat_map(|a| (0..unit.nrows()).map(move |b| (a, b))) {
             let place = |dof: usize| start + 6 * (dof / 3) + dof % 3;
             kgg[(place(a), place(b))] = sizes[row] * unit[(a, b)];
         }
         start += 6 * element.grids.len();
     }
-    [("KGG", kgg), ("KAA", sorted(&kaa)), ("MAA", sorted(&maa))].map(|(name, matrix)| (name.to_owned(), matrix)).into()
+    [("KGG", kgg), ("KAA", sorted(&kaa)), ("MAA", sorted(&maa))]
+        .map(|(name, matrix)| (name.to_owned(), matrix))
+        .into()
 }
 
 /// A solver that answers every deck with the same matrices.
 fn answering(matrices: &Matrices) -> TempDir {
     let home = fake("cat \"$RFDIR/answer\" > \"$FTN15\"");
-    let list: Vec<(&str, &DMatrix<f64>)> = matrices.iter().map(|(name, matrix)| (name.as_str(), matrix)).collect();
+    let list: Vec<(&str, &DMatrix<f64>)> = matrices
+        .iter()
+        .map(|(name, matrix)| (name.as_str(), matrix))
+        .collect();
     std::fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
     home
 }
 
 fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
-    let same =
-        |a: &DMatrix<f64>, b: &DMatrix<f64>| approx::assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax());
+    let same = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
+        approx::assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax())
+    };
     same(&found.stiffness, &expected.stiffness);
     same(&found.mass, &expected.mass);
     assert_eq!(found.shares.len(), expected.shares.len());
@@ -91,8 +105,10 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
     let model = disordered();
     let factors = [1.5, 0.5];
     let home = answering(&own_answer(&model, &factors));
-    let found =
-        solver(&home).elements(&model, &factors).and_then(|model| Ok(model.matrices(&factors)?)).expect("an analysis");
+    let found = solver(&home)
+        .elements(&model, &factors)
+        .and_then(|model| Ok(model.matrices(&factors)?))
+        .expect("an analysis");
     assert_same(&found, &model.matrices(&factors).expect("an analysis"));
 }
 
@@ -107,8 +123,13 @@ pub fn disordered() -> FiniteElementModel {
     };
     let light = Material::isotropic(1e7, 0.3).expect("a material");
     let heavy = light.with_density(1e-4).expect("a density");
-    let element =
-        |label, kind, grids: &[usize], material| Element { label, kind, grids: grids.to_vec(), size: 0.1, material };
+    let element = |label, kind, grids: &[usize], material| Element {
+        label,
+        kind,
+        grids: grids.to_vec(),
+        size: 0.1,
+        material,
+    };
     let structure = Structure::new(
         vec![
             grid(7, [0.0, 0.0, 4.0], false),
@@ -136,7 +157,10 @@ pub fn disordered() -> FiniteElementModel {
         structure,
         t,
         mass,
-        vec![Parameter::element(40, None), Parameter::group("others", &[4, 12, 6])],
+        vec![
+            Parameter::element(40, None),
+            Parameter::group("others", &[4, 12, 6]),
+        ],
     )
     .expect("a model")
 }
@@ -161,21 +185,41 @@ fn an_answer_to_another_question_is_refused() {
         }
     };
     let (expected, found) = refused(&entry("KAA", 2e-9));
-    assert_eq!(expected, "KAA to be the sum of its element matrices within 1e-9 of its largest entry");
+    assert_eq!(
+        expected,
+        "KAA to be the sum of its element matrices within 1e-9 of its largest entry"
+    );
     assert_eq!(found, "them 2.0e-9 apart");
     let (expected, found) = refused(&entry("MAA", -2e-6));
-    assert_eq!(expected, "MAA to be the masses the MPC equations distribute within 1e-6 of its largest entry");
+    assert_eq!(
+        expected,
+        "MAA to be the masses the MPC equations distribute within 1e-6 of its largest entry"
+    );
     assert_eq!(found, "them 2.0e-6 apart");
     let (expected, found) = refused(&|answer| drop(answer.remove("MAA")));
-    assert_eq!((expected.as_str(), found.as_str()), ("a matrix MAA of 6 rows and columns", "none"));
+    assert_eq!(
+        (expected.as_str(), found.as_str()),
+        ("a matrix MAA of 6 rows and columns", "none")
+    );
     let size = 6 * (5 + 2 + 13);
-    let (expected, found) = refused(&|answer| drop(answer.insert("KGG".into(), DMatrix::identity(12, 13))));
-    assert_eq!((expected, found.as_str()), (format!("a matrix KGG of {size} rows and columns"), "12 x 13"));
+    let (expected, found) =
+        refused(&|answer| drop(answer.insert("KGG".into(), DMatrix::identity(12, 13))));
+    assert_eq!(
+        (expected, found.as_str()),
+        (
+            format!("a matrix KGG of {size} rows and columns"),
+            "12 x 13"
+        )
+    );
     // Differences below the limits are single precision.
     for change in [entry("KAA", 0.5e-9), entry("MAA", 0.5e-6)] {
         let mut answer = good.clone();
         change(&mut answer);
-        assert!(solver(&answering(&answer)).elements(&model, &[1.0, 1.0]).is_ok());
+        assert!(
+            solver(&answering(&answer))
+                .elements(&model, &[1.0, 1.0])
+                .is_ok()
+        );
     }
     assert!(matches!(
         BulkData::of(&model, &[1.0, 1.0], &[]),

@@ -18,7 +18,8 @@ use corfem::studies::delta_wing::correlation::{
 };
 use std::sync::LazyLock;
 
-static RUN: LazyLock<WingCorrelation> = LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+static RUN: LazyLock<WingCorrelation> =
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")
@@ -33,12 +34,28 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
     assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
     let test = test_modes(&wing()).expect("test modes");
     // They are the crate's own on both sides, perhaps by another processor.
-    assert_near(&stored.test_frequencies_hz, &test.frequencies_hz(), NASTRAN_AGAIN, "test modes");
+    assert_near(
+        &stored.test_frequencies_hz,
+        &test.frequencies_hz(),
+        NASTRAN_AGAIN,
+        "test modes",
+    );
     for found in stored.checks() {
-        let own = model.analyze(&found.factors, &test, None).expect("an analysis").exact;
-        assert_near(&found.frequencies_hz, &own.frequencies_hz, NASTRAN_FREQUENCY, "same factors");
+        let own = model
+            .analyze(&found.factors, &test, None)
+            .expect("an analysis")
+            .exact;
+        assert_near(
+            &found.frequencies_hz,
+            &own.frequencies_hz,
+            NASTRAN_FREQUENCY,
+            "same factors",
+        );
         // An RMS of differences changes by no more than the largest of them does.
-        let errors = [(found.frequency_rms, own.errors.frequency_rms()), (found.shape_rms, own.errors.shape_rms())];
+        let errors = [
+            (found.frequency_rms, own.errors.frequency_rms()),
+            (found.shape_rms, own.errors.shape_rms()),
+        ];
         for (a, b) in errors {
             assert!((a - b).abs() <= NASTRAN_FREQUENCY, "{a}, expected {b}");
         }
@@ -55,7 +72,10 @@ fn stored_correlation_is_the_crates() {
     let (stored, own) = (stored_wing(), &RUN.correlation);
     assert_near(
         &[stored.initial.frequency_rms, stored.initial.shape_rms],
-        &[own.initial.errors.frequency_rms(), own.initial.errors.shape_rms()],
+        &[
+            own.initial.errors.frequency_rms(),
+            own.initial.errors.shape_rms(),
+        ],
         NASTRAN_GAGE,
         "start",
     );
@@ -64,7 +84,12 @@ fn stored_correlation_is_the_crates() {
     for (found, pass) in stored.passes.iter().zip(&own.passes) {
         assert_eq!(found.iterations, Some(pass.inner.iterations.len()));
         assert_near(&found.factors, &pass.factors, NASTRAN_GAGE, "factors");
-        assert_near(&found.frequencies_hz, &pass.check.frequencies_hz, NASTRAN_FREQUENCY, "frequencies");
+        assert_near(
+            &found.frequencies_hz,
+            &pass.check.frequencies_hz,
+            NASTRAN_FREQUENCY,
+            "frequencies",
+        );
         let errors = &pass.check.errors;
         assert_near(
             &[found.frequency_rms, found.shape_rms],
@@ -94,7 +119,12 @@ fn another_analysis_is_asked_for_every_model() {
     assert_eq!(told, [1, 2, 3]);
     // For the shares of the first model, at the start of the loop, and after every pass.
     let mut expected = vec![vec![1.0; GROUPS.len()]; 2];
-    expected.extend(RUN.correlation.passes.iter().map(|pass| pass.factors.clone()));
+    expected.extend(
+        RUN.correlation
+            .passes
+            .iter()
+            .map(|pass| pass.factors.clone()),
+    );
     assert_eq!(asked, expected);
 }
 
@@ -115,21 +145,31 @@ fn what_an_analysis_cannot_do_is_the_correlations_error() {
             },
             |_, _| {},
         );
-        assert!(matches!(error, Err(FileError::SolverInterrupted)), "{answered}");
+        assert!(
+            matches!(error, Err(FileError::SolverInterrupted)),
+            "{answered}"
+        );
     }
 }
 
 #[test]
 fn reports_name_another_solver() {
-    let other = WingCorrelation { solver: NAME, ..RUN.clone() };
+    let other = WingCorrelation {
+        solver: NAME,
+        ..RUN.clone()
+    };
     let noted = |run: &WingCorrelation| {
         let tables = delta_wing_tables(&wing(), run).expect("tables");
         let notes = tables.into_iter().map(|table| (table.name, table.notes));
         notes.collect::<Vec<_>>()
     };
-    let note = "Finite element analyses of the model by NASTRAN-95; everything else by this program.";
+    let note =
+        "Finite element analyses of the model by NASTRAN-95; everything else by this program.";
     let mut expected = noted(&RUN);
-    assert_eq!((expected[4].0.as_str(), expected[4].1.len()), ("delta_wing_modes", 1));
+    assert_eq!(
+        (expected[4].0.as_str(), expected[4].1.len()),
+        ("delta_wing_modes", 1)
+    );
     expected[4].1.insert(0, note.to_owned());
     assert_eq!(noted(&other), expected);
     for run in [&*RUN, &other] {
@@ -148,8 +188,14 @@ fn the_command_asks_the_solver_it_is_given() {
     let slow = slow.path().to_str().expect("a name");
     for (extra, message) in [
         (&[][..], "exit status: 9"),
-        (&["--nastran", slow, "--time-limit", "1"], "expected it to end within 1 s"),
-        (&["--nastran", "no/such/folder"], "found none at no/such/folder"),
+        (
+            &["--nastran", slow, "--time-limit", "1"],
+            "expected it to end within 1 s",
+        ),
+        (
+            &["--nastran", "no/such/folder"],
+            "found none at no/such/folder",
+        ),
     ] {
         let output = assert_cmd::Command::cargo_bin("corfem")
             .expect("the program is built")

@@ -5,8 +5,8 @@
 
 use crate::common::outer_loop::{assert_near, stored};
 use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1, NASTRAN_SINGLE_PRECISION,
-    PRINTED_SNAP_FACTOR,
+    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
+    NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
 };
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::cases::{CASES, Case, published_passes, run_case};
@@ -23,7 +23,10 @@ fn snap_factor(corners: &[Vector3<f64>; 4], material: &Material) -> Option<f64> 
     let plane = mean_plane(corners).expect("a panel");
     let [_, c2, c3, c4] = plane.corners;
     let (x2, x3, y3, x4, y4) = (c2.x, c3.x, c3.y, c4.x, c4.y);
-    let (base, side) = ((y3 - y4) / (x3 - x4), (y4 * (x3 - x2) - y3 * x4) / (x4 * (x3 - x2) + y4 * y3));
+    let (base, side) = (
+        (y3 - y4) / (x3 - x4),
+        (y4 * (x3 - x2) - y3 * x4) / (x4 * (x3 - x2) + y4 * y3),
+    );
     let m = 1.0 / (1.0 + material.poissons_ratio);
     let parallel = |x: f64| x.abs() < 0.01;
     let (distances, cotangents) = match (parallel(base), parallel(side)) {
@@ -57,10 +60,14 @@ fn snap_factors(case: &Case) -> Vec<f64> {
     let structure = model.structure();
     structure.elements()[..PANEL_COUNT]
         .iter()
-        .map(|element| match (element.kind, structure.corners(element).as_slice()) {
-            (ElementKind::ShearPanel, &[a, b, c, d]) => snap_factor(&[a, b, c, d], &element.material).unwrap_or(1.0),
-            _ => 1.0,
-        })
+        .map(
+            |element| match (element.kind, structure.corners(element).as_slice()) {
+                (ElementKind::ShearPanel, &[a, b, c, d]) => {
+                    snap_factor(&[a, b, c, d], &element.material).unwrap_or(1.0)
+                }
+                _ => 1.0,
+            },
+        )
         .collect()
 }
 
@@ -68,23 +75,37 @@ fn snap_factors(case: &Case) -> Vec<f64> {
 fn frequencies(case: &Case, gages: &[f64]) -> Vec<f64> {
     let model = case.model_with(gages).expect("a model");
     let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
-    solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes").frequencies_hz()
+    solve(&dynamic.stiffness, &dynamic.mass, 9)
+        .expect("modes")
+        .frequencies_hz()
 }
 
 #[test]
 fn only_three_panels_of_the_box_are_snapped() {
     for number in CASES {
         let case = Case::new(number).expect("a case");
-        let snapped: Vec<(usize, f64)> =
-            (1..).zip(snap_factors(&case)).filter(|(_, factor)| (factor - 1.0).abs() > NASTRAN_EIGENVALUE).collect();
+        let snapped: Vec<(usize, f64)> = (1..)
+            .zip(snap_factors(&case))
+            .filter(|(_, factor)| (factor - 1.0).abs() > NASTRAN_EIGENVALUE)
+            .collect();
         // golden/nastran95/README.md: panel 14 by 1.0000022, and the covers 2 and 15 by 0.9972 where they are shear panels.
-        let expected: &[(usize, f64)] =
-            if number == 1 { &[(2, 0.9972), (14, 1.000_002_2), (15, 0.9972)] } else { &[(14, 1.000_002_2)] };
+        let expected: &[(usize, f64)] = if number == 1 {
+            &[(2, 0.9972), (14, 1.000_002_2), (15, 0.9972)]
+        } else {
+            &[(14, 1.000_002_2)]
+        };
         assert_eq!(snapped.len(), expected.len(), "case {number}: {snapped:?}");
         for ((panel, factor), (label, printed)) in snapped.iter().zip(expected) {
             assert_eq!(panel, label);
-            let digits = if *label == 14 { NASTRAN_SINGLE_PRECISION } else { PRINTED_SNAP_FACTOR };
-            assert!((factor - printed).abs() <= digits, "panel {panel}: {factor}");
+            let digits = if *label == 14 {
+                NASTRAN_SINGLE_PRECISION
+            } else {
+                PRINTED_SNAP_FACTOR
+            };
+            assert!(
+                (factor - printed).abs() <= digits,
+                "panel {panel}: {factor}"
+            );
         }
     }
 }
@@ -97,10 +118,19 @@ fn stored_frequencies_are_the_crates_at_the_same_gages() {
         let case = Case::new(stored.number).expect("a case");
         let factors = snap_factors(&case);
         let at = |gages: &[f64]| {
-            let gages: Vec<f64> = gages.iter().zip(&factors).map(|(gage, factor)| gage * factor).collect();
+            let gages: Vec<f64> = gages
+                .iter()
+                .zip(&factors)
+                .map(|(gage, factor)| gage * factor)
+                .collect();
             frequencies(&case, &gages)
         };
-        assert_near(&stored.test_frequencies_hz, &at(&[TEST_GAGE; PANEL_COUNT]), NASTRAN_FREQUENCY, "test modes");
+        assert_near(
+            &stored.test_frequencies_hz,
+            &at(&[TEST_GAGE; PANEL_COUNT]),
+            NASTRAN_FREQUENCY,
+            "test modes",
+        );
         assert_eq!(stored.initial.gages_in, case.first_gages());
         assert_eq!(stored.initial.iterations, None);
         assert_eq!(stored.passes.len(), published_passes(case.number));
@@ -108,7 +138,12 @@ fn stored_frequencies_are_the_crates_at_the_same_gages() {
             // The report lists frequencies in the order of the test modes.
             let mut sorted = check.frequencies_hz.clone();
             sorted.sort_by(f64::total_cmp);
-            assert_near(&sorted, &at(&check.gages_in), NASTRAN_FREQUENCY, &format!("case {}", stored.number));
+            assert_near(
+                &sorted,
+                &at(&check.gages_in),
+                NASTRAN_FREQUENCY,
+                &format!("case {}", stored.number),
+            );
         }
     }
 }
@@ -126,20 +161,43 @@ fn stored_correlations_are_the_crates() {
         };
         let name = format!("case {}", stored.number);
         let near = |a: f64, b: f64| assert!((a - b).abs() <= gage * b, "{name}: {a}, expected {b}");
-        near(stored.initial.frequency_rms, own.correlation.initial.errors.frequency_rms());
-        near(stored.initial.shape_rms, own.correlation.initial.errors.shape_rms());
+        near(
+            stored.initial.frequency_rms,
+            own.correlation.initial.errors.frequency_rms(),
+        );
+        near(
+            stored.initial.shape_rms,
+            own.correlation.initial.errors.shape_rms(),
+        );
         assert_eq!(stored.passes.len(), own.correlation.passes.len());
-        for ((check, pass), gages) in stored.passes.iter().zip(&own.correlation.passes).zip(&own.pass_gages) {
+        for ((check, pass), gages) in stored
+            .passes
+            .iter()
+            .zip(&own.correlation.passes)
+            .zip(&own.pass_gages)
+        {
             assert_near(&check.gages_in, gages, gage, &name);
-            assert_near(&check.frequencies_hz, &pass.check.frequencies_hz, gage, &name);
+            assert_near(
+                &check.frequencies_hz,
+                &pass.check.frequencies_hz,
+                gage,
+                &name,
+            );
             let iterations = check.iterations.expect("a pass has iterations");
             assert_eq!(iterations, pass.inner.iterations.len(), "{name}");
         }
         // What the paper reached is reached with NASTRAN-95 too: Table 3, 5 and 7's last rows, Case 2's 0.42 % within 0.04.
-        let published = [(1, 0.0045, 0.0054), (2, 0.0046, 0.0048), (3, 0.0041, 0.0125)];
+        let published = [
+            (1, 0.0045, 0.0054),
+            (2, 0.0046, 0.0048),
+            (3, 0.0041, 0.0125),
+        ];
         if let Some((_, frequency, shape)) = published.iter().find(|row| row.0 == stored.number) {
             let last = stored.passes.last().expect("a pass");
-            assert!(last.frequency_rms <= *frequency && last.shape_rms <= *shape, "{name}");
+            assert!(
+                last.frequency_rms <= *frequency && last.shape_rms <= *shape,
+                "{name}"
+            );
         }
     }
 }

@@ -19,15 +19,26 @@ fn a_file_of_module_output5_reads() {
     assert_eq!(kgg, &kgg.transpose());
     assert_eq!(kgg.row(3).amax(), 0.0);
     let two = output5(&[
-        ("A", &DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0])),
+        (
+            "A",
+            &DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0]),
+        ),
         ("B", &DMatrix::zeros(1, 1)),
     ]);
     let read = read_output5(&two, 7).expect("it reads");
-    assert_eq!(read["A"], DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0]));
+    assert_eq!(
+        read["A"],
+        DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0])
+    );
     assert_eq!(read["B"], DMatrix::zeros(1, 1));
     // No header is too large, but both together are.
     let error = read_output5(&two, 6).expect_err("seven entries");
-    assert!(error.to_string().contains("at most 6 entries in all in line 9 "), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("at most 6 entries in all in line 9 "),
+        "{error}"
+    );
 }
 
 #[test]
@@ -38,30 +49,66 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
         let mut lines = lines.clone();
         lines[line - 1] = text;
         let error = read_output5(&lines.join("\n"), 144).expect_err(text);
-        let FileError::SolverAnswer { expected: wanted, .. } = &error else {
+        let FileError::SolverAnswer {
+            expected: wanted, ..
+        } = &error
+        else {
             panic!("{error}");
         };
         assert_eq!(*wanted, format!("{expected} of the OUTPUT5 file"), "{text}");
     };
     let header = |columns: usize, kind: usize| {
-        format!("   0.00000000000000000D+00{columns:8}      12       6{kind:8}      12    2500KGG     ")
+        format!(
+            "   0.00000000000000000D+00{columns:8}      12       6{kind:8}      12    2500KGG     "
+        )
     };
     refused(2, "  x", "an integer in line 2");
-    refused(2, "       1       1       1", "a matrix's header before its columns in line 2");
-    refused(3, "   0.00000000000000000D+00      1x", "an integer in line 3");
-    refused(3, &header(12, 1), "the header of a real double precision matrix in line 3");
+    refused(
+        2,
+        "       1       1       1",
+        "a matrix's header before its columns in line 2",
+    );
+    refused(
+        3,
+        "   0.00000000000000000D+00      1x",
+        "an integer in line 3",
+    );
+    refused(
+        3,
+        &header(12, 1),
+        "the header of a real double precision matrix in line 3",
+    );
     for columns in [13, 99_999_999] {
-        refused(3, &header(columns, 2), "matrices of at most 144 entries in all in line 3");
+        refused(
+            3,
+            &header(columns, 2),
+            "matrices of at most 144 entries in all in line 3",
+        );
     }
-    for outside in
-        ["      13       1       9", "       1       0       9", "       1       1      13", "       1       3       2"]
-    {
+    for outside in [
+        "      13       1       9",
+        "       1       0       9",
+        "       1       1      13",
+        "       1       3       2",
+    ] {
         refused(4, outside, "a column and rows within the matrix in line 4");
     }
     refused(5, "", "reals in line 5");
-    refused(5, "   0.20188163729412143X+05", "reals of the format D26.17, as many as rows in line 5");
-    refused(4, "       1       1       4", "reals of the format D26.17, as many as rows in line 5");
-    refused(4, "       1       1       7", "reals of the format D26.17, as many as rows in line 6");
+    refused(
+        5,
+        "   0.20188163729412143X+05",
+        "reals of the format D26.17, as many as rows in line 5",
+    );
+    refused(
+        4,
+        "       1       1       4",
+        "reals of the format D26.17, as many as rows in line 5",
+    );
+    refused(
+        4,
+        "       1       1       7",
+        "reals of the format D26.17, as many as rows in line 6",
+    );
     let cut = lines[..4].join("\n");
     let error = read_output5(&cut, 144).expect_err("its end");
     assert!(

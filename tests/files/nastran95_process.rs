@@ -24,10 +24,22 @@ fn a_missing_solver_is_named() {
     std::fs::remove_dir(no_formats.path().join("rf")).expect("removed");
     let no_program = fake("exit 0");
     std::fs::remove_file(no_program.path().join("bin/nastrn")).expect("removed");
-    for folder in [empty.path(), no_formats.path(), no_program.path(), Path::new("no/such/folder")] {
+    for folder in [
+        empty.path(),
+        no_formats.path(),
+        no_program.path(),
+        Path::new("no/such/folder"),
+    ] {
         let error = Nastran95::in_folder(folder).expect_err("nothing there");
-        assert!(matches!(&error, FileError::SolverMissing { path } if path == folder), "{error}");
-        assert!(error.to_string().contains("--nastran or the environment variable NASTRAN95"));
+        assert!(
+            matches!(&error, FileError::SolverMissing { path } if path == folder),
+            "{error}"
+        );
+        assert!(
+            error
+                .to_string()
+                .contains("--nastran or the environment variable NASTRAN95")
+        );
     }
 }
 
@@ -37,7 +49,10 @@ fn a_program_that_cannot_start_is_named() {
     let program = home.path().join("bin/nastrn");
     std::fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).expect("not executable");
     let error = solver(&home).run("").expect_err("it cannot start");
-    assert!(matches!(&error, FileError::File { path, action: "run", .. } if path.ends_with("bin/nastrn")), "{error}");
+    assert!(
+        matches!(&error, FileError::File { path, action: "run", .. } if path.ends_with("bin/nastrn")),
+        "{error}"
+    );
 }
 
 #[test]
@@ -52,19 +67,33 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
     let formats = home.path().canonicalize().expect("a path").join("rf");
     let lines: Vec<&str> = answer.printed.lines().map(str::trim).collect();
     assert_eq!(lines[0], "BEGIN BULK");
-    assert_eq!(lines[1], format!("memory 12000000 2000000 formats {} none none none", formats.display()));
-    assert_eq!(lines[2..], ["at home", "10"], "deck, two outputs and seven files");
+    assert_eq!(
+        lines[1],
+        format!(
+            "memory 12000000 2000000 formats {} none none none",
+            formats.display()
+        )
+    );
+    assert_eq!(
+        lines[2..],
+        ["at home", "10"],
+        "deck, two outputs and seven files"
+    );
 }
 
 #[test]
 fn a_run_without_an_answer_says_what_was_printed_last() {
     let home = fake("echo one; echo two; echo; echo three; echo four");
-    let error = solver(&home).matrices("", 0).expect_err("nothing on unit 15");
+    let error = solver(&home)
+        .matrices("", 0)
+        .expect_err("nothing on unit 15");
     assert_eq!(
         error.to_string(),
         "NASTRAN-95: expected matrices on Fortran unit 15, found none; printed last: two / three / four"
     );
-    let silent = solver(&fake("exit 0")).matrices("", 0).expect_err("nothing at all");
+    let silent = solver(&fake("exit 0"))
+        .matrices("", 0)
+        .expect_err("nothing at all");
     assert!(
         matches!(&silent, FileError::SolverAnswer { found, .. } if found == "none; printed last: nothing printed"),
         "{silent}"
@@ -79,15 +108,22 @@ fn a_crash_gives_its_status_and_last_words() {
         matches!(&error, FileError::SolverCrashed { status, message } if status == "exit status: 3" && message == "reading bulk data / Segmentation fault"),
         "{error}"
     );
-    let killed = solver(&fake("kill -SEGV $$")).run("").expect_err("a signal");
-    assert!(matches!(&killed, FileError::SolverCrashed { status, .. } if status.contains("signal: 11")), "{killed}");
+    let killed = solver(&fake("kill -SEGV $$"))
+        .run("")
+        .expect_err("a signal");
+    assert!(
+        matches!(&killed, FileError::SolverCrashed { status, .. } if status.contains("signal: 11")),
+        "{killed}"
+    );
 }
 
 #[test]
 fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
     let message = "0*** USER FATAL MESSAGE 2025, UNDEFINED GRID POINT\\n     77 ON ELEMENT 3\\n\\n     NEXT PAGE";
     for status in [0, 1] {
-        let home = fake(&format!("printf ' HEADING\\n{message}\\n'; printf x > \"$FTN15\"; exit {status}"));
+        let home = fake(&format!(
+            "printf ' HEADING\\n{message}\\n'; printf x > \"$FTN15\"; exit {status}"
+        ));
         let error = solver(&home).run("").expect_err("a fatal message");
         assert!(
             matches!(&error, FileError::SolverFatal { message } if message == "USER FATAL MESSAGE 2025, UNDEFINED GRID POINT 77 ON ELEMENT 3"),
@@ -95,28 +131,47 @@ fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
         );
     }
     // Two messages in a row: the first counts. NASTRAN prints bytes that are no text.
-    let home = fake("printf '\\377\\0\\n0*** SYSTEM FATAL MESSAGE 1\\n0*** USER FATAL MESSAGE 2\\n'");
+    let home =
+        fake("printf '\\377\\0\\n0*** SYSTEM FATAL MESSAGE 1\\n0*** USER FATAL MESSAGE 2\\n'");
     let error = solver(&home).run("").expect_err("fatal messages");
-    assert!(matches!(&error, FileError::SolverFatal { message } if message == "SYSTEM FATAL MESSAGE 1"), "{error}");
+    assert!(
+        matches!(&error, FileError::SolverFatal { message } if message == "SYSTEM FATAL MESSAGE 1"),
+        "{error}"
+    );
     let long = fake("printf 'FATAL a\\nb\\nc\\nd\\n'");
     let error = solver(&long).run("").expect_err("a long message");
-    assert!(matches!(&error, FileError::SolverFatal { message } if message == "FATAL a b c"), "{error}");
+    assert!(
+        matches!(&error, FileError::SolverFatal { message } if message == "FATAL a b c"),
+        "{error}"
+    );
 }
 
 #[test]
 fn a_hang_is_stopped_with_everything_it_started() {
     let outside = tempfile::tempdir().expect("a folder");
     let marker = outside.path().join("alive");
-    let home = fake(&format!("(sleep 2; touch {}) &\nsleep 60", marker.display()));
+    let home = fake(&format!(
+        "(sleep 2; touch {}) &\nsleep 60",
+        marker.display()
+    ));
     let mut solver = solver(&home);
     solver.time_limit = Duration::from_millis(300);
     let start = Instant::now();
     let error = solver.run("").expect_err("a hang");
-    assert!(matches!(error, FileError::SolverTimeLimit { seconds } if seconds == 0.3), "{error}");
+    assert!(
+        matches!(error, FileError::SolverTimeLimit { seconds } if seconds == 0.3),
+        "{error}"
+    );
     let took = start.elapsed();
-    assert!(took >= solver.time_limit && took < Duration::from_secs(10), "{took:?}");
+    assert!(
+        took >= solver.time_limit && took < Duration::from_secs(10),
+        "{took:?}"
+    );
     std::thread::sleep(Duration::from_millis(2500));
-    assert!(!marker.exists(), "what the program started was stopped with it");
+    assert!(
+        !marker.exists(),
+        "what the program started was stopped with it"
+    );
 }
 
 #[test]
@@ -147,16 +202,28 @@ fn through_the_command_line(home: &TempDir, extra: &[&str]) -> (std::process::Ou
 fn no_run_leaves_anything_behind() {
     for (script, message) in [
         ("exit 0", "expected matrices on Fortran unit 15"),
-        ("touch a b; mkdir -p c/d; touch c/d/e; exit 9", "exit status: 9"),
-        ("echo ' *** USER FATAL MESSAGE 3'", "found: USER FATAL MESSAGE 3"),
-        ("echo rubbish > \"$FTN15\"; echo rubbish >> \"$FTN15\"", "an integer in line 2 of the OUTPUT5 file"),
+        (
+            "touch a b; mkdir -p c/d; touch c/d/e; exit 9",
+            "exit status: 9",
+        ),
+        (
+            "echo ' *** USER FATAL MESSAGE 3'",
+            "found: USER FATAL MESSAGE 3",
+        ),
+        (
+            "echo rubbish > \"$FTN15\"; echo rubbish >> \"$FTN15\"",
+            "an integer in line 2 of the OUTPUT5 file",
+        ),
         ("touch big; sleep 60", "expected it to end within 1 s"),
     ] {
         let home = fake(script);
         let (output, left) = through_the_command_line(&home, &["--time-limit", "1"]);
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{script}: {stderr}");
-        assert!(stderr.starts_with("corfem: NASTRAN-95: ") && stderr.contains(message), "{script}: {stderr}");
+        assert!(
+            stderr.starts_with("corfem: NASTRAN-95: ") && stderr.contains(message),
+            "{script}: {stderr}"
+        );
         assert!(output.stdout.is_empty());
         assert_eq!(left, 0, "{script}");
     }
@@ -173,10 +240,21 @@ fn stopped_by(signal: Signal, run_by: &[&str]) -> (std::process::ExitStatus, usi
     let temporary = tempfile::tempdir().expect("a folder");
     let home = fake("touch started; sleep 3");
     let program = assert_cmd::cargo::cargo_bin("corfem");
-    let words = run_by.iter().map(Path::new).chain([program.as_path()]).collect::<Vec<_>>();
+    let words = run_by
+        .iter()
+        .map(Path::new)
+        .chain([program.as_path()])
+        .collect::<Vec<_>>();
     let mut child = std::process::Command::new(words[0])
         .args(&words[1..])
-        .args(["cases", "4", "--solver", "nastran95", "--quiet", "--nastran"])
+        .args([
+            "cases",
+            "4",
+            "--solver",
+            "nastran95",
+            "--quiet",
+            "--nastran",
+        ])
         .arg(home.path())
         .env("TMPDIR", temporary.path())
         .stdout(std::process::Stdio::null())
@@ -184,7 +262,9 @@ fn stopped_by(signal: Signal, run_by: &[&str]) -> (std::process::ExitStatus, usi
         .spawn()
         .expect("it starts");
     let started = || {
-        let mut folders = std::fs::read_dir(temporary.path()).expect("a folder").flatten();
+        let mut folders = std::fs::read_dir(temporary.path())
+            .expect("a folder")
+            .flatten();
         folders.any(|folder| folder.path().join("started").exists())
     };
     let limit = Instant::now() + Duration::from_secs(20);
@@ -218,7 +298,10 @@ fn a_temporary_folder_that_cannot_be_made_is_named() {
         .expect("it starts");
     assert_eq!(output.status.code(), Some(2));
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(stderr.starts_with("corfem: /no/such/folder: expected to write it"), "{stderr}");
+    assert!(
+        stderr.starts_with("corfem: /no/such/folder: expected to write it"),
+        "{stderr}"
+    );
 }
 
 #[test]

@@ -14,7 +14,9 @@ use corfem::method::modes::solve;
 use corfem::present::tables::delta_wing::delta_wing_tables;
 use corfem::present::{PresentError, render};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, settings, test_modes};
+use corfem::studies::delta_wing::correlation::{
+    correlate_wing_with, first_model, settings, test_modes,
+};
 use nalgebra::DMatrix;
 use std::io::Write;
 
@@ -45,12 +47,23 @@ fn nastran_answers_as_stored() {
                 .elements(&model, &[1.0; PANEL_COUNT])
                 .and_then(|model| Ok(model.matrices(&[1.0; PANEL_COUNT])?))
                 .expect("an analysis");
-            let found = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes").frequencies_hz();
+            let found = solve(&dynamic.stiffness, &dynamic.mass, 9)
+                .expect("modes")
+                .frequencies_hz();
             let mut expected = check.frequencies_hz.clone();
             expected.sort_by(f64::total_cmp);
-            assert_near(&found, &expected, NASTRAN_AGAIN, &format!("case {}", stored.number));
+            assert_near(
+                &found,
+                &expected,
+                NASTRAN_AGAIN,
+                &format!("case {}", stored.number),
+            );
             // The shares are of this stiffness: they and the rods' sum to it.
-            let panels: DMatrix<f64> = dynamic.shares.iter().map(|share| share.matrix().clone()).sum();
+            let panels: DMatrix<f64> = dynamic
+                .shares
+                .iter()
+                .map(|share| share.matrix().clone())
+                .sum();
             let rods = &dynamic.stiffness - panels;
             assert!(rods.symmetric_eigenvalues().min() > -NASTRAN_AGAIN * dynamic.stiffness.amax());
         }
@@ -64,7 +77,12 @@ fn nastran_answers_as_stored() {
     )
     .expect("a run");
     let expected = &stored()[1].passes[1];
-    assert_near(&run.pass_gages[1], &expected.gages_in, NASTRAN_GAGE, "case 2");
+    assert_near(
+        &run.pass_gages[1],
+        &expected.gages_in,
+        NASTRAN_GAGE,
+        "case 2",
+    );
 }
 
 #[test]
@@ -77,17 +95,43 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         let model = case.model().expect("a model");
         let (own, bulk) = modes_and_deck(&case, &model);
         // By NASTRAN-95's own eigensolution with the singular mass.
-        let task = Task::Modes { count: 9, range_hz: [5.0, 3000.0] };
-        let printed = nastran.run(&deck::write(&bulk, "box", &task).expect("a deck")).expect("a run").printed;
-        assert_near(&printed_eigenvalues(&printed), &own, NASTRAN_PRINTED_EIGENVALUE, "printed");
+        let task = Task::Modes {
+            count: 9,
+            range_hz: [5.0, 3000.0],
+        };
+        let printed = nastran
+            .run(&deck::write(&bulk, "box", &task).expect("a deck"))
+            .expect("a run")
+            .printed;
+        assert_near(
+            &printed_eigenvalues(&printed),
+            &own,
+            NASTRAN_PRINTED_EIGENVALUE,
+            "printed",
+        );
         // By its matrices: the nine finite roots of (KAA, MAA).
-        let matrices =
-            nastran.matrices(&deck::write(&bulk, "box", &Task::Matrices).expect("a deck"), 1_000_000).expect("a run");
-        let lower = matrices["KAA"].clone().cholesky().expect("a constrained structure").l();
-        let half = lower.solve_lower_triangular(&matrices["MAA"]).expect("a nonzero diagonal");
-        let reduced = lower.solve_lower_triangular(&half.transpose()).expect("a nonzero diagonal");
-        let mut roots: Vec<f64> =
-            (0.5 * (&reduced + reduced.transpose())).symmetric_eigenvalues().iter().map(|root| root.recip()).collect();
+        let matrices = nastran
+            .matrices(
+                &deck::write(&bulk, "box", &Task::Matrices).expect("a deck"),
+                1_000_000,
+            )
+            .expect("a run");
+        let lower = matrices["KAA"]
+            .clone()
+            .cholesky()
+            .expect("a constrained structure")
+            .l();
+        let half = lower
+            .solve_lower_triangular(&matrices["MAA"])
+            .expect("a nonzero diagonal");
+        let reduced = lower
+            .solve_lower_triangular(&half.transpose())
+            .expect("a nonzero diagonal");
+        let mut roots: Vec<f64> = (0.5 * (&reduced + reduced.transpose()))
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|root| root.recip())
+            .collect();
         roots.retain(|root| *root > 0.0 && *root < 1e3 * own[8]);
         roots.sort_by(f64::total_cmp);
         assert_near(&roots, &own, NASTRAN_EIGENVALUE, "KAA and MAA");
@@ -105,11 +149,18 @@ fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkDat
 
 /// The column EIGENVALUE of the table of real eigenvalues.
 fn printed_eigenvalues(printed: &str) -> Vec<f64> {
-    let table = printed.split("R E A L   E I G E N V A L U E S").nth(1).expect("a table");
+    let table = printed
+        .split("R E A L   E I G E N V A L U E S")
+        .nth(1)
+        .expect("a table");
     table
         .lines()
         .map(|line| line.split_whitespace().collect::<Vec<_>>())
-        .filter(|fields| fields.len() == 7 && fields[0].parse::<usize>().is_ok() && fields[1].parse::<usize>().is_ok())
+        .filter(|fields| {
+            fields.len() == 7
+                && fields[0].parse::<usize>().is_ok()
+                && fields[1].parse::<usize>().is_ok()
+        })
         .map(|fields| fields[2].parse().expect("an eigenvalue"))
         .take(9)
         .collect()
@@ -126,9 +177,14 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
     let test = test_modes(&wing).expect("test modes");
     for expected in stored.checks() {
         let here = model.matrices(&expected.factors).expect("an analysis");
-        let elements = nastran.elements(&model, &expected.factors).expect("an analysis");
+        let elements = nastran
+            .elements(&model, &expected.factors)
+            .expect("an analysis");
         let there = elements.matrices(&expected.factors).expect("condensed");
-        for (here, there) in [(&here.stiffness, &there.stiffness), (&here.mass, &there.mass)] {
+        for (here, there) in [
+            (&here.stiffness, &there.stiffness),
+            (&here.mass, &there.mass),
+        ] {
             assert_eq!(there.shape(), (19, 19));
             assert!((there - here).amax() <= NASTRAN_SINGLE_PRECISION * here.amax());
         }
@@ -136,9 +192,22 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
             let modes = solve(&model.stiffness, &model.mass, 19).expect("modes");
             modes.frequencies_hz()
         };
-        assert_near(&frequencies(&there), &frequencies(&here), NASTRAN_FREQUENCY, "delta wing");
-        let again = elements.analyze(&expected.factors, &test, None).expect("modes").exact;
-        assert_near(&again.frequencies_hz, &expected.frequencies_hz, NASTRAN_AGAIN, "delta wing, stored");
+        assert_near(
+            &frequencies(&there),
+            &frequencies(&here),
+            NASTRAN_FREQUENCY,
+            "delta wing",
+        );
+        let again = elements
+            .analyze(&expected.factors, &test, None)
+            .expect("modes")
+            .exact;
+        assert_near(
+            &again.frequencies_hz,
+            &expected.frequencies_hz,
+            NASTRAN_AGAIN,
+            "delta wing, stored",
+        );
     }
 }
 
@@ -159,7 +228,12 @@ fn nastran_corrects_the_delta_wing_as_stored() {
     assert_eq!(run.correlation.passes.len(), stored.passes.len());
     for (pass, expected) in run.correlation.passes.iter().zip(&stored.passes) {
         assert_eq!(Some(pass.inner.iterations.len()), expected.iterations);
-        assert_near(&pass.factors, &expected.factors, SAME_HISTORY, "factors of the delta wing");
+        assert_near(
+            &pass.factors,
+            &expected.factors,
+            SAME_HISTORY,
+            "factors of the delta wing",
+        );
     }
     // The command does the same.
     let output = assert_cmd::Command::cargo_bin("corfem")

@@ -18,7 +18,16 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.
 const BYTES: &[u8] = b" ,.+-*=0123456789eEdD$#\"'\t\r\n[]\0\xff\xefAG";
-const WORDS: [&[u8]; 8] = [b"1.+308", b"-1", b"99999999999999999999", b"NaN", b"THRU", b"GRID,1", b"1e-320", b"\n*"];
+const WORDS: [&[u8]; 8] = [
+    b"1.+308",
+    b"-1",
+    b"99999999999999999999",
+    b"NaN",
+    b"THRU",
+    b"GRID,1",
+    b"1e-320",
+    b"\n*",
+];
 
 impl Draws {
     /// One to four changes anywhere.
@@ -36,7 +45,8 @@ impl Draws {
                     text.splice(at..end.max(at), word.iter().copied());
                 }
                 4 => {
-                    let mut lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+                    let mut lines: Vec<&[u8]> =
+                        text.split_inclusive(|byte| *byte == b'\n').collect();
                     let (a, b) = (self.below(lines.len()), self.below(lines.len()));
                     if a < lines.len() && b < lines.len() {
                         lines.swap(a, b);
@@ -124,8 +134,15 @@ const READERS: &[Reader] = &[
 
 #[test]
 fn no_reader_panics_on_a_damaged_file() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|number| number.parse::<u64>().ok());
-    let (calls, from) = (number("CORFEM_CALLS").unwrap_or(500), number("CORFEM_SEED").unwrap_or(0));
+    let number = |name: &str| {
+        std::env::var(name)
+            .ok()
+            .and_then(|number| number.parse::<u64>().ok())
+    };
+    let (calls, from) = (
+        number("CORFEM_CALLS").unwrap_or(500),
+        number("CORFEM_SEED").unwrap_or(0),
+    );
     let asked = std::env::var("CORFEM_READER").unwrap_or_default();
     let mut faults = Vec::new();
     for (name, valid, read) in READERS.iter().filter(|(name, ..)| name.contains(&asked)) {
@@ -140,8 +157,14 @@ fn no_reader_panics_on_a_damaged_file() {
                 Err(_) => faults.push(format!("{name}, seed {seed}")),
             }
         }
-        println!("{name}: {calls} calls in {:.0?}, {refused} refused", start.elapsed());
-        assert!(refused > calls / 20, "{name}: {refused} of {calls} were refused");
+        println!(
+            "{name}: {calls} calls in {:.0?}, {refused} refused",
+            start.elapsed()
+        );
+        assert!(
+            refused > calls / 20,
+            "{name}: {refused} of {calls} were refused"
+        );
     }
     assert!(faults.is_empty(), "{faults:?}");
 }

@@ -31,7 +31,10 @@ impl Place {
     }
 
     fn read(&self, study: &Study, text: &[u8]) -> Result<Samples, FileError> {
-        let (mut file, path) = tempfile::NamedTempFile::new_in(&self.folder).expect("a file").keep().expect("kept");
+        let (mut file, path) = tempfile::NamedTempFile::new_in(&self.folder)
+            .expect("a file")
+            .keep()
+            .expect("kept");
         file.write_all(text).expect("written");
         Samples::read(&path, study)
     }
@@ -39,12 +42,17 @@ impl Place {
 
 /// The lines of the first samples.
 fn lines(study: &Study, count: u64) -> Vec<String> {
-    (1..=count).map(|sample| study.run(sample, || true).expect("a sample").0).collect()
+    (1..=count)
+        .map(|sample| study.run(sample, || true).expect("a sample").0)
+        .collect()
 }
 
 fn factors(line: &str) -> Vec<f64> {
     let cells: Vec<&str> = line.split(',').collect();
-    cells[5..cells.len() - 1].iter().map(|cell| cell.parse().expect("a number")).collect()
+    cells[5..cells.len() - 1]
+        .iter()
+        .map(|cell| cell.parse().expect("a number"))
+        .collect()
 }
 
 /// The rods with their own job of Gauss-Newton steps, and six samples of it.
@@ -63,12 +71,25 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
     let (place, study, lines) = rod_study();
     let again = place.study(7, &[Vary::Noise, Vary::Noise]);
     for sample in [5, 2, 6] {
-        assert_eq!(again.run(sample, || true).expect("a sample").0, lines[sample as usize - 1]);
+        assert_eq!(
+            again.run(sample, || true).expect("a sample").0,
+            lines[sample as usize - 1]
+        );
     }
     let all: Vec<Vec<f64>> = lines.iter().map(|line| factors(line)).collect();
-    assert!((1..all.len()).all(|row| !all[..row].contains(&all[row])), "{all:?}");
-    let (test, other) = (&study.draw(1).expect("a draw").0.test, &place.study(8, &[Vary::Noise]));
-    assert_ne!(*test, other.draw(1).expect("a draw").0.test, "of another seed");
+    assert!(
+        (1..all.len()).all(|row| !all[..row].contains(&all[row])),
+        "{all:?}"
+    );
+    let (test, other) = (
+        &study.draw(1).expect("a draw").0.test,
+        &place.study(8, &[Vary::Noise]),
+    );
+    assert_ne!(
+        *test,
+        other.draw(1).expect("a draw").0.test,
+        "of another seed"
+    );
 }
 
 /// What else varies changes nothing of the noise, and a start nothing of the test.
@@ -76,32 +97,46 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
 fn noise_start_and_subset_are_drawn_independently() {
     let place = Place::of(building());
     let all = [Vary::Subset, Vary::Start, Vary::Noise];
-    let (noise, start_alone, subset) =
-        (place.study(1, &all[2..]), place.study(1, &all[1..2]), place.study(1, &all[..1]));
+    let (noise, start_alone, subset) = (
+        place.study(1, &all[2..]),
+        place.study(1, &all[1..2]),
+        place.study(1, &all[..1]),
+    );
     let together = place.study(1, &all);
     let (mut fewer_sensors, mut fewer_modes) = (0, 0);
     for sample in 1..=40 {
-        let [noise, start, subset, together] =
-            [&noise, &start_alone, &subset, &together].map(|study| study.draw(sample).expect("a draw"));
+        let [noise, start, subset, together] = [&noise, &start_alone, &subset, &together]
+            .map(|study| study.draw(sample).expect("a draw"));
         assert_eq!((&noise.0.data, &start.1), (&together.0.data, &together.1));
         assert_eq!(start.0.test, start_alone.prepared.test);
         assert_eq!(subset.0.job, together.0.job);
         assert_eq!((noise.1, subset.1), (vec![1.0; 10], vec![1.0; 10]));
         assert!(start.1.iter().all(|factor| (0.5..2.0).contains(factor)));
         let (sensors, modes) = (subset.0.placed.len(), subset.0.test.len());
-        assert!(sensors == 5 || modes == 5, "{sensors} sensors, {modes} modes");
-        assert!((2..=5).contains(&sensors) && (2..=5).contains(&modes), "half of either are left: {sensors}, {modes}");
+        assert!(
+            sensors == 5 || modes == 5,
+            "{sensors} sensors, {modes} modes"
+        );
+        assert!(
+            (2..=5).contains(&sensors) && (2..=5).contains(&modes),
+            "half of either are left: {sensors}, {modes}"
+        );
         fewer_sensors += usize::from(sensors < 5);
         fewer_modes += usize::from(modes < 5);
     }
-    assert!(fewer_sensors >= 10 && fewer_modes >= 10, "{fewer_sensors} {fewer_modes}");
+    assert!(
+        fewer_sensors >= 10 && fewer_modes >= 10,
+        "{fewer_sensors} {fewer_modes}"
+    );
 }
 
 /// The weights of a job stand for the modes of a subset as for all of them.
 #[test]
 fn a_subset_of_the_modes_takes_their_weights_along() {
-    let weights = "method = \"gauss_newton\"\nfrequency_weights = [1, 2, 3]\nshape_weights = [4, 5, 6]";
-    let edit = |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", weights));
+    let weights =
+        "method = \"gauss_newton\"\nfrequency_weights = [1, 2, 3]\nshape_weights = [4, 5, 6]";
+    let edit =
+        |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", weights));
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Subset]);
     let whole = study.prepared.weights().expect("weights");
@@ -109,7 +144,14 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
     for sample in 1..=20 {
         let (prepared, _) = study.draw(sample).expect("a draw");
         let weights = prepared.weights().expect("weights");
-        assert_eq!(weights, prepared.modes.iter().map(|&mode| whole[mode]).collect::<Vec<_>>());
+        assert_eq!(
+            weights,
+            prepared
+                .modes
+                .iter()
+                .map(|&mode| whole[mode])
+                .collect::<Vec<_>>()
+        );
         fewer += usize::from(prepared.modes.len() < 3);
     }
     assert!(fewer > 3, "{fewer}");
@@ -119,20 +161,40 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
 #[test]
 fn a_start_is_brought_within_bounds_and_leads_to_the_same_rods() {
     let edit = |(name, text): (String, String)| {
-        (name, text.replace("elements = [1]", "elements = [1]\nlower = 0.6\nupper = 1.1"))
+        (
+            name,
+            text.replace("elements = [1]", "elements = [1]\nlower = 0.6\nupper = 1.1"),
+        )
     };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(2, &[Vary::Start]);
     let found: Vec<Vec<f64>> = lines(&study, 8).iter().map(|line| factors(line)).collect();
-    let starts: Vec<Vec<f64>> = (1..=8).map(|sample| study.draw(sample).expect("a draw").1).collect();
-    assert!(starts.iter().all(|start| (0.6..=1.1).contains(&start[0])), "{starts:?}");
-    assert!(starts.iter().any(|start| [0.6, 1.1].contains(&start[0])), "{starts:?}");
-    assert!(found.iter().all(|found| (found[0] / found[1] - 0.77).abs() < 0.1), "{found:?}");
-    let paper = |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", ""));
+    let starts: Vec<Vec<f64>> = (1..=8)
+        .map(|sample| study.draw(sample).expect("a draw").1)
+        .collect();
+    assert!(
+        starts.iter().all(|start| (0.6..=1.1).contains(&start[0])),
+        "{starts:?}"
+    );
+    assert!(
+        starts.iter().any(|start| [0.6, 1.1].contains(&start[0])),
+        "{starts:?}"
+    );
+    assert!(
+        found
+            .iter()
+            .all(|found| (found[0] / found[1] - 0.77).abs() < 0.1),
+        "{found:?}"
+    );
+    let paper =
+        |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", ""));
     let place = Place::of(rods().into_iter().map(edit).map(paper).collect());
     let study = place.study(2, &[Vary::Start]);
     for line in lines(&study, 8) {
-        assert!((0.6..=1.1).contains(&factors(&line)[0]), "the bounds are those of the first model: {line}");
+        assert!(
+            (0.6..=1.1).contains(&factors(&line)[0]),
+            "the bounds are those of the first model: {line}"
+        );
     }
 }
 
@@ -141,16 +203,27 @@ fn a_start_is_brought_within_bounds_and_leads_to_the_same_rods() {
 fn factors_scatter_as_one_correlation_says_they_do() {
     const COUNT: u64 = 60;
     let precise = "analysis_modes = 10\nmethod = \"gauss_newton\"\nfrequency_deviation = 2e-4\nshape_deviation = 5e-4";
-    let edit = |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
+    let edit =
+        |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
     let found = corfem::files::job::run(&study.prepared, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
-    let summary = place.read(&study, text.as_bytes()).expect("it reads").summary(&study, COUNT).expect("a summary");
-    assert_eq!((summary.within + summary.outside, summary.failed.len()), (COUNT as usize, 0));
+    let summary = place
+        .read(&study, text.as_bytes())
+        .expect("it reads")
+        .summary(&study, COUNT)
+        .expect("a summary");
+    assert_eq!(
+        (summary.within + summary.outside, summary.failed.len()),
+        (COUNT as usize, 0)
+    );
     for (story, (name, spread)) in summary.spreads.iter().enumerate() {
         let spread = spread.as_ref().expect("samples");
-        assert!(spread.quantiles[0] < STORIES[story] && STORIES[story] < spread.quantiles[2], "{name}: {spread:?}");
+        assert!(
+            spread.quantiles[0] < STORIES[story] && STORIES[story] < spread.quantiles[2],
+            "{name}: {spread:?}"
+        );
         // Of the logarithm of a factor, and a sample's own deviation has an error of one in the root of 2 (n - 1).
         let ratio = spread.deviation / (found.factors[story] * found.seen[1].deviations[story]);
         let most = STANDARD_ERRORS / (2.0 * (COUNT - 1) as f64).sqrt();
@@ -163,26 +236,53 @@ fn factors_scatter_as_one_correlation_says_they_do() {
 fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
     let (place, study, _) = rod_study();
     let line = |sample: u64, is_within: bool, factor: f64| {
-        format!("{sample},cap,{is_within},0.5,3,{factor},1,{:016x}\n", study.identity)
+        format!(
+            "{sample},cap,{is_within},0.5,3,{factor},1,{:016x}\n",
+            study.identity
+        )
     };
     let failed = format!("4,failed,,,,,,{:016x}\n", study.identity);
-    let text =
-        [line(5, true, 3.0), line(1, true, 1.0), failed, line(3, false, 2.0), line(2, true, 4.0), line(9, true, 99.0)];
-    let samples = place.read(study, text.concat().as_bytes()).expect("it reads");
+    let text = [
+        line(5, true, 3.0),
+        line(1, true, 1.0),
+        failed,
+        line(3, false, 2.0),
+        line(2, true, 4.0),
+        line(9, true, 99.0),
+    ];
+    let samples = place
+        .read(study, text.concat().as_bytes())
+        .expect("it reads");
     assert!(samples.contains(9) && !samples.contains(6));
     let summary = samples.summary(study, 8).expect("a summary");
-    assert_eq!((summary.within, summary.outside, &summary.failed[..]), (3, 1, &[4][..]));
-    let [(a, Some(first)), (b, Some(second))] = &summary.spreads[..] else { panic!("{summary:?}") };
+    assert_eq!(
+        (summary.within, summary.outside, &summary.failed[..]),
+        (3, 1, &[4][..])
+    );
+    let [(a, Some(first)), (b, Some(second))] = &summary.spreads[..] else {
+        panic!("{summary:?}")
+    };
     assert_eq!((&a[..], &b[..]), ("a", "b"));
-    assert_eq!((first.mean, first.ends, first.quantiles[1]), (2.5, [1.0, 4.0], 2.5));
+    assert_eq!(
+        (first.mean, first.ends, first.quantiles[1]),
+        (2.5, [1.0, 4.0], 2.5)
+    );
     assert_eq!(first.deviation, (5.0_f64 / 3.0).sqrt());
     assert!(
-        (first.quantiles[0] - 1.075).abs() < f64::EPSILON && (first.quantiles[2] - 3.925).abs() < 4.0 * f64::EPSILON
+        (first.quantiles[0] - 1.075).abs() < f64::EPSILON
+            && (first.quantiles[2] - 3.925).abs() < 4.0 * f64::EPSILON
     );
     let places: Vec<usize> = (0..24).filter(|&bar| first.bars[bar] == 1).collect();
     assert_eq!(places, [0, 8, 16, 23]);
-    assert_eq!((second.deviation, second.bars[0], second.quantiles), (0.0, 4, [1.0; 3]));
-    let none = place.read(study, b"").expect("it reads").summary(study, 8).expect("a summary");
+    assert_eq!(
+        (second.deviation, second.bars[0], second.quantiles),
+        (0.0, 4, [1.0; 3])
+    );
+    let none = place
+        .read(study, b"")
+        .expect("it reads")
+        .summary(study, 8)
+        .expect("a summary");
     assert_eq!(none.spreads[0].1, None);
 }
 
@@ -193,26 +293,54 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
     let lines = lines(study, 2);
     let good = study.header() + &lines[0];
     let refused = |text: String, expected: &str| {
-        let error = place.read(study, (good.clone() + &text).as_bytes()).expect_err(&text).to_string();
-        assert!(error.contains(", line 3: expected ") && error.contains(expected), "{error}");
+        let error = place
+            .read(study, (good.clone() + &text).as_bytes())
+            .expect_err(&text)
+            .to_string();
+        assert!(
+            error.contains(", line 3: expected ") && error.contains(expected),
+            "{error}"
+        );
     };
-    let others =
-        [place.study(8, &[Vary::Noise]), place.study(7, &[Vary::Start]), place.study(7, &[Vary::Noise, Vary::Start])];
+    let others = [
+        place.study(8, &[Vary::Noise]),
+        place.study(7, &[Vary::Start]),
+        place.study(7, &[Vary::Noise, Vary::Start]),
+    ];
     for other in &others {
-        refused(other.run(1, || true).expect("a sample").0, "a sample of this job, seed and choice of what varies");
+        refused(
+            other.run(1, || true).expect("a sample").0,
+            "a sample of this job, seed and choice of what varies",
+        );
     }
     refused("hello\n".to_owned(), "a line of a sample of this study");
-    refused(lines[1].replacen(',', "", 1), "a line of a sample of this study");
-    refused(lines[1].replacen("2,", "-2,", 1), "a line of a sample of this study");
+    refused(
+        lines[1].replacen(',', "", 1),
+        "a line of a sample of this study",
+    );
+    refused(
+        lines[1].replacen("2,", "-2,", 1),
+        "a line of a sample of this study",
+    );
     let cells: Vec<&str> = lines[1].split(',').collect();
-    refused(lines[1].replace(cells[5], "inf"), "error sum, analyses and factors as numbers");
-    refused(lines[0].replacen(",local", ",  local", 1), "a sample once, or again as it was");
+    refused(
+        lines[1].replace(cells[5], "inf"),
+        "error sum, analyses and factors as numbers",
+    );
+    refused(
+        lines[0].replacen(",local", ",  local", 1),
+        "a sample once, or again as it was",
+    );
     // Another first byte of any file is another job.
     for name in ["job.toml", "test.csv", "model.bdf"] {
         let path = place.folder.path().join(name);
         let before = fs::read(&path).expect("it reads");
         fs::write(&path, [&before[..], b"\n"].concat()).expect("written");
-        assert_ne!(place.study(7, &[Vary::Noise]).identity, study.identity, "{name}");
+        assert_ne!(
+            place.study(7, &[Vary::Noise]).identity,
+            study.identity,
+            "{name}"
+        );
         fs::write(&path, before).expect("written");
     }
     assert_eq!(place.study(7, &[Vary::Noise]).identity, study.identity);
@@ -221,28 +349,43 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
 /// A sample that cannot be run is a result, and its line reads.
 #[test]
 fn a_sample_that_fails_says_why_and_counts_as_done() {
-    let edit =
-        |(name, text): (String, String)| (name, text.replace("[compare]", "[compare]\nfrequency_deviation = 5.0"));
+    let edit = |(name, text): (String, String)| {
+        (
+            name,
+            text.replace("[compare]", "[compare]\nfrequency_deviation = 5.0"),
+        )
+    };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Noise]);
-    let failed: Vec<_> =
-        (1..=10).map(|sample| study.run(sample, || true).expect("a sample")).filter(|(_, why)| why.is_some()).collect();
+    let failed: Vec<_> = (1..=10)
+        .map(|sample| study.run(sample, || true).expect("a sample"))
+        .filter(|(_, why)| why.is_some())
+        .collect();
     assert!(!failed.is_empty());
     for (line, why) in &failed {
         assert!(
-            line.contains(",failed,") && why.as_ref().is_some_and(|why| why.to_string().contains("positive")),
+            line.contains(",failed,")
+                && why
+                    .as_ref()
+                    .is_some_and(|why| why.to_string().contains("positive")),
             "{why:?}"
         );
     }
     let text: String = failed.iter().map(|(line, _)| line.as_str()).collect();
     let samples = place.read(&study, text.as_bytes()).expect("it reads");
-    assert_eq!(samples.summary(&study, 10).expect("a summary").failed.len(), failed.len());
+    assert_eq!(
+        samples.summary(&study, 10).expect("a summary").failed.len(),
+        failed.len()
+    );
 }
 
 #[test]
 fn a_request_to_stop_leaves_no_line() {
     let (_, study, _) = rod_study();
-    assert!(matches!(study.run(1, || false), Err(FileError::Interrupted)));
+    assert!(matches!(
+        study.run(1, || false),
+        Err(FileError::Interrupted)
+    ));
 }
 
 proptest! {

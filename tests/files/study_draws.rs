@@ -19,15 +19,26 @@ const OFFSET: u64 = 14_695_981_039_346_656_037;
 /// The published digests of a few words are those of the function above, and a study's is its chain over what the study is made of.
 #[test]
 fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
-    for (word, published) in [("", OFFSET), ("a", 0xaf63_dc4c_8601_ec8c), ("foobar", 0x8594_4171_f739_67e8)] {
+    for (word, published) in [
+        ("", OFFSET),
+        ("a", 0xaf63_dc4c_8601_ec8c),
+        ("foobar", 0x8594_4171_f739_67e8),
+    ] {
         assert_eq!(fnv_1a(word.as_bytes(), OFFSET), published, "{word}");
     }
     let (folder, path) = placed(&rods());
-    let study = Study::new(&path, 7, &[Vary::Start, Vary::Noise]).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        Study::new(&path, 7, &[Vary::Start, Vary::Noise]).unwrap_or_else(|error| panic!("{error}"));
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
-    let digest = ["model.bdf", "test.csv", "job.toml"].iter().fold(fnv_1a(head.as_bytes(), OFFSET), |before, name| {
-        fnv_1a(&std::fs::read(folder.path().join(name)).expect("it reads"), before ^ OFFSET)
-    });
+    let digest = ["model.bdf", "test.csv", "job.toml"].iter().fold(
+        fnv_1a(head.as_bytes(), OFFSET),
+        |before, name| {
+            fnv_1a(
+                &std::fs::read(folder.path().join(name)).expect("it reads"),
+                before ^ OFFSET,
+            )
+        },
+    );
     assert_eq!(study.identity, digest);
 }
 
@@ -40,28 +51,51 @@ fn any_sensor_and_any_mode_may_be_left_out() {
     for sample in 1..=60 {
         let (prepared, _) = study.draw(sample).expect("a draw");
         let sensors: Vec<usize> = prepared.placed.iter().map(|sensor| sensor.row).collect();
-        let (what, there) = if sensors.len() < 5 { (0, &sensors) } else { (1, &prepared.modes) };
+        let (what, there) = if sensors.len() < 5 {
+            (0, &sensors)
+        } else {
+            (1, &prepared.modes)
+        };
         counts[what][5 - there.len()] += 1;
         (0..5).for_each(|one| left[what][one][usize::from(there.contains(&one))] += 1);
     }
-    assert!(counts.iter().all(|counts| counts[0] == 0 && counts[1..=3].iter().all(|count| *count > 0)), "{counts:?}");
-    assert!(left.iter().flatten().flatten().all(|count| *count > 0), "{left:?}");
+    assert!(
+        counts
+            .iter()
+            .all(|counts| counts[0] == 0 && counts[1..=3].iter().all(|count| *count > 0)),
+        "{counts:?}"
+    );
+    assert!(
+        left.iter().flatten().flatten().all(|count| *count > 0),
+        "{left:?}"
+    );
 }
 
 /// Whether a sample is within tolerance is one of two words.
 #[test]
 fn a_sample_that_is_neither_within_nor_outside_is_refused() {
-    let (folder, path) = placed(&with(rods(), "job.toml", "[compare]", "[compare]\nanalysis_modes = 3"));
+    let (folder, path) = placed(&with(
+        rods(),
+        "job.toml",
+        "[compare]",
+        "[compare]\nanalysis_modes = 3",
+    ));
     let study = Study::new(&path, 7, &[Vary::Noise]).unwrap_or_else(|error| panic!("{error}"));
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
-        std::fs::write(&samples, format!("1,cap,{within},0.5,3,1.0,1.0,{:016x}\n", study.identity)).expect("written");
+        std::fs::write(
+            &samples,
+            format!("1,cap,{within},0.5,3,1.0,1.0,{:016x}\n", study.identity),
+        )
+        .expect("written");
         corfem::files::job::Samples::read(&samples, &study)
     };
     assert!(read("true").is_ok() && read("false").is_ok());
     let error = read("yes").expect_err("neither").to_string();
     assert!(
-        error.contains(", line 1: expected true or false, and error sum, analyses and factors as numbers"),
+        error.contains(
+            ", line 1: expected true or false, and error sum, analyses and factors as numbers"
+        ),
         "{error}"
     );
 }

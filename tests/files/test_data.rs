@@ -14,27 +14,67 @@ fn refused(change: impl Fn(&mut TestData)) -> Error {
 #[test]
 fn a_test_without_modes_is_refused() {
     wing_test().check().expect("sound");
-    assert!(matches!(TestData::default().check(), Err(Error::Empty { .. })));
+    assert!(matches!(
+        TestData::default().check(),
+        Err(Error::Empty { .. })
+    ));
 }
 
 #[test]
 fn errors_name_the_offender() {
     let cases: [(&str, Error); 9] = [
-        ("frequency of test mode 1 (from zero)", refused(|data| data.frequencies_hz[1] = -17.0)),
-        ("frequency of test mode 0 (from zero)", refused(|data| data.frequencies_hz[0] = f64::NAN)),
-        ("largest component of test mode 1 (from zero)", refused(|data| data.shapes.column_mut(1).fill(0.0))),
-        ("found inf at entry (2, 1)", refused(|data| data.shapes[(2, 1)] = f64::INFINITY)),
-        ("test mode shapes: expected 4 x 2, found 4 x 1", refused(|data| data.shapes = DMatrix::identity(4, 1))),
-        ("sensor z 12: expected each sensor z once", refused(|data| data.sensors[2].direction = 2)),
-        ("direction: expected at most 5, found 6", refused(|data| data.sensors[3].direction = 6)),
-        ("shape deviation of test mode 1", refused(|data| data.shape_deviation = Some(vec![0.1, 0.0]))),
-        ("phase collinearity: expected 2 x 1, found 1 x 1", refused(|data| data.phase_collinearity = vec![0.5])),
+        (
+            "frequency of test mode 1 (from zero)",
+            refused(|data| data.frequencies_hz[1] = -17.0),
+        ),
+        (
+            "frequency of test mode 0 (from zero)",
+            refused(|data| data.frequencies_hz[0] = f64::NAN),
+        ),
+        (
+            "largest component of test mode 1 (from zero)",
+            refused(|data| data.shapes.column_mut(1).fill(0.0)),
+        ),
+        (
+            "found inf at entry (2, 1)",
+            refused(|data| data.shapes[(2, 1)] = f64::INFINITY),
+        ),
+        (
+            "test mode shapes: expected 4 x 2, found 4 x 1",
+            refused(|data| data.shapes = DMatrix::identity(4, 1)),
+        ),
+        (
+            "sensor z 12: expected each sensor z once",
+            refused(|data| data.sensors[2].direction = 2),
+        ),
+        (
+            "direction: expected at most 5, found 6",
+            refused(|data| data.sensors[3].direction = 6),
+        ),
+        (
+            "shape deviation of test mode 1",
+            refused(|data| data.shape_deviation = Some(vec![0.1, 0.0])),
+        ),
+        (
+            "phase collinearity: expected 2 x 1, found 1 x 1",
+            refused(|data| data.phase_collinearity = vec![0.5]),
+        ),
     ];
     for (words, error) in cases {
         assert!(error.to_string().contains(words), "{words}: {error}");
     }
     let short = refused(|data| data.frequency_deviation = Some(vec![0.1]));
-    assert!(matches!(short, Error::WrongShape { what: "frequency deviation", rows: 1, .. }), "{short}");
+    assert!(
+        matches!(
+            short,
+            Error::WrongShape {
+                what: "frequency deviation",
+                rows: 1,
+                ..
+            }
+        ),
+        "{short}"
+    );
 }
 
 #[test]

@@ -6,7 +6,11 @@ use corfem::files::test_data::read;
 use nalgebra::Vector3;
 
 pub fn row(values: &[f64], width: usize) -> String {
-    values.iter().map(|value| format!("{value:width$.5}")).collect::<String>() + "\n"
+    values
+        .iter()
+        .map(|value| format!("{value:width$.5}"))
+        .collect::<String>()
+        + "\n"
 }
 
 /// A node of dataset 15 with the coordinate systems of its place and of its displacements.
@@ -22,7 +26,8 @@ fn system(number: usize, kind: usize, reference: usize, points: [[f64; 3]; 3]) -
 
 /// A system of dataset 2420: unit vectors along its axes, and its origin.
 pub fn matrix(number: usize, kind: usize, rows: [[f64; 3]; 4]) -> String {
-    format!("{number:10}{kind:10}         8\nCS{number}\n") + &rows.map(|values| row(&values, 25)).concat()
+    format!("{number:10}{kind:10}         8\nCS{number}\n")
+        + &rows.map(|values| row(&values, 25)).concat()
 }
 
 pub const PART: &str = "         1\nPart\n";
@@ -30,11 +35,28 @@ pub const PART: &str = "         1\nPart\n";
 #[test]
 fn sensors_measure_along_the_axes_of_their_nodes() {
     // System 3 is turned by a quarter about z: its x is the global y; 4 stands in it, and its x points along the y of 3.
-    let quarter = system(3, 0, 0, [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]]);
+    let quarter = system(
+        3,
+        0,
+        0,
+        [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]],
+    );
     let within = system(4, 0, 3, [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, 0.0, 3.0]]);
-    let oblique = matrix(5, 0, [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
+    let oblique = matrix(
+        5,
+        0,
+        [
+            [0.6, 0.8, 0.0],
+            [-0.8, 0.6, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0, 1.0, 0.0],
+        ],
+    );
     let values = |nodes: &[usize]| {
-        nodes.iter().map(|node| format!("{node:10}\n") + &row(&[1.0, 2.0, 3.0], 13)).collect::<String>()
+        nodes
+            .iter()
+            .map(|node| format!("{node:10}\n") + &row(&[1.0, 2.0, 3.0], 13))
+            .collect::<String>()
     };
     let nodes = [
         node(1, [3, 0], [1.0, 2.0, 3.0]),
@@ -56,32 +78,69 @@ fn sensors_measure_along_the_axes_of_their_nodes() {
         (Vector3::new(1.0, 2.0, 3.0), [y, -x, z]),
         // Of 4 in the global axes: origin (10, 1, 0), x along -x, y along -y.
         (Vector3::new(9.0, -1.0, 3.0), [-x, -y, z]),
-        (Vector3::new(0.6, 1.8, 0.0), [Vector3::new(0.6, 0.8, 0.0), Vector3::new(-0.8, 0.6, 0.0), z]),
+        (
+            Vector3::new(0.6, 1.8, 0.0),
+            [Vector3::new(0.6, 0.8, 0.0), Vector3::new(-0.8, 0.6, 0.0), z],
+        ),
         (Vector3::new(1.0, 2.0, 3.0), [x, y, z]),
     ];
     for (sensors, (place, axes)) in data.sensors.chunks(3).zip(expected) {
         for (sensor, axis) in sensors.iter().zip(axes) {
-            let found = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
-            assert!((found - axis).amax() < ROUND_OFF, "{}: {found}", sensor.name);
-            assert!((sensor.place.expect("a place") - place).amax() < ROUND_OFF, "{}", sensor.name);
+            let found = sensor
+                .axis
+                .unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
+            assert!(
+                (found - axis).amax() < ROUND_OFF,
+                "{}: {found}",
+                sensor.name
+            );
+            assert!(
+                (sensor.place.expect("a place") - place).amax() < ROUND_OFF,
+                "{}",
+                sensor.name
+            );
         }
     }
     // Coordinates of dataset 2411 are global ones.
-    let long = dataset("2411", &format!("{:10}{:10}{:10}        11\n{}", 1, 3, 3, row(&[1.0, 2.0, 3.0], 25)));
-    let quarter = system(3, 0, 0, [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]]);
+    let long = dataset(
+        "2411",
+        &format!(
+            "{:10}{:10}{:10}        11\n{}",
+            1,
+            3,
+            3,
+            row(&[1.0, 2.0, 3.0], 25)
+        ),
+    );
+    let quarter = system(
+        3,
+        0,
+        0,
+        [[10.0, 0.0, 0.0], [10.0, 7.0, 0.0], [10.0, 2.0, 5.0]],
+    );
     let data = parsed(&(dataset("18", &quarter) + &long + &real_mode(&values(&[1]))));
-    assert_eq!((data.sensors[0].place, data.sensors[0].axis), (Some(Vector3::new(1.0, 2.0, 3.0)), Some(y)));
+    assert_eq!(
+        (data.sensors[0].place, data.sensors[0].axis),
+        (Some(Vector3::new(1.0, 2.0, 3.0)), Some(y))
+    );
 }
 
 /// What six digits leave beside a global axis is none of a sensor's, and a ten-thousandth is where that ends.
 #[test]
 fn axes_a_hair_from_the_global_ones_are_the_global_ones() {
     let axis = |beside: f64| {
-        let rows = [[1.0, beside, 0.0], [-beside, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-        let text =
-            dataset("15", &node(12, [0, 3], [0.0; 3])) + &dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows)));
+        let rows = [
+            [1.0, beside, 0.0],
+            [-beside, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0; 3],
+        ];
+        let text = dataset("15", &node(12, [0, 3], [0.0; 3]))
+            + &dataset("2420", &(PART.to_owned() + &matrix(3, 0, rows)));
         let shape = format!("{:10}\n", 12) + &row(&[1.0, 0.0, 0.0], 13);
-        parsed(&(text + &real_mode(&shape))).sensors[0].axis.expect("an axis")
+        parsed(&(text + &real_mode(&shape))).sensors[0]
+            .axis
+            .expect("an axis")
     };
     assert_eq!(axis(9e-5), Vector3::x());
     assert!((axis(1e-4) - Vector3::new(1.0, 1e-4, 0.0)).amax() < 1e-8);
@@ -89,20 +148,38 @@ fn axes_a_hair_from_the_global_ones_are_the_global_ones() {
 
 #[test]
 fn coordinate_systems_that_are_none_are_refused() {
-    let said =
-        |text: String| read("wing.unv", (text + &real_mode(TIP)).as_bytes()).map(drop).expect_err("wrong").to_string();
+    let said = |text: String| {
+        read("wing.unv", (text + &real_mode(TIP)).as_bytes())
+            .map(drop)
+            .expect_err("wrong")
+            .to_string()
+    };
     let points = |points| dataset("18", &system(3, 0, 0, points));
     let origin = said(points([[1.0; 3], [1.0; 3], [0.0; 3]]));
-    assert!(origin.contains("line 6: expected a point beside the origin, found the origin"), "{origin}");
+    assert!(
+        origin.contains("line 6: expected a point beside the origin, found the origin"),
+        "{origin}"
+    );
     let on_axis = said(points([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
-    assert!(on_axis.contains("line 6: expected a point beside the x axis, found one on it"), "{on_axis}");
+    assert!(
+        on_axis.contains("line 6: expected a point beside the x axis, found one on it"),
+        "{on_axis}"
+    );
     // Seen from its origin as a point a hundred times farther away is: at less than a ten-thousandth of a radian.
     let near_axis = |far: f64| points([[0.0; 3], [1.0, 0.0, 0.0], [far, 0.0, 0.05]]);
-    assert!(said(near_axis(1000.0)).contains("line 6: expected a point beside the x axis, found one on it"));
-    parsed(&(near_axis(100.0) + &real_mode(TIP)));
-    let unknown = said(dataset("18", &system(3, 0, 2, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])));
     assert!(
-        unknown.contains("a reference that is zero or a Cartesian coordinate system of before, found 2"),
+        said(near_axis(1000.0))
+            .contains("line 6: expected a point beside the x axis, found one on it")
+    );
+    parsed(&(near_axis(100.0) + &real_mode(TIP)));
+    let unknown = said(dataset(
+        "18",
+        &system(3, 0, 2, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+    ));
+    assert!(
+        unknown.contains(
+            "a reference that is zero or a Cartesian coordinate system of before, found 2"
+        ),
         "{unknown}"
     );
     let skewed = |by: f64| {
@@ -111,7 +188,10 @@ fn coordinate_systems_that_are_none_are_refused() {
     };
     parsed(&(skewed(1e-4) + &real_mode(TIP)));
     let skew = said(skewed(1.1e-4));
-    assert!(skew.contains("expected three unit vectors at right angles above it, found others"), "{skew}");
+    assert!(
+        skew.contains("expected three unit vectors at right angles above it, found others"),
+        "{skew}"
+    );
     let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
     let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
     let expected = "line 10: expected a node with Cartesian coordinate systems, found a cylindrical or spherical one";

@@ -25,15 +25,34 @@ fn the_documented_example_reads() {
     let data = wing(WING);
     assert_eq!(data.frequencies_hz, [12.1, 17.9]);
     assert_eq!(data.frequency_deviation, Some(vec![0.003, 0.005]));
-    assert_eq!((data.shape_deviation, data.phase_collinearity, data.units), (None, vec![], None));
-    assert_eq!(data.shapes, dmatrix![1.0, -0.31; 0.87, -0.55], "a sensor against its axis has its sign turned");
-    let names: Vec<_> =
-        data.sensors.iter().map(|sensor| (sensor.name.as_str(), sensor.grid, sensor.direction)).collect();
-    assert_eq!(names, [("tip", Some(12), 2), ("aileron, outer", Some(14), 2)]);
+    assert_eq!(
+        (data.shape_deviation, data.phase_collinearity, data.units),
+        (None, vec![], None)
+    );
+    assert_eq!(
+        data.shapes,
+        dmatrix![1.0, -0.31; 0.87, -0.55],
+        "a sensor against its axis has its sign turned"
+    );
+    let names: Vec<_> = data
+        .sensors
+        .iter()
+        .map(|sensor| (sensor.name.as_str(), sensor.grid, sensor.direction))
+        .collect();
+    assert_eq!(
+        names,
+        [("tip", Some(12), 2), ("aileron, outer", Some(14), 2)]
+    );
     assert_eq!(data.sensors[0].place, Some(Vector3::new(0.0, 52.5, 3.1)));
     let source = include_str!("../../src/files/test_data/csv.rs");
-    let documented: Vec<&str> = source.lines().filter_map(|line| line.strip_prefix("//! ")).collect();
-    assert!(documented.join("\n").contains(WING.trim_end()), "the documentation has this example");
+    let documented: Vec<&str> = source
+        .lines()
+        .filter_map(|line| line.strip_prefix("//! "))
+        .collect();
+    assert!(
+        documented.join("\n").contains(WING.trim_end()),
+        "the documentation has this example"
+    );
 }
 
 #[test]
@@ -42,18 +61,40 @@ fn spreadsheets_may_separate_by_semicolons_or_tabs_and_write_decimal_commas() {
     // The comment's comma stays, and so does that within quotation marks.
     let converted = |separator: &str| {
         let text = WING.replace(',', separator);
-        text.replace(&format!("aileron{separator}"), "aileron,").replace(&format!("May{separator}"), "May,")
+        text.replace(&format!("aileron{separator}"), "aileron,")
+            .replace(&format!("May{separator}"), "May,")
     };
     assert_eq!(wing(&converted(";")), expected);
     assert_eq!(wing(&converted("\t")), expected);
     assert_eq!(wing(&converted(";").replace('.', ",")), expected);
     assert_eq!(wing(&WING.replace('\n', "\r\n")), expected);
     assert_eq!(wing(&format!("\u{feff}{WING}")), expected);
-    assert_eq!(wing(&WING.replace("# Wing", "\"# Wing").replace("suspension", "suspension\",,")), expected);
-    assert_eq!(wing(&WING.replace("name,grid", "Name, GRID ").replace("tip", "\n,,,,,,,,\ntip")), expected);
+    assert_eq!(
+        wing(
+            &WING
+                .replace("# Wing", "\"# Wing")
+                .replace("suspension", "suspension\",,")
+        ),
+        expected
+    );
+    assert_eq!(
+        wing(
+            &WING
+                .replace("name,grid", "Name, GRID ")
+                .replace("tip", "\n,,,,,,,,\ntip")
+        ),
+        expected
+    );
     // Latin-1, as old spreadsheets write.
-    let latin: Vec<u8> = WING.replace("tip", "fl\u{fc}gel").chars().map(|c| c as u8).collect();
-    assert_eq!(read("wing.csv", &latin).expect("it reads").sensors[0].name, "fl\u{fc}gel");
+    let latin: Vec<u8> = WING
+        .replace("tip", "fl\u{fc}gel")
+        .chars()
+        .map(|c| c as u8)
+        .collect();
+    assert_eq!(
+        read("wing.csv", &latin).expect("it reads").sensors[0].name,
+        "fl\u{fc}gel"
+    );
 }
 
 #[test]
@@ -66,13 +107,21 @@ fn columns_may_stand_in_any_order() {
         wing("frequency_hz,8.5\ndirection,mode 1,name\nz,1,\"tip\"\nz,2,\"the \"\"root\"\"\"\nz,3,\"\"\"pod\"\"\"\n")
             .sensors;
     let names: Vec<&str> = names.iter().map(|sensor| sensor.name.as_str()).collect();
-    assert_eq!(names, ["tip", "the \"root\"", "\"pod\""], "quoted at the end of a line");
+    assert_eq!(
+        names,
+        ["tip", "the \"root\"", "\"pod\""],
+        "quoted at the end of a line"
+    );
 }
 
 #[test]
 fn a_sensor_without_a_name_is_called_by_grid_and_direction() {
     let data = wing("frequency_hz,,8.5\ngrid,direction,mode 1\n\n7,ry,1e-3\n12,X,-2\n");
-    let names: Vec<&str> = data.sensors.iter().map(|sensor| sensor.name.as_str()).collect();
+    let names: Vec<&str> = data
+        .sensors
+        .iter()
+        .map(|sensor| sensor.name.as_str())
+        .collect();
     assert_eq!(names, ["7 ry", "12 x"]);
     assert_eq!(data.sensors[0].place, None);
     assert_eq!(data.shapes, dmatrix![1e-3; -2.0]);
@@ -83,38 +132,103 @@ fn a_sensor_without_a_name_is_called_by_grid_and_direction() {
 fn faults_are_named_by_line_with_what_is_expected() {
     let cases = [
         (WING.replace("-1.0", "1..0"), 5, "a number", "1..0"),
-        (WING.replace(",-1.0,0.31", ",-1.0"), 5, "a number", "nothing"),
+        (
+            WING.replace(",-1.0,0.31", ",-1.0"),
+            5,
+            "a number",
+            "nothing",
+        ),
         (WING.replace("-1.0", "nan"), 5, "a number", "nan"),
         (WING.replace("-1.0", "\"1,234\""), 5, "a number", "1,234"),
         (WING.replace("17.9", "1e999"), 2, "a number", "1e999"),
-        (WING.replace("12,z", "12,w"), 5, "a direction x, y, z, rx, ry or rz", "w"),
+        (
+            WING.replace("12,z", "12,w"),
+            5,
+            "a direction x, y, z, rx, ry or rz",
+            "w",
+        ),
         (WING.replace("z,-", "z,down"), 5, "a sign + or -", "down"),
         (WING.replace("12,z", "-12,z"), 5, "a grid number", "-12"),
-        (WING.replace("tip,12", ","), 5, "a name or a grid number", "nothing"),
+        (
+            WING.replace("tip,12", ","),
+            5,
+            "a name or a grid number",
+            "nothing",
+        ),
         (WING.replace("0.,52.5", ",52.5"), 5, "a number", "nothing"),
-        (WING.replace("\"aileron", "aileron"), 6, "quotation marks in pairs", "aileron, outer"),
-        (WING.replace("frequency_deviation", "frequency_hz"), 3, "each row by mode once", "frequency_hz"),
+        (
+            WING.replace("\"aileron", "aileron"),
+            6,
+            "quotation marks in pairs",
+            "aileron, outer",
+        ),
+        (
+            WING.replace("frequency_deviation", "frequency_hz"),
+            3,
+            "each row by mode once",
+            "frequency_hz",
+        ),
         (WING.replace("x,y,z", "x,y,y"), 4, "once each", "y"),
-        (WING.replace("mode 2", "comment"), 4, "a header with", "comment"),
-        (WING.replace("x,y,z", "x,y,"), 4, "all of x, y, z or none", "name grid"),
-        (WING.replace("direction", ""), 4, "a header with direction", "name grid"),
-        (WING.replace("frequency_hz", "frequency"), 2, "a header with", "frequency"),
-        (WING.lines().skip(2).collect::<Vec<_>>().join("\n"), 4, "a row frequency_hz", "the end"),
+        (
+            WING.replace("mode 2", "comment"),
+            4,
+            "a header with",
+            "comment",
+        ),
+        (
+            WING.replace("x,y,z", "x,y,"),
+            4,
+            "all of x, y, z or none",
+            "name grid",
+        ),
+        (
+            WING.replace("direction", ""),
+            4,
+            "a header with direction",
+            "name grid",
+        ),
+        (
+            WING.replace("frequency_hz", "frequency"),
+            2,
+            "a header with",
+            "frequency",
+        ),
+        (
+            WING.lines().skip(2).collect::<Vec<_>>().join("\n"),
+            4,
+            "a row frequency_hz",
+            "the end",
+        ),
         (String::new(), 0, "a header", "the end"),
     ];
     for (text, at, wanted, there) in cases {
         let error = read("wing.csv", text.as_bytes()).expect_err(&text);
-        let FileError::DeckLine { file, line, expected, found } = &error else { panic!("{error}") };
+        let FileError::DeckLine {
+            file,
+            line,
+            expected,
+            found,
+        } = &error
+        else {
+            panic!("{error}")
+        };
         assert_eq!((file.as_str(), *line), ("wing.csv", at), "{error}\n{text}");
-        assert!(expected.contains(wanted) && found.contains(there), "{error}");
+        assert!(
+            expected.contains(wanted) && found.contains(there),
+            "{error}"
+        );
     }
-    let twice = read("wing.csv", WING.replace("14,z", "12,z").as_bytes()).expect_err("a sensor twice");
+    let twice =
+        read("wing.csv", WING.replace("14,z", "12,z").as_bytes()).expect_err("a sensor twice");
     assert!(twice.to_string().contains("sensor z 12"), "{twice}");
 }
 
 #[test]
 fn what_is_written_reads_back_as_it_was() {
-    let expected = TestData { lines: Vec::new(), ..wing_test() };
+    let expected = TestData {
+        lines: Vec::new(),
+        ..wing_test()
+    };
     assert_eq!(wing(&write_csv(&expected)), expected);
     let mut strange = expected.clone();
     strange.sensors[0].name = "two\nlines".to_owned();

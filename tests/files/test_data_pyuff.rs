@@ -43,11 +43,14 @@ struct Answer {
 }
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/formats").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("golden/formats")
+        .join(name)
 }
 
 fn answers() -> BTreeMap<String, Answer> {
-    toml::from_str(&std::fs::read_to_string(path("universal_expected.toml")).expect("it reads")).expect("answers")
+    toml::from_str(&std::fs::read_to_string(path("universal_expected.toml")).expect("it reads"))
+        .expect("answers")
 }
 
 fn file(name: &str) -> TestData {
@@ -58,13 +61,24 @@ fn file(name: &str) -> TestData {
 impl Mode {
     fn frequency(&self) -> f64 {
         let [real, imaginary] = self.root;
-        if self.analysis == 2 { real } else { real.hypot(imaginary) / (2.0 * PI) }
+        if self.analysis == 2 {
+            real
+        } else {
+            real.hypot(imaginary) / (2.0 * PI)
+        }
     }
 
     /// The component of a node and direction.
     fn at(&self, grid: usize, direction: usize) -> Complex<f64> {
-        let place = self.nodes.iter().position(|node| *node == grid).expect("a node of the mode");
-        Complex::new(self.real[direction][place], self.imaginary[direction][place])
+        let place = self
+            .nodes
+            .iter()
+            .position(|node| *node == grid)
+            .expect("a node of the mode");
+        Complex::new(
+            self.real[direction][place],
+            self.imaginary[direction][place],
+        )
     }
 
     fn moves(&self, grid: usize, direction: usize) -> bool {
@@ -76,20 +90,47 @@ impl Mode {
 fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
     assert_eq!(data.units, answer.units, "{name}");
     let width = modes[0].real.len();
-    let mut expected: Vec<(usize, usize)> =
-        modes[0].nodes.iter().flat_map(|node| (0..width).map(move |direction| (*node, direction))).collect();
+    let mut expected: Vec<(usize, usize)> = modes[0]
+        .nodes
+        .iter()
+        .flat_map(|node| (0..width).map(move |direction| (*node, direction)))
+        .collect();
     expected.retain(|(node, direction)| modes.iter().any(|mode| mode.moves(*node, *direction)));
     expected.sort_unstable();
-    let found: Vec<_> = data.sensors.iter().map(|sensor| (sensor.grid.expect("a node"), sensor.direction)).collect();
+    let found: Vec<_> = data
+        .sensors
+        .iter()
+        .map(|sensor| (sensor.grid.expect("a node"), sensor.direction))
+        .collect();
     assert_eq!(found, expected, "{name}");
     for sensor in &data.sensors {
-        let at = |nodes: &Nodes| nodes.numbers.iter().position(|node| Some(*node) == sensor.grid);
-        let expected =
-            answer.nodes.iter().find_map(|nodes| at(nodes).map(|row| [nodes.x[row], nodes.y[row], nodes.z[row]]));
-        assert_eq!(sensor.place.map(<[f64; 3]>::from), expected, "{name}, {}", sensor.name);
+        let at = |nodes: &Nodes| {
+            nodes
+                .numbers
+                .iter()
+                .position(|node| Some(*node) == sensor.grid)
+        };
+        let expected = answer
+            .nodes
+            .iter()
+            .find_map(|nodes| at(nodes).map(|row| [nodes.x[row], nodes.y[row], nodes.z[row]]));
+        assert_eq!(
+            sensor.place.map(<[f64; 3]>::from),
+            expected,
+            "{name}, {}",
+            sensor.name
+        );
     }
-    let pairs = answer.traces.iter().flat_map(|trace| trace.nodes.windows(2)).filter(|pair| !pair.contains(&0));
-    assert_eq!(data.lines, pairs.map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>(), "{name}");
+    let pairs = answer
+        .traces
+        .iter()
+        .flat_map(|trace| trace.nodes.windows(2))
+        .filter(|pair| !pair.contains(&0));
+    assert_eq!(
+        data.lines,
+        pairs.map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>(),
+        "{name}"
+    );
 }
 
 #[test]
@@ -99,30 +140,64 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
         let (data, answer) = (file(name), &answers[name]);
         let modes: Vec<&Mode> = answer.modes.iter().collect();
         assert_frame(name, &data, answer, &modes);
-        assert_eq!(data.frequencies_hz, modes.iter().map(|mode| mode.frequency()).collect::<Vec<_>>(), "{name}");
+        assert_eq!(
+            data.frequencies_hz,
+            modes
+                .iter()
+                .map(|mode| mode.frequency())
+                .collect::<Vec<_>>(),
+            "{name}"
+        );
         for (shape, mode) in data.shapes.column_iter().zip(&modes) {
             for (sensor, value) in data.sensors.iter().zip(shape.iter()) {
                 let expected = mode.at(sensor.grid.expect("a node"), sensor.direction);
-                assert_eq!((*value, 0.0), (expected.re, expected.im), "{name}, {}", sensor.name);
+                assert_eq!(
+                    (*value, 0.0),
+                    (expected.re, expected.im),
+                    "{name}, {}",
+                    sensor.name
+                );
             }
         }
-        assert!(data.phase_collinearity.is_empty() && data.skipped.is_empty(), "{name}");
+        assert!(
+            data.phase_collinearity.is_empty() && data.skipped.is_empty(),
+            "{name}"
+        );
     }
-    assert_eq!(file("six").sensors.iter().filter(|sensor| sensor.direction > 2).count(), 8);
+    assert_eq!(
+        file("six")
+            .sensors
+            .iter()
+            .filter(|sensor| sensor.direction > 2)
+            .count(),
+        8
+    );
 }
 
 #[test]
 fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode() {
     let (data, answers) = (file("moving"), answers());
-    let modes: Vec<&Mode> = answers["moving"].modes.iter().filter(|mode| mode.analysis == 2).collect();
+    let modes: Vec<&Mode> = answers["moving"]
+        .modes
+        .iter()
+        .filter(|mode| mode.analysis == 2)
+        .collect();
     assert_eq!(data.skipped, [55]);
     assert_frame("moving", &data, &answers["moving"], &modes);
     for (mode, expected) in modes.into_iter().enumerate() {
         let omega = 2.0 * PI * expected.frequency();
         for (row, sensor) in data.sensors.iter().enumerate() {
-            let measured = expected.at(sensor.grid.expect("a node"), sensor.direction).re;
-            let factor = if expected.kind == 11 { omega } else { -omega * omega };
-            assert!((factor * data.shapes[(row, mode)] - measured).abs() <= ROUND_OFF * measured.abs());
+            let measured = expected
+                .at(sensor.grid.expect("a node"), sensor.direction)
+                .re;
+            let factor = if expected.kind == 11 {
+                omega
+            } else {
+                -omega * omega
+            };
+            assert!(
+                (factor * data.shapes[(row, mode)] - measured).abs() <= ROUND_OFF * measured.abs()
+            );
         }
     }
 }
@@ -130,17 +205,38 @@ fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode()
 #[test]
 fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
     let (data, answers) = (file("complex"), answers());
-    let modes: Vec<&Mode> = answers["complex"].modes.iter().filter(|mode| mode.root[1] > 0.0).collect();
-    assert_eq!((modes.len(), answers["complex"].modes.len()), (2, 3), "a conjugate is in the file");
+    let modes: Vec<&Mode> = answers["complex"]
+        .modes
+        .iter()
+        .filter(|mode| mode.root[1] > 0.0)
+        .collect();
+    assert_eq!(
+        (modes.len(), answers["complex"].modes.len()),
+        (2, 3),
+        "a conjugate is in the file"
+    );
     assert_frame("complex", &data, &answers["complex"], &modes);
-    assert_eq!(data.frequencies_hz, modes.iter().map(|mode| mode.frequency()).collect::<Vec<_>>());
+    assert_eq!(
+        data.frequencies_hz,
+        modes
+            .iter()
+            .map(|mode| mode.frequency())
+            .collect::<Vec<_>>()
+    );
     for (column, mode) in modes.into_iter().enumerate() {
-        let at = |row: usize| mode.at(data.sensors[row].grid.expect("a node"), data.sensors[row].direction);
+        let at = |row: usize| {
+            mode.at(
+                data.sensors[row].grid.expect("a node"),
+                data.sensors[row].direction,
+            )
+        };
         let shape = DVector::from_fn(data.sensors.len(), |row, _| at(row));
         // The largest real part of any phase, found by trying a thousand.
         let part = |angle: f64| shape.map(|value| (value * Complex::from_polar(1.0, angle)).re);
         let angle = |step: usize| PI * step as f64 / 1000.0;
-        let best = (0..1000).map(|step| part(angle(step)).norm()).fold(0.0, f64::max);
+        let best = (0..1000)
+            .map(|step| part(angle(step)).norm())
+            .fold(0.0, f64::max);
         let found = data.shapes.column(column);
         assert!(found.norm() >= best && found.norm() <= shape.norm());
         // It is itself the real part at some phase: what is left of it at all phases is round-off.
@@ -169,9 +265,15 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
     let (answer, data) = (&answers()["written"], wing_test());
     for (mode, expected) in answer.modes.iter().enumerate() {
         for (row, sensor) in data.sensors.iter().enumerate() {
-            let (found, value) =
-                (expected.at(sensor.grid.unwrap_or(13), sensor.direction).re, data.shapes[(row, mode)]);
-            assert!((found - value).abs() <= UNIVERSAL_ROUNDING * value.abs(), "{}: {found} for {value}", sensor.name);
+            let (found, value) = (
+                expected.at(sensor.grid.unwrap_or(13), sensor.direction).re,
+                data.shapes[(row, mode)],
+            );
+            assert!(
+                (found - value).abs() <= UNIVERSAL_ROUNDING * value.abs(),
+                "{}: {found} for {value}",
+                sensor.name
+            );
         }
     }
 }
@@ -180,15 +282,40 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
 #[test]
 fn axes_that_pyuff_wrote_are_turned() {
     let data = file("axes");
-    let places: Vec<Vector3<f64>> = data.sensors.iter().filter_map(|sensor| sensor.place).collect();
-    let expected = [Vector3::new(1.0, 2.0, 3.0), Vector3::new(9.0, 22.0, 33.0), Vector3::new(6.0, 23.0, 30.0)];
+    let places: Vec<Vector3<f64>> = data
+        .sensors
+        .iter()
+        .filter_map(|sensor| sensor.place)
+        .collect();
+    let expected = [
+        Vector3::new(1.0, 2.0, 3.0),
+        Vector3::new(9.0, 22.0, 33.0),
+        Vector3::new(6.0, 23.0, 30.0),
+    ];
     for (sensor, place) in data.sensors.iter().zip(&places) {
         let node = sensor.grid.expect("a node");
-        assert!((place - expected[node - 1]).amax() < ROUND_OFF, "{node}: {place}");
-        let axis = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
-        let [x, y] = if node == 2 { [[1.0, 0.0], [0.0, 1.0]] } else { [[0.6, 0.8], [-0.8, 0.6]] };
-        let axes = [Vector3::new(x[0], x[1], 0.0), Vector3::new(y[0], y[1], 0.0), Vector3::z()];
-        assert!((axis - axes[sensor.direction]).amax() < ROUND_OFF, "{}: {axis}", sensor.name);
+        assert!(
+            (place - expected[node - 1]).amax() < ROUND_OFF,
+            "{node}: {place}"
+        );
+        let axis = sensor
+            .axis
+            .unwrap_or_else(|| Vector3::ith(sensor.direction, 1.0));
+        let [x, y] = if node == 2 {
+            [[1.0, 0.0], [0.0, 1.0]]
+        } else {
+            [[0.6, 0.8], [-0.8, 0.6]]
+        };
+        let axes = [
+            Vector3::new(x[0], x[1], 0.0),
+            Vector3::new(y[0], y[1], 0.0),
+            Vector3::z(),
+        ];
+        assert!(
+            (axis - axes[sensor.direction]).amax() < ROUND_OFF,
+            "{}: {axis}",
+            sensor.name
+        );
     }
     assert_eq!((data.sensors.len(), data.skipped.len()), (7, 0));
 }

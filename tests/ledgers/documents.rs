@@ -55,7 +55,9 @@ pub fn with_block(document: &str, marker: &str, block: &str) -> (String, usize) 
     let mut out = pieces.next().unwrap_or_default().to_owned();
     let mut count = 0;
     for piece in pieces {
-        let (_, after) = piece.split_once(end).unwrap_or_else(|| panic!("{marker} has no end"));
+        let (_, after) = piece
+            .split_once(end)
+            .unwrap_or_else(|| panic!("{marker} has no end"));
         out.push_str(&format!("{start}{}\n{end}{after}", block.trim()));
         count += 1;
     }
@@ -85,7 +87,9 @@ fn tables_in_documents_are_what_the_program_computes() {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&name);
             fs::write(path, text).expect("it can be written");
         } else {
-            panic!("{name} is not what the goldens say; CORFEM_DOCUMENTS=write writes its tables anew");
+            panic!(
+                "{name} is not what the goldens say; CORFEM_DOCUMENTS=write writes its tables anew"
+            );
         }
     }
 }
@@ -98,7 +102,8 @@ fn sentences_in_documents_are_what_the_program_computes() {
     let wrong: Vec<String> = entries("sentence")
         .into_iter()
         .filter_map(|(document, template)| {
-            let sentence = filled(&template, &goldens).unwrap_or_else(|what| panic!("{document}: {what}"));
+            let sentence =
+                filled(&template, &goldens).unwrap_or_else(|what| panic!("{document}: {what}"));
             let said = words(&documents[&document]).contains(&words(&sentence));
             (!said).then(|| format!("{document} should say: {sentence}"))
         })
@@ -118,11 +123,18 @@ fn every_table_of_numbers_says_where_they_come_from() {
         let mut origin = None;
         for line in text.lines() {
             if let Some(marker) = line.strip_prefix("<!-- ") {
-                origin = ["computed: ", "measured: ", "stored: "].iter().find(|kind| marker.starts_with(**kind));
+                origin = ["computed: ", "measured: ", "stored: "]
+                    .iter()
+                    .find(|kind| marker.starts_with(**kind));
             }
-            let has_decimals =
-                line.as_bytes().windows(3).any(|w| w[0].is_ascii_digit() && w[1] == b'.' && w[2].is_ascii_digit());
-            assert!(origin.is_some() || !line.starts_with('|') || !has_decimals, "{name}: {line}");
+            let has_decimals = line
+                .as_bytes()
+                .windows(3)
+                .any(|w| w[0].is_ascii_digit() && w[1] == b'.' && w[2].is_ascii_digit());
+            assert!(
+                origin.is_some() || !line.starts_with('|') || !has_decimals,
+                "{name}: {line}"
+            );
         }
     }
 }

@@ -10,25 +10,38 @@ use toml::{Table, Value};
 fn numbers() -> Vec<String> {
     let plain = (1..=13).map(|n| n.to_string());
     let appendix = |letter: char, last: usize| (1..=last).map(move |n| format!("{letter}.{n}"));
-    plain.chain(appendix('A', 9)).chain(appendix('B', 7)).chain(appendix('C', 24)).collect()
+    plain
+        .chain(appendix('A', 9))
+        .chain(appendix('B', 7))
+        .chain(appendix('C', 24))
+        .collect()
 }
 
 fn entries() -> Vec<Table> {
     let text = include_str!("../../paper/equations.toml");
     let document: Table = text.parse().expect("it reads");
     let list = document["equation"].as_array().expect("a list");
-    list.iter().map(|entry| entry.as_table().expect("a table").clone()).collect()
+    list.iter()
+        .map(|entry| entry.as_table().expect("a table").clone())
+        .collect()
 }
 
 pub fn strings(entry: &Table, key: &str) -> Vec<String> {
-    let list = entry.get(key).and_then(Value::as_array).unwrap_or_else(|| panic!("{key} in {entry}"));
-    list.iter().map(|value| value.as_str().expect("a string").to_owned()).collect()
+    let list = entry
+        .get(key)
+        .and_then(Value::as_array)
+        .unwrap_or_else(|| panic!("{key} in {entry}"));
+    list.iter()
+        .map(|value| value.as_str().expect("a string").to_owned())
+        .collect()
 }
 
 fn source(folder: &str, module: &str) -> Option<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let path = module.replace("::", "/");
-    [format!("{path}.rs"), format!("{path}/mod.rs")].iter().find_map(|file| fs::read_to_string(root.join(file)).ok())
+    [format!("{path}.rs"), format!("{path}/mod.rs")]
+        .iter()
+        .find_map(|file| fs::read_to_string(root.join(file)).ok())
 }
 
 /// Whether `folder` defines a function (or type) `module::name`.
@@ -48,8 +61,10 @@ pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
 
 #[test]
 fn every_equation_is_listed_once_and_in_order() {
-    let listed: Vec<String> =
-        entries().iter().map(|entry| entry["number"].as_str().expect("a string").to_owned()).collect();
+    let listed: Vec<String> = entries()
+        .iter()
+        .map(|entry| entry["number"].as_str().expect("a string").to_owned())
+        .collect();
     assert_eq!(listed, numbers());
 }
 
@@ -58,9 +73,19 @@ fn every_function_named_exists() {
     for entry in entries() {
         let functions = strings(&entry, "functions");
         let number = &entry["number"];
-        assert!(!functions.is_empty() || entry.contains_key("remark"), "{number} has neither function nor remark");
+        assert!(
+            !functions.is_empty() || entry.contains_key("remark"),
+            "{number} has neither function nor remark"
+        );
         for function in functions {
-            assert!(defines("src", &function, &["pub fn ", "pub struct ", "pub(crate) fn "]), "{number}: {function}");
+            assert!(
+                defines(
+                    "src",
+                    &function,
+                    &["pub fn ", "pub struct ", "pub(crate) fn "]
+                ),
+                "{number}: {function}"
+            );
         }
     }
 }
@@ -69,9 +94,17 @@ fn every_function_named_exists() {
 fn every_test_named_exists_and_is_a_test() {
     for entry in entries() {
         let tests = strings(&entry, "tests");
-        assert!(!tests.is_empty() || strings(&entry, "functions").is_empty(), "{} has no test", entry["number"]);
+        assert!(
+            !tests.is_empty() || strings(&entry, "functions").is_empty(),
+            "{} has no test",
+            entry["number"]
+        );
         for test in tests {
-            assert!(defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]), "{}: {test}", entry["number"]);
+            assert!(
+                defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]),
+                "{}: {test}",
+                entry["number"]
+            );
         }
     }
 }
@@ -79,9 +112,23 @@ fn every_test_named_exists_and_is_a_test() {
 #[test]
 fn every_entry_says_what_it_is() {
     for entry in entries() {
-        assert!(entry["what"].as_str().is_some_and(|what| what.len() > 10), "{entry}");
-        let known: BTreeSet<&str> = ["number", "what", "functions", "tests", "correction", "remark"].into();
-        assert!(entry.keys().all(|key| known.contains(key.as_str())), "{entry}");
+        assert!(
+            entry["what"].as_str().is_some_and(|what| what.len() > 10),
+            "{entry}"
+        );
+        let known: BTreeSet<&str> = [
+            "number",
+            "what",
+            "functions",
+            "tests",
+            "correction",
+            "remark",
+        ]
+        .into();
+        assert!(
+            entry.keys().all(|key| known.contains(key.as_str())),
+            "{entry}"
+        );
     }
 }
 
@@ -89,10 +136,22 @@ fn every_entry_says_what_it_is() {
 fn the_check_itself_finds_what_is_missing() {
     assert!(defines("src", "method::modes::solve", &["pub fn "]));
     assert!(!defines("src", "method::modes::solv", &["pub fn "]));
-    assert!(!defines("src", "method::modes::solved_by_nobody", &["pub fn "]));
+    assert!(!defines(
+        "src",
+        "method::modes::solved_by_nobody",
+        &["pub fn "]
+    ));
     assert!(!defines("src", "nowhere::solve", &["pub fn "]));
-    assert!(defines("tests", "ledgers::equations::every_function_named_exists", &["#[test]\nfn "]));
-    assert!(!defines("tests", "ledgers::equations::numbers", &["#[test]\nfn "]));
+    assert!(defines(
+        "tests",
+        "ledgers::equations::every_function_named_exists",
+        &["#[test]\nfn "]
+    ));
+    assert!(!defines(
+        "tests",
+        "ledgers::equations::numbers",
+        &["#[test]\nfn "]
+    ));
 }
 
 /// A file that nobody lists is a test that never runs.
@@ -102,7 +161,11 @@ fn every_file_of_tests_is_part_of_the_test_program() {
     assert_eq!(found(&tests, "main"), listed(&tests.join("main.rs")));
     for room in listed(&tests.join("main.rs")) {
         let folder = tests.join(&room);
-        assert_eq!(found(&folder, "mod"), listed(&folder.join("mod.rs")), "{room}");
+        assert_eq!(
+            found(&folder, "mod"),
+            listed(&folder.join("mod.rs")),
+            "{room}"
+        );
     }
 }
 
@@ -110,7 +173,11 @@ fn every_file_of_tests_is_part_of_the_test_program() {
 fn listed(file: &Path) -> BTreeSet<String> {
     let text = fs::read_to_string(file).expect("it reads");
     text.lines()
-        .filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'))
+        .filter_map(|line| {
+            line.trim_start_matches("pub ")
+                .strip_prefix("mod ")?
+                .strip_suffix(';')
+        })
         .map(str::to_owned)
         .collect()
 }
@@ -122,10 +189,18 @@ fn found(folder: &Path, list: &str) -> BTreeSet<String> {
         .map(|entry| entry.expect("an entry").path())
         // A folder without source holds data.
         .filter(|path| {
-            !path.is_dir() || files_below(path).iter().any(|file| file.extension().is_some_and(|end| end == "rs"))
+            !path.is_dir()
+                || files_below(path)
+                    .iter()
+                    .any(|file| file.extension().is_some_and(|end| end == "rs"))
         })
         .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
-        .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+        .map(|path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
         .filter(|name| name != list)
         .collect()
 }

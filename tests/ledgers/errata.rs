@@ -9,9 +9,16 @@ fn entries(text: &str) -> Vec<&str> {
     let starts: Vec<usize> = text.match_indices("\n\n**").map(|(at, _)| at + 2).collect();
     let end = |start: usize| {
         let rest = &text[start..];
-        rest.find("\n\n**").into_iter().chain(rest.find("\n## ")).min().map_or(text.len(), |at| start + at)
+        rest.find("\n\n**")
+            .into_iter()
+            .chain(rest.find("\n## "))
+            .min()
+            .map_or(text.len(), |at| start + at)
     };
-    starts.iter().map(|&start| &text[start..end(start)]).collect()
+    starts
+        .iter()
+        .map(|&start| &text[start..end(start)])
+        .collect()
 }
 
 /// The names of tests in a text: words in backticks with an underscore, without those of files and constants.
@@ -19,7 +26,10 @@ fn tests_named(text: &str) -> Vec<&str> {
     let words = text.split('`').skip(1).step_by(2);
     words
         .filter(|word| {
-            word.contains('_') && word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+            word.contains('_')
+                && word
+                    .chars()
+                    .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
         })
         .collect()
 }
@@ -31,7 +41,8 @@ fn exists(name: &str) -> bool {
     files.retain(|file| file.extension().is_some_and(|end| end == "rs"));
     files.iter().any(|file| {
         let text = fs::read_to_string(file).expect("it reads");
-        text.contains(&format!("#[test]\nfn {name}(")) || text.contains(&format!("#[test]\n    fn {name}("))
+        text.contains(&format!("#[test]\nfn {name}("))
+            || text.contains(&format!("#[test]\n    fn {name}("))
     })
 }
 
@@ -39,15 +50,24 @@ fn exists(name: &str) -> bool {
 fn every_entry_of_the_errata_names_a_test_that_exists() {
     let text = include_str!("../../paper/errata.md");
     let entries = entries(text);
-    assert!(entries.len() > 25, "only {} entries were read", entries.len());
+    assert!(
+        entries.len() > 25,
+        "only {} entries were read",
+        entries.len()
+    );
     for entry in entries {
         let files = entry.split('`').filter(|word| word.starts_with("tests/"));
         for file in files.clone() {
-            assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(file).is_file(), "{file}");
+            assert!(
+                Path::new(env!("CARGO_MANIFEST_DIR")).join(file).is_file(),
+                "{file}"
+            );
         }
         let names = tests_named(entry);
         let one_line = entry.split_whitespace().collect::<Vec<_>>().join(" ");
-        let shown = !names.is_empty() || files.count() > 0 || one_line.contains("No result depends on this");
+        let shown = !names.is_empty()
+            || files.count() > 0
+            || one_line.contains("No result depends on this");
         assert!(shown, "no test in: {entry}");
         for name in names {
             assert!(exists(name), "{name} in: {entry}");

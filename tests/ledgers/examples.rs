@@ -10,10 +10,17 @@ use std::fs;
 fn without_example(source: &str) -> Vec<&str> {
     let (mut missing, mut has_example) = (Vec::new(), false);
     for line in source.lines().map(str::trim_start) {
-        let function = line.strip_prefix("pub fn ").or_else(|| line.strip_prefix("pub const fn "));
-        missing.extend(function.filter(|_| !has_example).and_then(|rest| rest.split(['(', '<']).next()));
+        let function = line
+            .strip_prefix("pub fn ")
+            .or_else(|| line.strip_prefix("pub const fn "));
+        missing.extend(
+            function
+                .filter(|_| !has_example)
+                .and_then(|rest| rest.split(['(', '<']).next()),
+        );
         let is_example = line.starts_with("/// ```") || line.contains("paper/examples/");
-        has_example = is_example || has_example && (line.starts_with("///") || line.starts_with("#["));
+        has_example =
+            is_example || has_example && (line.starts_with("///") || line.starts_with("#["));
     }
     missing
 }
@@ -33,10 +40,19 @@ fn every_file_of_an_example_is_included_and_asserts_something() {
     let (included, files) = (included(), files_below(&root().join("paper/examples")));
     assert!(files.len() > 100, "only {} examples were read", files.len());
     for file in files {
-        let name = file.strip_prefix(root()).expect("below the root").to_string_lossy().into_owned();
+        let name = file
+            .strip_prefix(root())
+            .expect("below the root")
+            .to_string_lossy()
+            .into_owned();
         let text = fs::read_to_string(&file).expect("it reads");
         assert!(included.contains(&name), "{name} is no function's");
-        assert!(text.starts_with("# Example\n\n") && text.contains("\n```rust\n") && text.contains("assert"), "{name}");
+        assert!(
+            text.starts_with("# Example\n\n")
+                && text.contains("\n```rust\n")
+                && text.contains("assert"),
+            "{name}"
+        );
         assert!(!text.contains("unwrap"), "{name}");
     }
 }

@@ -62,7 +62,9 @@ impl TextNode {
             let written = &source[self.source(start) + length..self.source(end)];
             let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
             if length != same_length || words(inside) != words(written) {
-                return Err(format!("the source has\n    {written}\nthe reader gets\n    {inside}"));
+                return Err(format!(
+                    "the source has\n    {written}\nthe reader gets\n    {inside}"
+                ));
             }
             formulas.push(inside.to_owned());
         }
@@ -97,7 +99,11 @@ fn formulas(markdown: &str) -> Result<Vec<String>, Vec<String>> {
             Err(what) => wrong.push(what),
         }
     }
-    if wrong.is_empty() { Ok(found) } else { Err(wrong) }
+    if wrong.is_empty() {
+        Ok(found)
+    } else {
+        Err(wrong)
+    }
 }
 
 /// The documentation comments of a Rust file, each as Markdown.
@@ -105,7 +111,10 @@ fn documentation(source: &str) -> Vec<String> {
     let mut comments = vec![String::new()];
     for line in source.lines() {
         let line = line.trim_start();
-        match line.strip_prefix("///").or_else(|| line.strip_prefix("//!")) {
+        match line
+            .strip_prefix("///")
+            .or_else(|| line.strip_prefix("//!"))
+        {
             Some(text) => {
                 let last = comments.last_mut().expect("never empty");
                 last.push_str(text.strip_prefix(' ').unwrap_or(text));
@@ -127,7 +136,11 @@ fn documents() -> Vec<(String, String)> {
             let name = file.display().to_string();
             let read = || fs::read_to_string(&file).expect("it reads");
             match file.extension().and_then(|end| end.to_str()) {
-                Some("rs") => documents.extend(documentation(&read()).into_iter().map(|text| (name.clone(), text))),
+                Some("rs") => documents.extend(
+                    documentation(&read())
+                        .into_iter()
+                        .map(|text| (name.clone(), text)),
+                ),
                 Some("md") => documents.push((name, read())),
                 _ => (),
             }
@@ -156,7 +169,9 @@ fn is_typeset(command: &str) -> bool {
     let script = include_str!("../../katex-header.html");
     ["begin", "end", "text", "mathrm", "newline"].contains(&command)
         || script.contains(&format!("name === \"{command}\""))
-        || [" ", "{"].iter().any(|before| script.contains(&format!("{before}{command}: ")))
+        || [" ", "{"]
+            .iter()
+            .any(|before| script.contains(&format!("{before}{command}: ")))
 }
 
 #[test]
@@ -227,5 +242,8 @@ $$ \begin{bmatrix} 1 & 0 \newline 0 & 1 \end{bmatrix},
 #[test]
 fn documentation_is_read_comment_by_comment() {
     let source = "//! Of the module.\n\n/// First line\n///   and second.\nfn f() {} // no\n";
-    assert_eq!(documentation(source), ["Of the module.\n", "First line\n  and second.\n"]);
+    assert_eq!(
+        documentation(source),
+        ["Of the module.\n", "First line\n  and second.\n"]
+    );
 }

@@ -12,9 +12,23 @@ pub fn root() -> &'static Path {
 
 /// The files that `cargo package` takes.
 fn packaged() -> BTreeSet<String> {
-    let arguments = ["package", "--list", "--allow-dirty", "--locked", "--offline"];
-    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().expect("cargo runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let arguments = [
+        "package",
+        "--list",
+        "--allow-dirty",
+        "--locked",
+        "--offline",
+    ];
+    let output = Command::new(env!("CARGO"))
+        .args(arguments)
+        .current_dir(root())
+        .output()
+        .expect("cargo runs");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let list = String::from_utf8(output.stdout).expect("UTF-8");
     list.lines().map(|line| line.replace('\\', "/")).collect()
 }
@@ -59,8 +73,15 @@ fn the_package_has_what_a_user_needs() {
     for file in files_below(&root().join("paper/tour")) {
         needed.extend(named(&fs::read_to_string(file).expect("it reads")));
     }
-    let others =
-        ["Cargo.lock", "Cargo.toml", "README.md", "LICENSE-APACHE", "LICENSE-MIT", "katex-header.html", "src/main.rs"];
+    let others = [
+        "Cargo.lock",
+        "Cargo.toml",
+        "README.md",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "katex-header.html",
+        "src/main.rs",
+    ];
     needed.extend(others.map(str::to_owned));
     let missing: Vec<&String> = needed.difference(&list).collect();
     assert!(missing.is_empty(), "{missing:?}");
@@ -69,8 +90,9 @@ fn the_package_has_what_a_user_needs() {
 #[test]
 fn the_package_has_nothing_of_the_workshop() {
     let list = packaged();
-    let is_workshop =
-        |file: &&String| file.starts_with(".ci") || file.starts_with("target") || file.ends_with("mutants.toml");
+    let is_workshop = |file: &&String| {
+        file.starts_with(".ci") || file.starts_with("target") || file.ends_with("mutants.toml")
+    };
     assert_eq!(list.iter().find(is_workshop), None);
     // What a registry takes at most is ten megabytes when packed.
     let size = |file: &String| fs::metadata(root().join(file)).map_or(0, |found| found.len());

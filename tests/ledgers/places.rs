@@ -49,15 +49,22 @@ fn filled_in(place: &str, goldens: &Goldens) -> Result<String, String> {
         [golden, table, row, column, format] => (golden, table, row, column, format),
         _ => return Err(format!("{place}: four or five parts")),
     };
-    let golden = goldens.get(golden).ok_or_else(|| format!("{place}: no golden {golden}"))?;
+    let golden = goldens
+        .get(golden)
+        .ok_or_else(|| format!("{place}: no golden {golden}"))?;
     let fits = |pattern: &str, name: &str| pattern == "*" || pattern == name;
     let found: Vec<_> = golden
         .iter()
-        .filter(|entry| entry.table == table && fits(row, &entry.row) && fits(column, &entry.column))
+        .filter(|entry| {
+            entry.table == table && fits(row, &entry.row) && fits(column, &entry.column)
+        })
         .collect();
     let digits = format.trim_start_matches(|c: char| !c.is_ascii_digit());
     let decimals: usize = digits.parse().map_err(|_| format!("{place}: decimals"))?;
-    let number = |text: &str| text.parse::<f64>().map_err(|_| format!("{place}: {text} is no number"));
+    let number = |text: &str| {
+        text.parse::<f64>()
+            .map_err(|_| format!("{place}: {text} is no number"))
+    };
     // A rounded zero has no sign.
     let rounded = |value: f64| {
         let text = format!("{value:.decimals$}");
@@ -66,7 +73,10 @@ fn filled_in(place: &str, goldens: &Goldens) -> Result<String, String> {
             _ => text,
         }
     };
-    let computed: Vec<f64> = found.iter().map(|entry| number(&entry.computed)).collect::<Result<_, _>>()?;
+    let computed: Vec<f64> = found
+        .iter()
+        .map(|entry| number(&entry.computed))
+        .collect::<Result<_, _>>()?;
     let only = || match found[..] {
         [entry] => Ok(entry),
         _ => Err(format!("{place}: {} entries", found.len())),
@@ -86,7 +96,11 @@ fn filled_in(place: &str, goldens: &Goldens) -> Result<String, String> {
             let least = computed.iter().copied().fold(f64::INFINITY, f64::min);
             let largest = computed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let (least, largest) = (rounded(least), rounded(largest));
-            Ok(if least == largest { least } else { format!("{least} to {largest}") })
+            Ok(if least == largest {
+                least
+            } else {
+                format!("{least} to {largest}")
+            })
         }
         "max" => Ok(rounded(computed.iter().fold(0.0, |m, x| x.abs().max(m)))),
         "rms" => {
@@ -102,7 +116,9 @@ pub fn filled(template: &str, goldens: &Goldens) -> Result<String, String> {
     let mut out = String::new();
     let mut rest = template;
     while let Some((before, after)) = rest.split_once('{') {
-        let (place, after) = after.split_once('}').ok_or_else(|| format!("an open brace: {after}"))?;
+        let (place, after) = after
+            .split_once('}')
+            .ok_or_else(|| format!("an open brace: {after}"))?;
         out.push_str(before);
         out.push_str(&filled_in(place, goldens)?);
         rest = after;
@@ -125,7 +141,14 @@ fn places_are_filled_in() {
     assert_eq!(text("{t|a|c|to0}").as_deref(), Ok("-3"));
     assert_eq!(text("{t|*|c|max1}").as_deref(), Ok("4.0"));
     assert_eq!(text("{t|*|c|rms2}").as_deref(), Ok("3.54"));
-    for wrong in ["{t|*|c|1}", "{t|d|c|1}", "{u|a|c|1}", "{t|a|c|x}", "{t|b|c|both1}", "{t|a"] {
+    for wrong in [
+        "{t|*|c|1}",
+        "{t|d|c|1}",
+        "{u|a|c|1}",
+        "{t|a|c|x}",
+        "{t|b|c|both1}",
+        "{t|a",
+    ] {
         assert!(text(wrong).is_err(), "{wrong}");
     }
 }

@@ -5,7 +5,15 @@ use std::fs;
 use std::path::Path;
 
 /// From the top down.
-const ROOMS: [&str; 7] = ["method", "closed_forms", "cases", "studies", "files", "present", "program"];
+const ROOMS: [&str; 7] = [
+    "method",
+    "closed_forms",
+    "cases",
+    "studies",
+    "files",
+    "present",
+    "program",
+];
 
 /// The rooms that a text names as `crate::room` or `corfem::room`, in code or in documentation.
 fn rooms_named(text: &str) -> Vec<&str> {
@@ -52,8 +60,16 @@ fn every_folder_of_the_source_is_a_room() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for entry in fs::read_dir(source).expect("it reads") {
         let path = entry.expect("an entry").path();
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-        assert!(ROOMS.contains(&name.as_str()) || ["lib.rs", "main.rs", "tour.rs"].contains(&name.as_str()), "{name}");
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        assert!(
+            ROOMS.contains(&name.as_str())
+                || ["lib.rs", "main.rs", "tour.rs"].contains(&name.as_str()),
+            "{name}"
+        );
     }
 }
 
@@ -62,8 +78,12 @@ fn the_tour_is_documentation_alone() {
     let text = include_str!("../../src/tour.rs");
     for line in text.lines().map(str::trim) {
         let is_module = line.starts_with("pub mod chapter_") && line.ends_with('{');
-        let is_document = line.starts_with("//!") || line.starts_with("#![doc = include_str!(\"../paper/tour/");
-        assert!(line.is_empty() || line == "}" || is_module || is_document, "{line}");
+        let is_document =
+            line.starts_with("//!") || line.starts_with("#![doc = include_str!(\"../paper/tour/");
+        assert!(
+            line.is_empty() || line == "}" || is_module || is_document,
+            "{line}"
+        );
     }
 }
 
@@ -71,5 +91,8 @@ fn the_tour_is_documentation_alone() {
 fn the_check_finds_an_import_from_below() {
     let text = "use crate::method::modes;\nuse crate::{present, cases};\nuse crate::cases::Case;";
     assert_eq!(imports_from_below(0, text), ["", "cases"]);
-    assert_eq!(imports_from_below(2, "use crate::cases::Case; use corfem::method::modes;"), [""; 0]);
+    assert_eq!(
+        imports_from_below(2, "use crate::cases::Case; use corfem::method::modes;"),
+        [""; 0]
+    );
 }

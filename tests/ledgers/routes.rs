@@ -7,7 +7,9 @@ use toml::Table;
 fn entries() -> Vec<Table> {
     let document: Table = include_str!("../routes.toml").parse().expect("it reads");
     let list = document["number"].as_array().expect("a list");
-    list.iter().map(|entry| entry.as_table().expect("a table").clone()).collect()
+    list.iter()
+        .map(|entry| entry.as_table().expect("a table").clone())
+        .collect()
 }
 
 #[test]
@@ -22,7 +24,10 @@ fn every_number_has_two_routes_and_tests_that_exist() {
         let tests = strings(&entry, "tests");
         assert!(!tests.is_empty(), "{what}");
         for test in tests {
-            assert!(defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]), "{what}: {test}");
+            assert!(
+                defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]),
+                "{what}: {test}"
+            );
         }
         assert!(seen.insert(what.clone()), "{what} twice");
     }

@@ -16,9 +16,15 @@ fn folder() -> PathBuf {
 
 /// The chapters by the two digits of their number.
 fn chapters() -> BTreeMap<String, (PathBuf, String)> {
-    let files = fs::read_dir(folder()).expect("it reads").map(|entry| entry.expect("an entry").path());
+    let files = fs::read_dir(folder())
+        .expect("it reads")
+        .map(|entry| entry.expect("an entry").path());
     let chapter = |path: PathBuf| {
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
         let text = fs::read_to_string(&path).expect("it reads");
         (name[..2].to_owned(), (path, text))
     };
@@ -31,14 +37,19 @@ fn figures_in_the_tour_are_what_the_program_computes() {
     let places = Numbers::AS_WRITTEN;
     let figures = figures();
     for (number, (path, text)) in chapters() {
-        let svg = figures.get(&*number).unwrap_or_else(|| panic!("chapter {number} has no figure"));
+        let svg = figures
+            .get(&*number)
+            .unwrap_or_else(|| panic!("chapter {number} has no figure"));
         let (now, count) = with_block(&text, &format!("computed: figure_{number}"), svg);
         assert_eq!(count, 1, "chapter {number}");
         if std::env::var("CORFEM_DOCUMENTS").is_ok_and(|value| value == "write") {
             fs::write(path, now).expect("it can be written");
         } else {
             let is_same = places.agree(&text, &now);
-            assert!(is_same, "the figure of chapter {number} is another; CORFEM_DOCUMENTS=write writes it anew");
+            assert!(
+                is_same,
+                "the figure of chapter {number} is another; CORFEM_DOCUMENTS=write writes it anew"
+            );
         }
     }
 }
@@ -46,8 +57,13 @@ fn figures_in_the_tour_are_what_the_program_computes() {
 /// Numbers with a decimal point in a text, without their signs.
 fn decimals(text: &str) -> Vec<String> {
     let is_number = |c: char| c.is_ascii_digit() || c == '.';
-    let words = text.split(|c: char| !is_number(c)).map(|word| word.trim_matches('.'));
-    words.filter(|word| word.matches('.').count() == 1).map(str::to_owned).collect()
+    let words = text
+        .split(|c: char| !is_number(c))
+        .map(|word| word.trim_matches('.'));
+    words
+        .filter(|word| word.matches('.').count() == 1)
+        .map(str::to_owned)
+        .collect()
 }
 
 /// What a chapter says in sentences, tables and formulas, and what it computes, each as one text.
@@ -67,7 +83,9 @@ fn said_and_computed(markdown: &str) -> (String, String) {
         }
     }
     // A comment computes nothing.
-    let code = computed.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let code = computed
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
     (said.clone(), code.collect::<Vec<_>>().join("\n"))
 }
 
@@ -75,7 +93,10 @@ fn said_and_computed(markdown: &str) -> (String, String) {
 fn only_said(markdown: &str) -> Vec<String> {
     let (said, computed) = said_and_computed(markdown);
     let computed = decimals(&computed);
-    decimals(&said).into_iter().filter(|number| !computed.contains(number)).collect()
+    decimals(&said)
+        .into_iter()
+        .filter(|number| !computed.contains(number))
+        .collect()
 }
 
 #[test]
@@ -89,17 +110,40 @@ fn every_number_said_in_the_tour_stands_in_its_code() {
 #[test]
 fn every_chapter_has_its_parts() {
     for (number, (_, text)) in chapters() {
-        assert!(text.starts_with(&format!("# {}. ", number.trim_start_matches('0'))), "chapter {number}");
-        for part in ["```rust\n", "\n*Figure ", "\n## Exercise", "<details><summary>Answer</summary>"] {
+        assert!(
+            text.starts_with(&format!("# {}. ", number.trim_start_matches('0'))),
+            "chapter {number}"
+        );
+        for part in [
+            "```rust\n",
+            "\n*Figure ",
+            "\n## Exercise",
+            "<details><summary>Answer</summary>",
+        ] {
             assert!(text.contains(part), "chapter {number} has no {part:?}");
         }
-        let answer = text.split("<summary>Answer</summary>").nth(1).expect("an answer");
-        assert!(answer.contains("```rust\n"), "the answer of chapter {number} is not computed");
-        for fence in text.lines().filter(|line| line.starts_with("```") && line.len() > 3) {
-            assert!(["```rust", "```text", "```sh"].contains(&fence), "chapter {number} does not run {fence}");
+        let answer = text
+            .split("<summary>Answer</summary>")
+            .nth(1)
+            .expect("an answer");
+        assert!(
+            answer.contains("```rust\n"),
+            "the answer of chapter {number} is not computed"
+        );
+        for fence in text
+            .lines()
+            .filter(|line| line.starts_with("```") && line.len() > 3)
+        {
+            assert!(
+                ["```rust", "```text", "```sh"].contains(&fence),
+                "chapter {number} does not run {fence}"
+            );
         }
         let words = said_and_computed(&text).0.split_whitespace().count();
-        assert!((450..1700).contains(&words), "chapter {number} has {words} words: ten minutes are what a reader has");
+        assert!(
+            (450..1700).contains(&words),
+            "chapter {number} has {words} words: ten minutes are what a reader has"
+        );
     }
 }
 
@@ -113,22 +157,51 @@ fn every_public_module_of_the_method_points_to_its_chapter() {
         fs::read_to_string(&file).unwrap_or_else(|_| panic!("{path} does not read"))
     };
     let (list, tour) = (source("method/mod.rs"), source("tour.rs"));
-    let modules: Vec<&str> = list.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
-    assert!(OF_NO_CHAPTER.iter().all(|module| modules.contains(module)), "{modules:?}");
-    for module in modules.into_iter().filter(|module| !OF_NO_CHAPTER.contains(module)) {
+    let modules: Vec<&str> = list
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .collect();
+    assert!(
+        OF_NO_CHAPTER.iter().all(|module| modules.contains(module)),
+        "{modules:?}"
+    );
+    for module in modules
+        .into_iter()
+        .filter(|module| !OF_NO_CHAPTER.contains(module))
+    {
         let folder = format!("method/{module}/mod.rs");
-        let is_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(&folder).exists();
-        let text = source(&if is_folder { folder } else { format!("method/{module}.rs") });
-        let pointer = text.lines().find_map(|line| line.strip_prefix("//! Tour: [chapter ")?.strip_suffix(")."));
-        let (number, path) = pointer.and_then(|pointer| pointer.split_once("](crate::tour::")).unwrap_or_default();
+        let is_folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("src")
+            .join(&folder)
+            .exists();
+        let text = source(&if is_folder {
+            folder
+        } else {
+            format!("method/{module}.rs")
+        });
+        let pointer = text
+            .lines()
+            .find_map(|line| line.strip_prefix("//! Tour: [chapter ")?.strip_suffix(")."));
+        let (number, path) = pointer
+            .and_then(|pointer| pointer.split_once("](crate::tour::"))
+            .unwrap_or_default();
         let chapter = format!("chapter_{number:0>2}_");
         let is_there = path.starts_with(&chapter) && tour.contains(&format!("pub mod {path} {{"));
-        assert!(is_there, "method::{module} points to no chapter: {pointer:?}");
+        assert!(
+            is_there,
+            "method::{module} points to no chapter: {pointer:?}"
+        );
     }
 }
 
 #[test]
 fn the_check_finds_a_number_that_is_said_alone() {
-    assert_eq!(only_said("It is 1.25.\n\n```rust\nlet x = 1.5; // 1.25\n```\n"), ["1.25"]);
-    assert_eq!(only_said("It is −1.5 %, $1.5$.\n\n```rust\nassert_eq!(x, \"1.5\");\n```\n"), [""; 0]);
+    assert_eq!(
+        only_said("It is 1.25.\n\n```rust\nlet x = 1.5; // 1.25\n```\n"),
+        ["1.25"]
+    );
+    assert_eq!(
+        only_said("It is −1.5 %, $1.5$.\n\n```rust\nassert_eq!(x, \"1.5\");\n```\n"),
+        [""; 0]
+    );
 }

@@ -28,7 +28,10 @@ pub fn figures() -> BTreeMap<&'static str, String> {
         ("09", deviations()),
         ("10", stories()),
     ];
-    sketches.into_iter().map(|(number, sketch)| (number, sketch.svg())).collect()
+    sketches
+        .into_iter()
+        .map(|(number, sketch)| (number, sketch.svg()))
+        .collect()
 }
 
 /// Numbers from one to another in equal steps.
@@ -38,13 +41,28 @@ fn range(low: f64, high: f64, steps: usize) -> impl Iterator<Item = f64> {
 
 fn two_springs() -> Sketch {
     let exact = |mode: usize| {
-        let root = move |change: f64| (change, 1.0 / TwoMasses { coupling: 1.0, change }.exact_roots()[mode]);
+        let root = move |change: f64| {
+            (
+                change,
+                1.0 / TwoMasses {
+                    coupling: 1.0,
+                    change,
+                }
+                .exact_roots()[mode],
+            )
+        };
         range(-0.9, 2.0, 58).map(root)
     };
     let first_order = |mode: usize| {
         let of = move |change: f64| {
-            let springs = TwoMasses { coupling: 1.0, change };
-            (change, springs.generalized_stiffness()[mode] + springs.beta()[(mode, mode)])
+            let springs = TwoMasses {
+                coupling: 1.0,
+                change,
+            };
+            (
+                change,
+                springs.generalized_stiffness()[mode] + springs.beta()[(mode, mode)],
+            )
         };
         range(-0.9, 2.0, 1).map(of)
     };
@@ -70,15 +88,33 @@ fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
     let mass = DMatrix::identity(count, count);
     let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
     let shares = shares.into_iter().map(Share::Stiffness).collect();
-    DynamicModel { stiffness, mass, shares }.analyze(&test, None).expect("a model")
+    DynamicModel {
+        stiffness,
+        mass,
+        shares,
+    }
+    .analyze(&test, None)
+    .expect("a model")
 }
 
 fn crease() -> Sketch {
-    let modal = too_stiff(vec![spring_stiffness(2, 0, 1.5), spring_stiffness(2, 1, 1.5)], 1.5);
-    let at =
-        |factor: f64| ModalState::at(&modal, vec![factor, 1.0], UpdateRule::Eigensolution).expect("a state").errors;
+    let modal = too_stiff(
+        vec![spring_stiffness(2, 0, 1.5), spring_stiffness(2, 1, 1.5)],
+        1.5,
+    );
+    let at = |factor: f64| {
+        ModalState::at(&modal, vec![factor, 1.0], UpdateRule::Eigensolution)
+            .expect("a state")
+            .errors
+    };
     let series = |name, mark, of: fn(&Errors) -> f64| {
-        Series::new(name, mark, range(0.5, 1.5, 40).map(|factor| (factor, of(&at(factor)))).collect::<Vec<_>>())
+        Series::new(
+            name,
+            mark,
+            range(0.5, 1.5, 40)
+                .map(|factor| (factor, of(&at(factor))))
+                .collect::<Vec<_>>(),
+        )
     };
     Sketch {
         title: "The crease of the error sum",
@@ -100,13 +136,23 @@ fn first_step() -> Sketch {
         let modal = too_stiff(vec![whole], 1.001);
         let start = ModalState::start(&modal);
         let changes = error_changes(&modal, &start, DerivativeRule::Gradient).expect("a slope");
-        let stiffness = stiffness_changes(&modal, &[1.0], &[1.0], &changes, rule).expect("a change");
+        let stiffness =
+            stiffness_changes(&modal, &[1.0], &[1.0], &changes, rule).expect("a change");
         let error = measure.scale(n) * start.errors.sum();
         // Newton's is the step to the right factor.
-        (n as f64, (unlimited_factors(&changes, &stiffness, error, 1.0)[0] - 1.0) / (1.0 / 1.001 - 1.0))
+        (
+            n as f64,
+            (unlimited_factors(&changes, &stiffness, error, 1.0)[0] - 1.0) / (1.0 / 1.001 - 1.0),
+        )
     };
     let series = |name, mark, most: usize, rule, measure| {
-        Series::new(name, mark, (1..=most).map(|n| ratio(n, rule, measure)).collect::<Vec<_>>())
+        Series::new(
+            name,
+            mark,
+            (1..=most)
+                .map(|n| ratio(n, rule, measure))
+                .collect::<Vec<_>>(),
+        )
     };
     Sketch {
         title: "The first step beside Newton's",
@@ -115,37 +161,92 @@ fn first_step() -> Sketch {
         y: (0.0, 3.0),
         is_logarithmic: false,
         series: vec![
-            series("relative", Mark::Line, 12, StepRule::Relative, ErrorMeasure::Sum),
-            series("matrix", Mark::Line, 30, StepRule::Matrix, ErrorMeasure::Sum),
-            series("matrix, as nine modes", Mark::Dashed, 30, StepRule::Matrix, ErrorMeasure::NineModes),
+            series(
+                "relative",
+                Mark::Line,
+                12,
+                StepRule::Relative,
+                ErrorMeasure::Sum,
+            ),
+            series(
+                "matrix",
+                Mark::Line,
+                30,
+                StepRule::Matrix,
+                ErrorMeasure::Sum,
+            ),
+            series(
+                "matrix, as nine modes",
+                Mark::Dashed,
+                30,
+                StepRule::Matrix,
+                ErrorMeasure::NineModes,
+            ),
         ],
     }
 }
 
 fn stories() -> Sketch {
     let analyze = |factors: &[f64]| {
-        let share = |(story, factor): (usize, &f64)| Share::Stiffness(spring_stiffness(4, story, 4000.0 * factor));
+        let share = |(story, factor): (usize, &f64)| {
+            Share::Stiffness(spring_stiffness(4, story, 4000.0 * factor))
+        };
         let shares: Vec<Share> = factors.iter().enumerate().map(share).collect();
-        DynamicModel { stiffness: shares.iter().map(Share::matrix).sum(), mass: DMatrix::identity(4, 4), shares }
+        DynamicModel {
+            stiffness: shares.iter().map(Share::matrix).sum(),
+            mass: DMatrix::identity(4, 4),
+            shares,
+        }
     };
     let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
-    let test = solve(&truth.stiffness, &truth.mass, 4).expect("modes").into();
-    let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.0025, ..Settings::default() };
-    let run = correlate(|factors| analyze(factors).analyze(&test, None), &[None; 4], &settings, |_, _| {});
+    let test = solve(&truth.stiffness, &truth.mass, 4)
+        .expect("modes")
+        .into();
+    let settings = Settings {
+        error_sum_tolerance: 0.005,
+        later_inner_tolerance: 0.0025,
+        ..Settings::default()
+    };
+    let run = correlate(
+        |factors| analyze(factors).analyze(&test, None),
+        &[None; 4],
+        &settings,
+        |_, _| {},
+    );
     let mut history = vec![vec![1.0; 4]];
     for pass in run.expect("a run").passes {
         let base = history.last().expect("a start").clone();
-        let product = |factors: &Vec<f64>| base.iter().zip(factors).map(|(base, factor)| base * factor).collect();
-        history.extend(pass.inner.iterations.iter().map(|step| product(&step.factors)).collect::<Vec<_>>());
+        let product = |factors: &Vec<f64>| {
+            base.iter()
+                .zip(factors)
+                .map(|(base, factor)| base * factor)
+                .collect()
+        };
+        history.extend(
+            pass.inner
+                .iterations
+                .iter()
+                .map(|step| product(&step.factors))
+                .collect::<Vec<_>>(),
+        );
     }
     let names = ["story 1", "story 2", "story 3", "story 4"];
-    let of = |story: usize| history.iter().enumerate().map(move |(n, factors)| (n as f64, factors[story]));
+    let of = |story: usize| {
+        history
+            .iter()
+            .enumerate()
+            .map(move |(n, factors)| (n as f64, factors[story]))
+    };
     Sketch {
         title: "The factors of four stories",
         labels: ["iteration", "factor"],
         x: (0.0, 20.0),
         y: (0.6, 1.4),
         is_logarithmic: false,
-        series: names.into_iter().zip(0..).map(|(name, story)| Series::new(name, Mark::Line, of(story))).collect(),
+        series: names
+            .into_iter()
+            .zip(0..)
+            .map(|(name, story)| Series::new(name, Mark::Line, of(story)))
+            .collect(),
     }
 }

@@ -18,23 +18,41 @@ use nalgebra::DMatrix;
 fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
     let case = Case::new(number).expect("a case");
     let test = case.test_modes().expect("modes");
-    let modal = case.model().and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?)).expect("a model");
+    let modal = case
+        .model()
+        .and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?))
+        .expect("a model");
     let result = run_case(&case, |_, _| {}).expect("a run");
     let factors = &result.correlation.passes[0].inner.last.factors;
-    let beta = modal.shares.iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share.matrix()).sum();
+    let beta = modal
+        .shares
+        .iter()
+        .zip(factors)
+        .map(|(share, factor)| (factor - 1.0) * share.matrix())
+        .sum();
     (modal, beta)
 }
 
 pub fn orders() -> Sketch {
     let error = |found: &Perturbed, exact: &Perturbed| {
-        100.0 * found.roots.zip_map(&exact.roots, |a, b| ((b / a).sqrt() - 1.0).abs()).max()
+        100.0
+            * found
+                .roots
+                .zip_map(&exact.roots, |a, b| ((b / a).sqrt() - 1.0).abs())
+                .max()
     };
     let of_case = |name, number, mark, is_first: bool| {
         let (modal, beta) = first_pass(number);
         let k = &modal.exact.modes.omega_squared;
         let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
         let exact = eigensolution(&change).expect("modes");
-        let by = |order| if is_first { recursive_1(k, &beta, order) } else { recursive_2(&change, order) };
+        let by = |order| {
+            if is_first {
+                recursive_1(k, &beta, order)
+            } else {
+                recursive_2(&change, order)
+            }
+        };
         let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
         Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
     };
@@ -54,17 +72,30 @@ pub fn orders() -> Sketch {
 }
 
 pub fn history() -> Sketch {
-    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let result = Case::new(2)
+        .and_then(|case| run_case(&case, |_, _| {}))
+        .expect("a run");
     let passes = &result.correlation.passes;
     let mut errors = vec![(0.0, result.correlation.initial.errors)];
     let mut checks = Vec::new();
     for pass in passes {
         let before = errors.len();
-        errors.extend((before..).map(|n| n as f64).zip(pass.inner.iterations.iter().map(|step| step.errors)));
+        errors.extend(
+            (before..)
+                .map(|n| n as f64)
+                .zip(pass.inner.iterations.iter().map(|step| step.errors)),
+        );
         checks.push((errors.len() as f64 - 1.0, 100.0 * pass.check.errors.sum()));
     }
     let series = |name, mark, of: fn(&Errors) -> f64| {
-        Series::new(name, mark, errors.iter().map(|(n, errors)| (*n, 100.0 * of(errors))).collect::<Vec<_>>())
+        Series::new(
+            name,
+            mark,
+            errors
+                .iter()
+                .map(|(n, errors)| (*n, 100.0 * of(errors)))
+                .collect::<Vec<_>>(),
+        )
     };
     Sketch {
         title: "Case 2 through both passes",
@@ -85,7 +116,11 @@ pub fn history() -> Sketch {
 pub fn bounds() -> Sketch {
     let model = Case::new(2).and_then(|case| case.model()).expect("a model");
     let table = PublishedTable::number(6).expect("Table 6");
-    let gage = |panel: usize| table.required(&panel.to_string(), "pass_1_in").expect("a gage");
+    let gage = |panel: usize| {
+        table
+            .required(&panel.to_string(), "pass_1_in")
+            .expect("a gage")
+    };
     let factors: Vec<f64> = (1..=15).map(|panel| gage(panel) / 0.015).collect();
     let first = model.matrices(&[1.0; 15]).expect("matrices");
     let flexibility = first.stiffness.clone().try_inverse().expect("regular");
@@ -96,8 +131,17 @@ pub fn bounds() -> Sketch {
     }
     let exact = model.modes(&factors).expect("modes").frequencies_hz();
     let series = |name, mark, stiffness: DMatrix<f64>| {
-        let found = solve(&(0.5 * (&stiffness + stiffness.transpose())), &first.mass, 9).expect("modes");
-        let ratios = found.frequencies_hz().into_iter().zip(&exact).map(|(found, exact)| 100.0 * (found / exact - 1.0));
+        let found = solve(
+            &(0.5 * (&stiffness + stiffness.transpose())),
+            &first.mass,
+            9,
+        )
+        .expect("modes");
+        let ratios = found
+            .frequencies_hz()
+            .into_iter()
+            .zip(&exact)
+            .map(|(found, exact)| 100.0 * (found / exact - 1.0));
         Series::new(name, mark, (1..).map(f64::from).zip(ratios))
     };
     Sketch {
@@ -108,16 +152,25 @@ pub fn bounds() -> Sketch {
         is_logarithmic: false,
         series: vec![
             series("shapes frozen (above)", Mark::Bars, above),
-            series("loads frozen (below)", Mark::Bars, below.try_inverse().expect("regular")),
+            series(
+                "loads frozen (below)",
+                Mark::Bars,
+                below.try_inverse().expect("regular"),
+            ),
         ],
     }
 }
 
 /// Gage errors of Case 2 at its end, percent.
 fn final_gage_errors() -> Vec<f64> {
-    let result = Case::new(2).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let result = Case::new(2)
+        .and_then(|case| run_case(&case, |_, _| {}))
+        .expect("a run");
     let gages = result.pass_gages.last().expect("a pass");
-    gages.iter().map(|gage| 100.0 * (gage / TEST_GAGE - 1.0)).collect()
+    gages
+        .iter()
+        .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
+        .collect()
 }
 
 /// Numbers of the fifteen panels beside them.
@@ -127,7 +180,11 @@ fn by_panel(values: Vec<f64>) -> Vec<(f64, f64)> {
 
 pub fn gages() -> Sketch {
     let table = PublishedTable::number(6).expect("Table 6");
-    let published = |panel: usize| table.required(&panel.to_string(), "pass_2_percent").expect("an error");
+    let published = |panel: usize| {
+        table
+            .required(&panel.to_string(), "pass_2_percent")
+            .expect("an error")
+    };
     Sketch {
         title: "Case 2: gage errors at the end",
         labels: ["panel", "gage error, %"],
@@ -136,30 +193,50 @@ pub fn gages() -> Sketch {
         is_logarithmic: false,
         series: vec![
             Series::new("computed", Mark::Bars, by_panel(final_gage_errors())),
-            Series::new("published", Mark::Dots, by_panel((1..=15).map(published).collect())),
+            Series::new(
+                "published",
+                Mark::Dots,
+                by_panel((1..=15).map(published).collect()),
+            ),
         ],
     }
 }
 
 pub fn demands() -> Sketch {
-    let result = Case::new(4).and_then(|case| run_case(&case, |_, _| {})).expect("a run");
+    let result = Case::new(4)
+        .and_then(|case| run_case(&case, |_, _| {}))
+        .expect("a run");
     Sketch {
         title: "Case 4: unlimited factors of the first iteration",
         labels: ["panel", "unlimited factor"],
         x: (0.0, 16.0),
         y: (-20.0, 70.0),
         is_logarithmic: false,
-        series: vec![Series::new("factor asked for", Mark::Bars, by_panel(result.unlimited_factors().to_vec()))],
+        series: vec![Series::new(
+            "factor asked for",
+            Mark::Bars,
+            by_panel(result.unlimited_factors().to_vec()),
+        )],
     }
 }
 
 pub fn deviations() -> Sketch {
     let case = Case::new(2).expect("a case");
     let test = case.test_modes().expect("modes");
-    let model = case.model_with(&[TEST_GAGE; 15]).expect("a model").analyze(&[1.0; 15], &test, None).expect("a model");
+    let model = case
+        .model_with(&[TEST_GAGE; 15])
+        .expect("a model")
+        .analyze(&[1.0; 15], &test, None)
+        .expect("a model");
     let weights = equal_weights(Noise::USUAL, 9).expect("weights");
-    let seen = jacobian(&model, &weights).and_then(|jacobian| identifiability(&jacobian, 1.0)).expect("what is seen");
-    let percents = seen.deviations.iter().map(|deviation| 100.0 * deviation).collect();
+    let seen = jacobian(&model, &weights)
+        .and_then(|jacobian| identifiability(&jacobian, 1.0))
+        .expect("what is seen");
+    let percents = seen
+        .deviations
+        .iter()
+        .map(|deviation| 100.0 * deviation)
+        .collect();
     let errors = final_gage_errors().into_iter().map(f64::abs).collect();
     Sketch {
         title: "What nine noisy modes know of the panels of Case 2",
@@ -168,7 +245,11 @@ pub fn deviations() -> Sketch {
         y: (0.0, 100.0),
         is_logarithmic: false,
         series: vec![
-            Series::new("standard deviation of the factor", Mark::Bars, by_panel(percents)),
+            Series::new(
+                "standard deviation of the factor",
+                Mark::Bars,
+                by_panel(percents),
+            ),
             Series::new("gage error left in Case 2", Mark::Dots, by_panel(errors)),
         ],
     }

@@ -32,10 +32,18 @@ fn a_sum_over_modes_takes_smaller_steps_than_its_parts() {
     for number in 1..=3 {
         let longest = |rule| {
             let run = first_pass(number, |settings| settings.step = rule);
-            let steps: Vec<f64> = run.first_unlimited_factors.iter().map(|c| (c - 1.0).abs()).collect();
+            let steps: Vec<f64> = run
+                .first_unlimited_factors
+                .iter()
+                .map(|c| (c - 1.0).abs())
+                .collect();
             steps
         };
-        let (own, sum, matrix) = (longest(StepRule::Own), longest(StepRule::Sum), longest(StepRule::Matrix));
+        let (own, sum, matrix) = (
+            longest(StepRule::Own),
+            longest(StepRule::Sum),
+            longest(StepRule::Matrix),
+        );
         for ((own, sum), matrix) in own.iter().zip(sum).zip(matrix) {
             assert!(sum <= own * (1.0 + ROUND_OFF) && matrix <= own * (1.0 + ROUND_OFF));
         }
@@ -45,12 +53,20 @@ fn a_sum_over_modes_takes_smaller_steps_than_its_parts() {
 #[test]
 fn stopping_at_the_first_rise_stops_early() {
     // By own Cases 2 and 3 are left at 11.5 and 6.5 %, by matrix Case 2 at 3.2 %, where halvings reach the 2.5 % asked for.
-    for (number, step, error_sum) in
-        [(2, StepRule::Own, 0.115), (3, StepRule::Own, 0.065), (2, StepRule::Matrix, 0.032)]
-    {
-        let run = first_pass(number, |settings| (settings.step, settings.halvings) = (step, 0));
+    for (number, step, error_sum) in [
+        (2, StepRule::Own, 0.115),
+        (3, StepRule::Own, 0.065),
+        (2, StepRule::Matrix, 0.032),
+    ] {
+        let run = first_pass(number, |settings| {
+            (settings.step, settings.halvings) = (step, 0)
+        });
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!((run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM, "{}", run.last.errors.sum());
+        assert!(
+            (run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM,
+            "{}",
+            run.last.errors.sum()
+        );
         let halved = first_pass(number, |settings| settings.step = step);
         assert_eq!(halved.stop, Stop::Tolerance);
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));
@@ -61,7 +77,9 @@ fn stopping_at_the_first_rise_stops_early() {
 fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
     for number in 1..=3 {
         let primary = first_pass(number, |_| {});
-        let exact = first_pass(number, |settings| settings.update = UpdateRule::Eigensolution);
+        let exact = first_pass(number, |settings| {
+            settings.update = UpdateRule::Eigensolution
+        });
         assert_eq!(primary.iterations.len(), exact.iterations.len());
         for (a, b) in primary.iterations.iter().zip(&exact.iterations) {
             assert_eq!(a.halvings, b.halvings);
@@ -92,14 +110,20 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
             let Perturbed { roots, mut shapes } = found.unwrap();
             normalize_with_mass(&mut shapes, &DMatrix::zeros(k.len(), k.len())).unwrap();
             let pairing = pair_modes(&shapes.tr_mul(&problem.cross)).unwrap();
-            let modes = ModeSet { omega_squared: roots.map(f64::recip), shapes: &problem.exact.modes.shapes * shapes };
+            let modes = ModeSet {
+                omega_squared: roots.map(f64::recip),
+                shapes: &problem.exact.modes.shapes * shapes,
+            };
             let sum = errors(&modes, &pairing, &problem.test).unwrap().sum();
             (sum - run.last.errors.sum()).abs()
         };
         let first = distance(first_order(k, &beta));
         let second = distance(recursive_1(k, &beta, 2));
         let fourth = distance(recursive_1(k, &beta, 4));
-        assert!(fourth < second && second < first, "{first:e} {second:e} {fourth:e}");
+        assert!(
+            fourth < second && second < first,
+            "{first:e} {second:e} {fourth:e}"
+        );
         let third = distance(recursive_2(k, &beta, 3));
         assert!(third < second);
         assert!(distance(exact(k, &beta)) < ROUND_OFF);
@@ -108,18 +132,28 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
 
 /// Largest error of nine frequencies, in percent, of Recursive 1 at the published total change of a case.
 fn largest_frequency_error(case: &Case, problem: &ModalModel, table: usize, order: usize) -> f64 {
-    let column = if case.number == 3 { "pass_3_in" } else { "pass_1_in" };
+    let column = if case.number == 3 {
+        "pass_3_in"
+    } else {
+        "pass_1_in"
+    };
     let table = PublishedTable::number(table).unwrap();
     let factors: Vec<f64> = case
         .panels
         .iter()
         .map(|panel| table.required(&panel.label.to_string(), column).unwrap() / panel.gage)
         .collect();
-    let (k, beta) = (&problem.exact.modes.omega_squared, change_by(problem, &factors));
+    let (k, beta) = (
+        &problem.exact.modes.omega_squared,
+        change_by(problem, &factors),
+    );
     let exact = exact(k, &beta).unwrap().roots;
     let found = recursive_1(k, &beta, order).unwrap().roots;
     // f is one over the square root of γ.
-    let errors = exact.iter().zip(found.iter()).map(|(exact, found)| (exact / found).sqrt() - 1.0);
+    let errors = exact
+        .iter()
+        .zip(found.iter())
+        .map(|(exact, found)| (exact / found).sqrt() - 1.0);
     100.0 * errors.map(f64::abs).fold(0.0, f64::max)
 }
 
@@ -139,7 +173,10 @@ fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
             let last_digit = 0.1_f64.powi(i32::try_from(digits).unwrap());
             let found = largest_frequency_error(&case, &problem, table, order);
             let expected: f64 = printed.parse().unwrap();
-            assert!((found - expected).abs() <= last_digit, "case {number}, order {order}: {found} {printed}");
+            assert!(
+                (found - expected).abs() <= last_digit,
+                "case {number}, order {order}: {found} {printed}"
+            );
         }
     }
 }

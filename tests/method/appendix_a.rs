@@ -18,7 +18,10 @@ const DECADES: f64 = 5.0;
 fn stiffness_and_kept() -> impl Strategy<Value = (DMatrix<f64>, f64, Vec<usize>)> {
     (2..10_usize)
         .prop_flat_map(|n| {
-            (positive_definite(n, DECADES), prop::sample::subsequence((0..n).collect::<Vec<_>>(), 1..=n))
+            (
+                positive_definite(n, DECADES),
+                prop::sample::subsequence((0..n).collect::<Vec<_>>(), 1..=n),
+            )
         })
         .prop_map(|((stiffness, exponents), kept)| {
             let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
@@ -151,15 +154,51 @@ fn two_springs_and_a_mean_are_the_hand_result() {
 fn a_bad_load_distribution_is_refused_by_name() {
     let stiffness = DMatrix::identity(3, 3);
     let refused = condensed(&stiffness, &DMatrix::zeros(3, 0)).unwrap_err();
-    assert!(matches!(refused, Error::Empty { what: "dynamic degrees of freedom" }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::Empty {
+                what: "dynamic degrees of freedom"
+            }
+        ),
+        "{refused:?}"
+    );
     let refused = condensed(&stiffness, &DMatrix::zeros(4, 2)).unwrap_err();
     assert!(
-        matches!(refused, Error::WrongShape { what: "load distribution", expected_rows: 3, rows: 4, .. }),
+        matches!(
+            refused,
+            Error::WrongShape {
+                what: "load distribution",
+                expected_rows: 3,
+                rows: 4,
+                ..
+            }
+        ),
         "{refused:?}"
     );
     let refused = condensed(&stiffness, &DMatrix::from_element(3, 1, f64::NAN)).unwrap_err();
-    assert!(matches!(refused, Error::NotFinite { what: "load distribution", row: 0, column: 0, .. }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::NotFinite {
+                what: "load distribution",
+                row: 0,
+                column: 0,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
     // A dynamic DOF that no load reaches is a combination of none.
     let refused = condensed(&stiffness, &DMatrix::zeros(3, 1)).unwrap_err();
-    assert!(matches!(refused, Error::Dependent { what: "dynamic degree of freedom", index: 0 }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::Dependent {
+                what: "dynamic degree of freedom",
+                index: 0
+            }
+        ),
+        "{refused:?}"
+    );
 }

@@ -23,12 +23,18 @@ fn frozen(start: &DynamicModel, factors: &[f64]) -> DMatrix<f64> {
 }
 
 fn frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    modes::solve(stiffness, mass, stiffness.nrows()).unwrap().frequencies_hz()
+    modes::solve(stiffness, mass, stiffness.nrows())
+        .unwrap()
+        .frequencies_hz()
 }
 
 fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
     let below = frequencies(&exact.stiffness, &exact.mass);
-    frequencies(frozen, &exact.mass).iter().zip(below).map(|(f, e)| f / e - 1.0).fold(0.0, f64::max)
+    frequencies(frozen, &exact.mass)
+        .iter()
+        .zip(below)
+        .map(|(f, e)| f / e - 1.0)
+        .fold(0.0, f64::max)
 }
 
 proptest! {
@@ -117,9 +123,14 @@ proptest! {
 #[test]
 fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
     for (number, table, percent) in [(1, 4, "1.4"), (2, 6, "0.6"), (3, 8, "2.6")] {
-        let (case, table) = (Case::new(number).unwrap(), PublishedTable::number(table).unwrap());
+        let (case, table) = (
+            Case::new(number).unwrap(),
+            PublishedTable::number(table).unwrap(),
+        );
         let gages = |column: &str| -> Vec<f64> {
-            (1..=15).map(|label| table.required(&label.to_string(), column).unwrap()).collect()
+            (1..=15)
+                .map(|label| table.required(&label.to_string(), column).unwrap())
+                .collect()
         };
         let (from, to) = (gages("initial_in"), gages("pass_1_in"));
         let factors: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to / from).collect();
@@ -135,13 +146,21 @@ fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
 #[test]
 fn shares_of_an_indefinite_element_sum_to_the_stiffness() {
     let model = with_every_element(&Case::new(1).unwrap());
-    let mut units: Vec<DMatrix<f64>> = model.element_matrices().iter().map(|element| element.unit.clone()).collect();
+    let mut units: Vec<DMatrix<f64>> = model
+        .element_matrices()
+        .iter()
+        .map(|element| element.unit.clone())
+        .collect();
     let (size, last) = (0.01 * units[4].amax(), units[4].nrows() - 1);
     units[4][(0, last)] += size;
     units[4][(last, 0)] += size;
     assert!(units[4].symmetric_eigenvalues().min() < -0.1 * size);
     let factors = vec![1.0; model.parameters().len()];
-    let found = model.with_unit_stiffness(units).unwrap().matrices(&factors).unwrap();
+    let found = model
+        .with_unit_stiffness(units)
+        .unwrap()
+        .matrices(&factors)
+        .unwrap();
     let sum: DMatrix<f64> = found.shares.iter().map(Share::matrix).sum();
     assert!((sum - &found.stiffness).amax() <= MATRIX_ROUND_OFF * found.stiffness.amax());
 }

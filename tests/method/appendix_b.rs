@@ -16,7 +16,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// Test modes from squared circular frequencies and shapes by columns.
 fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> ModeSet {
-    ModeSet { omega_squared: DVector::from_column_slice(omega_squared), shapes }
+    ModeSet {
+        omega_squared: DVector::from_column_slice(omega_squared),
+        shapes,
+    }
 }
 
 /// The mass norm of a shape.
@@ -34,14 +37,22 @@ fn relative_difference(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
 /// Unit masses and shapes given by their components; overlaps are then plain products.
 fn unit_shapes(columns: &[[f64; 4]]) -> DMatrix<f64> {
     DMatrix::from_columns(
-        &columns.iter().map(|column| DVector::from_column_slice(column).normalize()).collect::<Vec<_>>(),
+        &columns
+            .iter()
+            .map(|column| DVector::from_column_slice(column).normalize())
+            .collect::<Vec<_>>(),
     )
 }
 
 /// Two modes of overlap 0.05 at 10 and 20 rad/s, and their movement.
 fn slight_overlap() -> (ModeSet, DMatrix<f64>, Vec<Movement>) {
-    let raw = modes(&[100.0, 400.0], unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]));
+    let raw = modes(
+        &[100.0, 400.0],
+        unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),
+    );
     let mass = DMatrix::identity(4, 4);
-    let movement = corfem::method::appendix_b::orthogonalize(&raw, &mass).unwrap().movement;
+    let movement = corfem::method::appendix_b::orthogonalize(&raw, &mass)
+        .unwrap()
+        .movement;
     (raw, mass, movement)
 }

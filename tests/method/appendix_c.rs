@@ -2,7 +2,9 @@
 
 use crate::common::appendix_c::{EIGENSOLUTION, exact, rules, stiffness_rules};
 use crate::common::pairings::rearrangement;
-use crate::common::tolerances::{CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, NEARLY_UNCOUPLED, ROUND_OFF};
+use crate::common::tolerances::{
+    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, NEARLY_UNCOUPLED, ROUND_OFF,
+};
 use crate::common::vibrations::{any_change, full_change, modes_by_nalgebra};
 use corfem::method::appendix_c::{Perturbed, normalize_with_mass, recursive_1_converged};
 use corfem::method::error::Error;
@@ -204,7 +206,11 @@ fn a_mode_that_nothing_continues_is_refused() {
     let changed = &shapes * DMatrix::from_diagonal(&stiffness) * shapes.transpose();
     let beta = changed - DMatrix::from_diagonal(&stiffness);
     match exact(&stiffness, &beta) {
-        Err(Error::CoalescingModes { first, second, separation }) => {
+        Err(Error::CoalescingModes {
+            first,
+            second,
+            separation,
+        }) => {
             assert_eq!((first, second), (3, 3));
             assert!(separation < 1e-9);
         }

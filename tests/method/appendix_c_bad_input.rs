@@ -1,7 +1,9 @@
 //! What the perturbation refuses, rule by rule: bad input, lost roots, coalescing modes, roots that do not settle, orders of
 //! zero.
 
-use crate::common::appendix_c::{FORMULAE, exact, largest_change, original, recursive_2, rules, stiffness_rules};
+use crate::common::appendix_c::{
+    FORMULAE, exact, largest_change, original, recursive_2, rules, stiffness_rules,
+};
 use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
 use corfem::method::appendix_c::{
     LARGEST_UNSETTLED_CHANGE, SMALLEST_SEPARATION, first_order, recursive_1, recursive_1_converged,
@@ -31,7 +33,13 @@ fn every_rule_refuses_a_change_of_another_shape() {
                     rows: found_rows,
                     columns: found_columns,
                 }) => assert_eq!(
-                    (what, expected_rows, expected_columns, found_rows, found_columns),
+                    (
+                        what,
+                        expected_rows,
+                        expected_columns,
+                        found_rows,
+                        found_columns
+                    ),
                     ("generalized stiffness change", 2, 2, rows, columns)
                 ),
                 other => panic!("{}: {other:?}", rule.name),
@@ -45,7 +53,9 @@ fn every_rule_refuses_nan() {
     let beta = dmatrix![0.0, f64::NAN; 0.0, 0.0];
     for rule in rules() {
         match (rule.plain)(&dvector![1.0, 2.0], &beta) {
-            Err(Error::NotFinite { what, row, column, .. }) => {
+            Err(Error::NotFinite {
+                what, row, column, ..
+            }) => {
                 assert_eq!((what, row, column), ("generalized stiffness change", 0, 1))
             }
             other => panic!("{}: {other:?}", rule.name),
@@ -130,7 +140,11 @@ fn modes_that_come_together_are_named() {
     let beta = dmatrix![1.0, 0.1; 0.1, 0.0];
     for rule in FORMULAE {
         match (rule.plain)(&dvector![1.0, 2.0], &beta) {
-            Err(Error::CoalescingModes { first, second, separation }) => {
+            Err(Error::CoalescingModes {
+                first,
+                second,
+                separation,
+            }) => {
                 assert_eq!((first, second, separation), (1, 0, 0.0))
             }
             other => panic!("{}: {other:?}", rule.name),
@@ -157,7 +171,11 @@ fn coupled_modes_coalesce_below_the_smallest_separation() {
         assert!((shapes[(0, 1)] / turn - 1.0).abs() < CANCELLED_DIFFERENCE);
         assert!((shapes[(1, 0)] / turn + 1.0).abs() < CANCELLED_DIFFERENCE);
         match separated_by(0.5, scale) {
-            Err(Error::CoalescingModes { first, second, separation }) => {
+            Err(Error::CoalescingModes {
+                first,
+                second,
+                separation,
+            }) => {
                 assert_eq!((first, second), (1, 0));
                 let ratio = separation / SMALLEST_SEPARATION;
                 assert!((ratio / 0.5 - 1.0).abs() < CANCELLED_DIFFERENCE, "{ratio}");
@@ -174,7 +192,11 @@ fn a_mode_on_a_root_of_the_others_makes_the_linear_system_singular() {
     let beta = dmatrix![0.0, 0.0, 0.0; 0.0, 0.0, 2.0; 0.0, 2.0, 0.0];
     assert!(original(&k, &beta).is_ok());
     match recursive_2(&k, &beta, 2) {
-        Err(Error::CoalescingModes { first, second, separation }) => {
+        Err(Error::CoalescingModes {
+            first,
+            second,
+            separation,
+        }) => {
             assert_eq!((first, second, separation), (0, 0, 0.0))
         }
         other => panic!("{other:?}"),
@@ -190,7 +212,11 @@ fn order_zero_is_no_order() {
         recursive_1_converged(&k, &beta, 1e-13, 0).map(|settled| settled.perturbed),
     ] {
         match result {
-            Err(Error::Setting { name, expected, found }) => {
+            Err(Error::Setting {
+                name,
+                expected,
+                found,
+            }) => {
                 assert_eq!((name, expected, found), ("order", "at least 1", 0.0))
             }
             other => panic!("{other:?}"),
@@ -204,14 +230,21 @@ fn roots_that_do_not_settle_are_refused_with_their_last_change() {
     let (k, beta) = (dvector![1.0, 2.0], dmatrix![0.0, 0.1; 0.1, 0.0]);
     let of_order = |order| recursive_1(&k, &beta, order).unwrap().roots;
     match recursive_1_converged(&k, &beta, 1e-13, 3) {
-        Err(Error::UnsettledRoots { largest, orders, last_change }) => {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        }) => {
             assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
             assert_eq!(last_change, largest_change(&of_order(3), &of_order(2)));
         }
         other => panic!("{other:?}"),
     }
     // One order alone has nothing to compare with.
-    assert!(matches!(recursive_1_converged(&k, &beta, 1e-13, 1), Err(Error::UnsettledRoots { orders: 1, .. })));
+    assert!(matches!(
+        recursive_1_converged(&k, &beta, 1e-13, 1),
+        Err(Error::UnsettledRoots { orders: 1, .. })
+    ));
     let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
     assert!(settled.last_change < 1e-13);
 }

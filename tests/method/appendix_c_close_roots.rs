@@ -1,7 +1,9 @@
 //! Close and repeated roots: three-mass chains with known spectra, and how blocks form.
 
 use crate::common::appendix_c::{FORMULAE, Rule, three_mass_chain};
-use crate::common::close_roots::{repeated_chain, residual, root_error, separate_chain, solved, spring_change};
+use crate::common::close_roots::{
+    repeated_chain, residual, root_error, separate_chain, solved, spring_change,
+};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::recursive_1_converged;
@@ -10,9 +12,15 @@ use nalgebra::{DMatrix, dmatrix, dvector};
 
 #[test]
 fn chains_have_the_spectra_they_are_said_to_have() {
-    for ((_, _, modes), expected) in [(repeated_chain(), [1.0, 4.0, 4.0]), (separate_chain(), [1.0, 4.0, 8.0])] {
+    for ((_, _, modes), expected) in [
+        (repeated_chain(), [1.0, 4.0, 4.0]),
+        (separate_chain(), [1.0, 4.0, 8.0]),
+    ] {
         for (found, expected) in modes.omega_squared.iter().zip(expected) {
-            assert!((found / expected - 1.0).abs() < ROUND_OFF, "{found} {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < ROUND_OFF,
+                "{found} {expected}"
+            );
         }
     }
 }
@@ -30,12 +38,19 @@ fn repeated_roots_of_a_chain_are_followed_exactly() {
             let change = spring_change(&modes, [a, b, c], [d, e, f]);
             let found = solved(&change);
             assert_eq!(found.blocks, [vec![1, 2]], "spring {spring} by {size}");
-            let exact =
-                corfem::method::modes::solve(&(&stiffness + three_mass_chain([a, b, c], [d, e, f])), &mass, 3).unwrap();
+            let exact = corfem::method::modes::solve(
+                &(&stiffness + three_mass_chain([a, b, c], [d, e, f])),
+                &mass,
+                3,
+            )
+            .unwrap();
             let omega_squared = found.settled.perturbed.roots.map(f64::recip);
             for i in 0..3 {
                 let error = omega_squared[i] / exact.omega_squared[i] - 1.0;
-                assert!(error.abs() < EIGEN_ROUND_OFF, "spring {spring} by {size}: mode {i} {error:e}");
+                assert!(
+                    error.abs() < EIGEN_ROUND_OFF,
+                    "spring {spring} by {size}: mode {i} {error:e}"
+                );
             }
             assert!(residual(&found, &change) < EIGEN_ROUND_OFF);
         }
@@ -50,7 +65,10 @@ fn plain_formulae_refuse_a_coupled_repeated_root_and_name_it() {
     change.beta[(1, 2)] = 0.1;
     change.beta[(2, 1)] = 0.1;
     for rule in FORMULAE {
-        for result in [(rule.plain)(&change.generalized_stiffness, &change.beta), (rule.general)(&change)] {
+        for result in [
+            (rule.plain)(&change.generalized_stiffness, &change.beta),
+            (rule.general)(&change),
+        ] {
             assert!(
                 matches!(
                     result,
@@ -124,7 +142,11 @@ fn roots_that_a_change_brings_together_form_a_block() {
     let coupled = spring_change(&modes, [0.3, 0.0, 0.0], [0.0, 0.0, -2.05]);
     assert!(matches!(
         recursive_1_converged(&coupled.generalized_stiffness, &coupled.beta, 1e-13, 60),
-        Err(Error::CoalescingModes { first: 2, second: 1, .. })
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 1,
+            ..
+        })
     ));
     let found = solved(&coupled);
     assert_eq!(found.blocks, [vec![1, 2]]);
@@ -199,7 +221,10 @@ fn separation_is_a_fraction_of_the_larger_root() {
 fn shapes_are_signed_by_their_largest_component() {
     let (_, _, modes) = repeated_chain();
     for size in [-0.3, 0.1, 0.4] {
-        let shapes = solved(&spring_change(&modes, [size, 0.0, 0.0], [0.0, 0.0, 0.2])).settled.perturbed.shapes;
+        let shapes = solved(&spring_change(&modes, [size, 0.0, 0.0], [0.0, 0.0, 0.2]))
+            .settled
+            .perturbed
+            .shapes;
         assert_eq!(shapes.shape(), (3, 3));
         for shape in shapes.column_iter() {
             assert!(shape.max() >= shape.amax() * (1.0 - EQUALLY_LARGE));

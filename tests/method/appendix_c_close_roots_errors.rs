@@ -18,17 +18,36 @@ fn settings_out_of_range_are_refused() {
         ));
     }
     assert!(matches!(
-        close_roots(&change, CloseRootsSettings { orders: 0, ..CloseRootsSettings::default() }),
+        close_roots(
+            &change,
+            CloseRootsSettings {
+                orders: 0,
+                ..CloseRootsSettings::default()
+            }
+        ),
         Err(Error::Setting { name: "order", .. })
     ));
     for separation in [0.0, 1.0] {
-        assert!(close_roots(&change, CloseRootsSettings { separation, ..CloseRootsSettings::default() }).is_ok());
+        assert!(
+            close_roots(
+                &change,
+                CloseRootsSettings {
+                    separation,
+                    ..CloseRootsSettings::default()
+                }
+            )
+            .is_ok()
+        );
     }
 }
 
 #[test]
 fn changes_that_are_no_vibrations_are_refused() {
-    let good = ModalChange::of_vibrations(&dvector![1.0, 1.0, 3.0], DMatrix::zeros(3, 3), DMatrix::zeros(3, 3));
+    let good = ModalChange::of_vibrations(
+        &dvector![1.0, 1.0, 3.0],
+        DMatrix::zeros(3, 3),
+        DMatrix::zeros(3, 3),
+    );
     let error = |edit: fn(&mut ModalChange<f64>)| {
         let mut change = good.clone();
         edit(&mut change);
@@ -36,23 +55,53 @@ fn changes_that_are_no_vibrations_are_refused() {
     };
     assert!(matches!(
         error(|change| change.beta[(2, 0)] = 0.1),
-        Error::NotSymmetric { what: "generalized stiffness change", row: 2, column: 0, .. }
+        Error::NotSymmetric {
+            what: "generalized stiffness change",
+            row: 2,
+            column: 0,
+            ..
+        }
     ));
     assert!(matches!(
         error(|change| change.alpha[(0, 1)] = 0.1),
-        Error::NotSymmetric { what: "generalized mass change", row: 1, column: 0, .. }
+        Error::NotSymmetric {
+            what: "generalized mass change",
+            row: 1,
+            column: 0,
+            ..
+        }
     ));
     assert!(matches!(
         error(|change| change.alpha[(1, 1)] = -1.1),
-        Error::NotPositiveDefinite { what: "changed generalized mass", dof: 1 }
+        Error::NotPositiveDefinite {
+            what: "changed generalized mass",
+            dof: 1
+        }
     ));
-    assert!(matches!(error(|change| change.beta[(2, 2)] = -4.0), Error::LostRoot { mode: 2, value: -1.0 }));
-    assert!(matches!(error(|change| change.beta[(1, 1)] = -1.0), Error::LostStiffness { mode: 1, .. }));
+    assert!(matches!(
+        error(|change| change.beta[(2, 2)] = -4.0),
+        Error::LostRoot {
+            mode: 2,
+            value: -1.0
+        }
+    ));
+    assert!(matches!(
+        error(|change| change.beta[(1, 1)] = -1.0),
+        Error::LostStiffness { mode: 1, .. }
+    ));
     assert!(matches!(
         error(|change| change.beta[(0, 0)] = f64::NAN),
-        Error::NotFinite { what: "generalized stiffness change", row: 0, column: 0, .. }
+        Error::NotFinite {
+            what: "generalized stiffness change",
+            row: 0,
+            column: 0,
+            ..
+        }
     ));
-    assert!(matches!(error(|change| change.roots = DVector::zeros(0)), Error::Empty { what: "modes" }));
+    assert!(matches!(
+        error(|change| change.roots = DVector::zeros(0)),
+        Error::Empty { what: "modes" }
+    ));
     // The pair's own problem loses a root: [[1, 1.5], [1.5, 1]] has eigenvalues −0.5 and 2.5.
     let mut coupled = good.clone();
     coupled.generalized_stiffness = dvector![3.0, 1.0, 1.0];
@@ -73,10 +122,17 @@ fn without_blocks_a_repeated_root_is_refused_and_named() {
     change.generalized_stiffness = dvector![1.0, 4.0, 4.0];
     change.roots = dvector![1.0, 0.25, 0.25];
     change.beta.fill(0.0);
-    let settings = CloseRootsSettings { separation: 0.0, ..CloseRootsSettings::default() };
+    let settings = CloseRootsSettings {
+        separation: 0.0,
+        ..CloseRootsSettings::default()
+    };
     assert!(matches!(
         close_roots(&change, settings),
-        Err(Error::CoalescingModes { first: 2, second: 1, separation: 0.0 })
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 1,
+            separation: 0.0
+        })
     ));
     // Two parts in a thousand million are enough for the denominator; a tenth of that is not.
     change.generalized_stiffness[2] = 4.0 * (1.0 + 2e-9);

@@ -1,7 +1,11 @@
 //! Clusters of roots down to exact repetition, against exact eigensolutions, and the orders of the recursion with blocks.
 
-use crate::common::appendix_c::{Clustered, change_of, clustered, four_modes, separate_change, separate_spectrum};
-use crate::common::close_roots::{changed, repeated_chain, residual, root_error, solved, spring_change};
+use crate::common::appendix_c::{
+    Clustered, change_of, clustered, four_modes, separate_change, separate_spectrum,
+};
+use crate::common::close_roots::{
+    changed, repeated_chain, residual, root_error, solved, spring_change,
+};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
 use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
@@ -103,19 +107,31 @@ proptest! {
 
 /// Four modes, two of them with one root, and a change that couples all of them.
 fn pair_among_four(size: f64) -> ModalChange<f64> {
-    ModalChange::of_vibrations(&dvector![1.0, 4.0, 4.0, 14.0], four_modes(size).beta, DMatrix::zeros(4, 4))
+    ModalChange::of_vibrations(
+        &dvector![1.0, 4.0, 4.0, 14.0],
+        four_modes(size).beta,
+        DMatrix::zeros(4, 4),
+    )
 }
 
 /// Largest change of a root in the last order, whether that is small enough to count as settled or not.
 fn last_change(change: &ModalChange<f64>, orders: usize, tolerance: f64) -> f64 {
-    let settings = CloseRootsSettings { orders, tolerance, ..CloseRootsSettings::default() };
+    let settings = CloseRootsSettings {
+        orders,
+        tolerance,
+        ..CloseRootsSettings::default()
+    };
     match close_roots(change, settings) {
         Ok(found) => {
             assert_eq!(found.settled.order, orders);
             assert!(found.settled.last_change <= LARGEST_UNSETTLED_CHANGE);
             found.settled.last_change
         }
-        Err(Error::UnsettledRoots { largest, orders: found, last_change }) => {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders: found,
+            last_change,
+        }) => {
             assert_eq!((largest, found), (LARGEST_UNSETTLED_CHANGE, orders));
             assert!(last_change > LARGEST_UNSETTLED_CHANGE);
             last_change
@@ -133,7 +149,10 @@ fn every_order_of_the_recursion_with_blocks_moves_the_roots_by_that_order() {
             .map(|size| (size, last_change(&pair_among_four(size), orders, 1e-13)))
             .collect();
         let slope = log_log_slope(&points);
-        assert!((slope - orders as f64).abs() < 2.0 * ORDER_SLACK, "order {orders}: {slope}");
+        assert!(
+            (slope - orders as f64).abs() < 2.0 * ORDER_SLACK,
+            "order {orders}: {slope}"
+        );
     }
 }
 
@@ -143,7 +162,10 @@ fn every_order_of_the_recursion_with_blocks_moves_the_roots_by_that_order() {
 fn roots_of_a_block_gain_two_orders_each_time() {
     // Changes small enough for the roots to count as settled at the order.
     for (orders, sizes) in [(3, [0.03, 0.02, 0.0125]), (4, [0.1, 0.07, 0.05])] {
-        let settings = CloseRootsSettings { orders, ..CloseRootsSettings::default() };
+        let settings = CloseRootsSettings {
+            orders,
+            ..CloseRootsSettings::default()
+        };
         let mut singles = Vec::new();
         for size in sizes {
             let change = pair_among_four(size);
@@ -155,11 +177,17 @@ fn roots_of_a_block_gain_two_orders_each_time() {
             let roots = found.settled.perturbed.roots;
             let error = |i: usize| (roots[i] * exact.omega_squared[i] - 1.0).abs();
             let (block, single) = (error(1).max(error(2)), error(0).max(error(3)));
-            assert!(block < ROUND_OFF && single > 10.0 * ROUND_OFF, "order {orders}: {block:e} {single:e}");
+            assert!(
+                block < ROUND_OFF && single > 10.0 * ROUND_OFF,
+                "order {orders}: {block:e} {single:e}"
+            );
             singles.push((size, single));
         }
         let slope = log_log_slope(&singles);
-        assert!((slope - orders as f64 - 1.0).abs() < 2.0 * ORDER_SLACK, "order {orders}: {slope}");
+        assert!(
+            (slope - orders as f64 - 1.0).abs() < 2.0 * ORDER_SLACK,
+            "order {orders}: {slope}"
+        );
     }
 }
 
@@ -170,7 +198,10 @@ fn recursion_with_blocks_stops_at_its_tolerance() {
     let change = spring_change(&modes, [0.3, 0.0, 0.1], [0.2, 0.0, 0.0]);
     let default = solved(&change).settled;
     assert!(default.last_change < 1e-13 && default.order > 3 && default.order < 60);
-    let loose = CloseRootsSettings { tolerance: 1e-7, ..CloseRootsSettings::default() };
+    let loose = CloseRootsSettings {
+        tolerance: 1e-7,
+        ..CloseRootsSettings::default()
+    };
     let loose = close_roots(&change, loose).unwrap().settled;
     assert!(loose.last_change < 1e-7 && loose.order > 3 && loose.order < default.order);
     // Two quiet orders, and a louder one before them.
@@ -178,5 +209,12 @@ fn recursion_with_blocks_stops_at_its_tolerance() {
     assert!(last_change(&change, loose.order - 2, 1e-7) >= 1e-7);
     // One order alone has nothing to compare with.
     assert_eq!(last_change(&change, 1, 1e-7), 1.0);
-    assert_eq!(CloseRootsSettings::default(), CloseRootsSettings { separation: 0.1, tolerance: 1e-13, orders: 60 });
+    assert_eq!(
+        CloseRootsSettings::default(),
+        CloseRootsSettings {
+            separation: 0.1,
+            tolerance: 1e-13,
+            orders: 60
+        }
+    );
 }

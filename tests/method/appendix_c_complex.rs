@@ -6,7 +6,9 @@ use crate::common::complex_pencils::{
     ComplexPencil, Complexes, amax, complex, complex_pencil, complex_square, roots_by_qz, through,
 };
 use crate::common::strategies;
-use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF};
+use crate::common::tolerances::{
+    COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
+};
 use corfem::method::appendix_c::general::complex_modes::{LeftRightModes, solve};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::error::Error;
@@ -125,7 +127,8 @@ fn symmetric_real_pencil_gives_modes_of_vibration() {
     let stiffness = three_mass_chain([1.0, 2.0, 0.5], [1.0, 1.0, 3.0]);
     let mass = DMatrix::from_diagonal(&dvector![1.0, 1.5, 0.8]);
     let modes = solve(&stiffness, &complex(&mass)).unwrap();
-    let vibrations = LeftRightModes::from(&corfem::method::modes::solve(&stiffness, &mass, 3).unwrap());
+    let vibrations =
+        LeftRightModes::from(&corfem::method::modes::solve(&stiffness, &mass, 3).unwrap());
     for i in 0..3 {
         assert!((modes.roots[i] / vibrations.roots[i] - 1.0).norm() < EIGEN_ROUND_OFF);
         // vᵗKv = 1 against vᵗMv = 1: apart by the root of λ.
@@ -152,22 +155,44 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
         let turn = Complex::from_polar(1.0, angle);
         let expected = [Complex::from(2.0), turn.conj(), turn, Complex::from(0.25)];
         for (found, expected) in modes.roots.iter().zip(expected) {
-            assert!((found - expected).norm() < EIGEN_ROUND_OFF, "{found} {expected}");
+            assert!(
+                (found - expected).norm() < EIGEN_ROUND_OFF,
+                "{found} {expected}"
+            );
         }
     }
     // Three of equal magnitude between a larger and a smaller one, in every order.
     let middle = [-1.0, 0.5, 2.0].map(|angle| Complex::from_polar(1.0, angle));
-    for [a, b, c] in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
-        let roots = [Complex::from(3.0), middle[a], middle[b], middle[c], Complex::from(0.5)];
+    for [a, b, c] in [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ] {
+        let roots = [
+            Complex::from(3.0),
+            middle[a],
+            middle[b],
+            middle[c],
+            Complex::from(0.5),
+        ];
         let g = DMatrix::from_diagonal(&DVector::from_row_slice(&roots));
         let modes = solve(&DMatrix::identity(5, 5), &g).unwrap();
         let expected = [roots[0], middle[0], middle[1], middle[2], roots[4]];
         for (found, expected) in modes.roots.iter().zip(expected) {
-            assert!((found - expected).norm() < EIGEN_ROUND_OFF, "{found} {expected}");
+            assert!(
+                (found - expected).norm() < EIGEN_ROUND_OFF,
+                "{found} {expected}"
+            );
         }
     }
     // A one-in-a-million difference of magnitude is not a tie.
-    let g = DMatrix::from_diagonal(&dvector![Complex::from_polar(1.0, -1.0), Complex::from_polar(1.0 + 1e-6, 1.0)]);
+    let g = DMatrix::from_diagonal(&dvector![
+        Complex::from_polar(1.0, -1.0),
+        Complex::from_polar(1.0 + 1e-6, 1.0)
+    ]);
     let modes = solve(&DMatrix::identity(2, 2), &g).unwrap();
     assert!(modes.roots[0].im > 0.0);
 }
@@ -184,7 +209,10 @@ fn defective_pencil_is_refused_and_its_mode_named() {
     let near = complex(&dmatrix![1.0, 1.0, 0.0; 0.0, 1.0 + 1e-6, 0.0; 0.0, 0.0, 2.0]);
     assert!(solve(&DMatrix::identity(3, 3), &near).is_ok());
     let nearer = complex(&dmatrix![1.0, 1.0, 0.0; 0.0, 1.0 + 2e-8, 0.0; 0.0, 0.0, 2.0]);
-    assert!(matches!(solve(&DMatrix::identity(3, 3), &nearer), Err(Error::Defective { mode: 1, .. })));
+    assert!(matches!(
+        solve(&DMatrix::identity(3, 3), &nearer),
+        Err(Error::Defective { mode: 1, .. })
+    ));
 }
 
 #[test]
@@ -193,7 +221,9 @@ fn pencils_that_do_not_fit_are_refused() {
     let g = complex(&identity);
     assert!(matches!(
         solve(&DMatrix::zeros(0, 0), &DMatrix::zeros(0, 0)),
-        Err(Error::Empty { what: "degrees of freedom" })
+        Err(Error::Empty {
+            what: "degrees of freedom"
+        })
     ));
     assert!(matches!(
         solve(&identity, &DMatrix::zeros(2, 3)),
@@ -209,16 +239,35 @@ fn pencils_that_do_not_fit_are_refused() {
     not_finite[(1, 0)] = Complex::new(0.0, f64::NEG_INFINITY);
     assert!(matches!(
         solve(&identity, &not_finite),
-        Err(Error::NotFinite { what: "mass and aerodynamic terms", row: 1, column: 0, value: f64::NEG_INFINITY })
+        Err(Error::NotFinite {
+            what: "mass and aerodynamic terms",
+            row: 1,
+            column: 0,
+            value: f64::NEG_INFINITY
+        })
     ));
     not_finite[(1, 0)] = Complex::new(f64::INFINITY, 0.0);
-    assert!(matches!(solve(&identity, &not_finite), Err(Error::NotFinite { value: f64::INFINITY, .. })));
+    assert!(matches!(
+        solve(&identity, &not_finite),
+        Err(Error::NotFinite {
+            value: f64::INFINITY,
+            ..
+        })
+    ));
     assert!(matches!(
         solve(&dmatrix![1.0, 2.0; 2.0, 1.0], &g),
-        Err(Error::NotPositiveDefinite { what: "stiffness", dof: 1 })
+        Err(Error::NotPositiveDefinite {
+            what: "stiffness",
+            dof: 1
+        })
     ));
     assert!(matches!(
         solve(&dmatrix![1.0, 0.5; 0.0, 1.0], &g),
-        Err(Error::NotSymmetric { what: "stiffness", row: 1, column: 0, .. })
+        Err(Error::NotSymmetric {
+            what: "stiffness",
+            row: 1,
+            column: 0,
+            ..
+        })
     ));
 }

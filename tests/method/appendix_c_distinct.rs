@@ -45,7 +45,10 @@ proptest! {
 /// Shapes whose own component is not the largest are long, and are one mode all the same.
 #[test]
 fn one_mode_by_long_shapes_is_found_twice_too() {
-    let (k, beta) = (dvector![1.0, 2.2, 4.0], dmatrix![0.6, -0.7, -0.1; -0.7, 0.0, 1.5; -0.1, 1.5, -0.7]);
+    let (k, beta) = (
+        dvector![1.0, 2.2, 4.0],
+        dmatrix![0.6, -0.7, -0.1; -0.7, 0.0, 1.5; -0.1, 1.5, -0.7],
+    );
     let refused = recursive_1_converged(&k, &beta, 1e-9, 400).unwrap_err();
     assert!(
         matches!(refused, Error::CoalescingModes { first: 0, second: 1, separation } if separation < 1e-6),

@@ -1,6 +1,8 @@
 //! Appendix C in full on real numbers: equal to the plain path where that applies, and mass changes beside stiffness.
 
-use crate::common::appendix_c::{ascending, errors, four_modes, rules, separate_change, three_mass_chain};
+use crate::common::appendix_c::{
+    ascending, errors, four_modes, rules, separate_change, three_mass_chain,
+};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
 use corfem::method::appendix_c::general::{self, ModalChange};
@@ -91,11 +93,18 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let mass_change = DMatrix::from_diagonal(&dvector![0.0, 0.15, -0.03]);
     let change = ModalChange::new(&stiffness, &base, &share_change, &mass_change).unwrap();
     assert!((&change.generalized_stiffness - &modes.omega_squared).amax() < MATRIX_ROUND_OFF);
-    let converged = general::recursive_1_converged(&change, 1e-13, 60).unwrap().perturbed;
-    let exact = corfem::method::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3).unwrap();
+    let converged = general::recursive_1_converged(&change, 1e-13, 60)
+        .unwrap()
+        .perturbed;
+    let exact =
+        corfem::method::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3)
+            .unwrap();
     let found = ascending(converged.roots.map(f64::recip).iter());
     for (found, exact) in found.iter().zip(exact.omega_squared.iter()) {
-        assert!((found / exact - 1.0).abs() < EIGEN_ROUND_OFF, "{found} {exact}");
+        assert!(
+            (found / exact - 1.0).abs() < EIGEN_ROUND_OFF,
+            "{found} {exact}"
+        );
     }
     let mut shapes = converged.shapes;
     normalize_with_mass(&mut shapes, &change.alpha).unwrap();
@@ -110,7 +119,8 @@ fn first_order_is_rayleighs_quotient_on_the_old_shapes() {
     let change = four_modes(0.05);
     let roots = general::first_order(&change).unwrap().roots;
     for i in 0..4 {
-        let quotient = (1.0 + change.alpha[(i, i)]) / (change.generalized_stiffness[i] + change.beta[(i, i)]);
+        let quotient =
+            (1.0 + change.alpha[(i, i)]) / (change.generalized_stiffness[i] + change.beta[(i, i)]);
         assert!((roots[i] / quotient - 1.0).abs() < ROUND_OFF);
     }
 }
@@ -128,12 +138,21 @@ fn scale_of_the_left_shapes_does_not_matter() {
     };
     for (one, other) in [
         (general::first_order(&change), general::first_order(&scaled)),
-        (general::recursive_1(&change, 4), general::recursive_1(&scaled, 4)),
-        (general::recursive_2(&change, 3), general::recursive_2(&scaled, 3)),
+        (
+            general::recursive_1(&change, 4),
+            general::recursive_1(&scaled, 4),
+        ),
+        (
+            general::recursive_2(&change, 3),
+            general::recursive_2(&scaled, 3),
+        ),
         (general::original(&change), general::original(&scaled)),
     ] {
         let (root, shape) = errors(&one.unwrap(), &other.unwrap());
-        assert!(root < ROUND_OFF && shape < MATRIX_ROUND_OFF, "{root:e} {shape:e}");
+        assert!(
+            root < ROUND_OFF && shape < MATRIX_ROUND_OFF,
+            "{root:e} {shape:e}"
+        );
     }
 }
 
@@ -146,9 +165,13 @@ fn eigensolution_with_mass_continues_every_mode() {
     assert!((0..4).all(|j| exact.shapes[(j, j)] == 1.0));
     let stiffness = DMatrix::from_diagonal(&change.generalized_stiffness) + &change.beta;
     let mass = DMatrix::identity(4, 4) + &change.alpha;
-    let residual = stiffness * &exact.shapes * DMatrix::from_diagonal(&exact.roots) - mass * &exact.shapes;
+    let residual =
+        stiffness * &exact.shapes * DMatrix::from_diagonal(&exact.roots) - mass * &exact.shapes;
     assert!(residual.amax() < EIGEN_ROUND_OFF);
-    let without_mass = ModalChange { alpha: DMatrix::zeros(4, 4), ..change };
+    let without_mass = ModalChange {
+        alpha: DMatrix::zeros(4, 4),
+        ..change
+    };
     let without_mass = eigensolution(&without_mass).unwrap();
     assert!((without_mass.roots - exact.roots).amax() > 1e-3);
 }

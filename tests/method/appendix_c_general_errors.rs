@@ -42,12 +42,23 @@ fn rows_of_a_shape_without_a_solution_are_refused() {
     // Mode 2 does not couple with the others, which are so coupled that their rows are singular at its root
     // 1/2: (1 + 0.4 − 1/γ)(3 + 0.6 − 1/γ) = β₀₁² with γ = 1/2 gives β₀₁² = −0.96; with mass, choose α₀₁.
     let gamma = 0.5;
-    let mut change = ModalChange::of_vibrations(&dvector![1.0, 4.0, 2.0], DMatrix::zeros(3, 3), DMatrix::zeros(3, 3));
+    let mut change = ModalChange::of_vibrations(
+        &dvector![1.0, 4.0, 2.0],
+        DMatrix::zeros(3, 3),
+        DMatrix::zeros(3, 3),
+    );
     // Row 0 and 1 at γ: (γ·1 − 1)(γ·4 − 1) = −0.5 = r₀₁·r₁₀ with r = −α, unsymmetric.
     change.alpha[(0, 1)] = 1.0;
     change.alpha[(1, 0)] = -0.5;
     assert!((change.roots[2] - gamma).abs() < ROUND_OFF);
-    assert!(matches!(general::recursive_2(&change, 2), Err(Error::CoalescingModes { first: 2, second: 2, .. })));
+    assert!(matches!(
+        general::recursive_2(&change, 2),
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 2,
+            ..
+        })
+    ));
 }
 
 #[test]
@@ -83,13 +94,22 @@ fn input_that_does_not_fit_is_refused_by_every_function() {
     for error in broken(|change| change.beta = DMatrix::zeros(4, 3)) {
         assert!(matches!(
             error,
-            Error::WrongShape { what: "generalized stiffness change", expected_columns: 4, columns: 3, .. }
+            Error::WrongShape {
+                what: "generalized stiffness change",
+                expected_columns: 4,
+                columns: 3,
+                ..
+            }
         ));
     }
     for error in broken(|change| change.alpha = DMatrix::zeros(5, 4)) {
         assert!(matches!(
             error,
-            Error::WrongShape { what: "generalized change of mass and aerodynamic terms", rows: 5, .. }
+            Error::WrongShape {
+                what: "generalized change of mass and aerodynamic terms",
+                rows: 5,
+                ..
+            }
         ));
     }
     for error in broken(|change| change.alpha[(2, 3)] = f64::NAN) {
@@ -101,17 +121,44 @@ fn input_that_does_not_fit_is_refused_by_every_function() {
     for error in broken(|change| change.beta[(1, 0)] = f64::INFINITY) {
         assert!(matches!(
             error,
-            Error::NotFinite { what: "generalized stiffness change", row: 1, column: 0, value: f64::INFINITY }
+            Error::NotFinite {
+                what: "generalized stiffness change",
+                row: 1,
+                column: 0,
+                value: f64::INFINITY
+            }
         ));
     }
     for error in broken(|change| change.generalized_stiffness[1] = f64::NAN) {
-        assert!(matches!(error, Error::NotFinite { what: "generalized stiffness", row: 1, column: 0, .. }));
+        assert!(matches!(
+            error,
+            Error::NotFinite {
+                what: "generalized stiffness",
+                row: 1,
+                column: 0,
+                ..
+            }
+        ));
     }
     for error in broken(|change| change.roots[3] = f64::INFINITY) {
-        assert!(matches!(error, Error::NotFinite { what: "roots", row: 3, column: 0, .. }));
+        assert!(matches!(
+            error,
+            Error::NotFinite {
+                what: "roots",
+                row: 3,
+                column: 0,
+                ..
+            }
+        ));
     }
     for error in broken(|change| change.beta[(2, 2)] = -6.0) {
-        assert!(matches!(error, Error::LostStiffness { mode: 2, ratio: 0.0 }));
+        assert!(matches!(
+            error,
+            Error::LostStiffness {
+                mode: 2,
+                ratio: 0.0
+            }
+        ));
     }
 }
 
@@ -135,7 +182,14 @@ fn order_zero_is_refused() {
         general::recursive_1_converged(&change, 1e-6, 0).map(|settled| settled.perturbed),
         general::recursive_2(&change, 0),
     ] {
-        assert!(matches!(result, Err(Error::Setting { name: "order", expected: "at least 1", found: 0.0 })));
+        assert!(matches!(
+            result,
+            Err(Error::Setting {
+                name: "order",
+                expected: "at least 1",
+                found: 0.0
+            })
+        ));
     }
 }
 
@@ -145,14 +199,25 @@ fn generalized_mass_that_loses_its_sign_is_refused() {
     change.alpha[(1, 1)] = -1.5;
     let root = general::first_order(&change).unwrap().roots[1];
     assert!((root + 0.5 / 2.5).abs() < ROUND_OFF);
-    assert!(matches!(eigensolution(&change), Err(Error::NotPositiveDefinite { what: "dynamic mass", dof: 1 })));
+    assert!(matches!(
+        eigensolution(&change),
+        Err(Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            dof: 1
+        })
+    ));
     assert!(matches!(
         normalize_with_mass(&mut DMatrix::identity(4, 4), &change.alpha),
         Err(Error::NotPositive { what: "changed generalized mass", owner, value: -0.5 }) if owner == "mode 1 (from zero)"
     ));
     assert!(matches!(
         normalize_with_mass(&mut DMatrix::identity(4, 4), &DMatrix::zeros(3, 4)),
-        Err(Error::WrongShape { what: "generalized mass change", expected_rows: 4, rows: 3, .. })
+        Err(Error::WrongShape {
+            what: "generalized mass change",
+            expected_rows: 4,
+            rows: 3,
+            ..
+        })
     ));
 }
 
@@ -165,5 +230,8 @@ fn runaway_recursion_is_an_error() {
     for i in 0..4 {
         change.beta[(i, i)] = 0.0;
     }
-    assert!(matches!(general::recursive_1(&change, 500), Err(Error::NotFinite { .. } | Error::CoalescingModes { .. })));
+    assert!(matches!(
+        general::recursive_1(&change, 500),
+        Err(Error::NotFinite { .. } | Error::CoalescingModes { .. })
+    ));
 }

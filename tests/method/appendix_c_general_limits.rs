@@ -9,15 +9,26 @@ use nalgebra::{DMatrix, dmatrix, dvector};
 /// The separation that an error names is the denominator relative to $(k_{ii} + \beta_{ii})\gamma_j$, here ten.
 #[test]
 fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
-    let mut change = ModalChange::of_vibrations(&dvector![1.0, 10.0], DMatrix::zeros(2, 2), DMatrix::zeros(2, 2));
+    let mut change = ModalChange::of_vibrations(
+        &dvector![1.0, 10.0],
+        DMatrix::zeros(2, 2),
+        DMatrix::zeros(2, 2),
+    );
     // A slight coupling, for modes without any may meet.
     change.alpha[(0, 1)] = 1e-12;
     change.alpha[(1, 0)] = 1e-12;
     let meeting_at = |separation: f64| 9.0 - 10.0 * separation;
     change.alpha[(1, 1)] = meeting_at(1e-10);
     match general::first_order(&change) {
-        Err(Error::CoalescingModes { first: 1, second: 0, separation }) => {
-            assert!((separation / 1e-10 - 1.0).abs() < CANCELLED_DIFFERENCE, "{separation:e}");
+        Err(Error::CoalescingModes {
+            first: 1,
+            second: 0,
+            separation,
+        }) => {
+            assert!(
+                (separation / 1e-10 - 1.0).abs() < CANCELLED_DIFFERENCE,
+                "{separation:e}"
+            );
         }
         other => panic!("{other:?}"),
     }
@@ -46,7 +57,11 @@ fn roots_that_are_not_positive_are_roots_here() {
 /// Two modes so coupled that the shapes of order two are still numbers and the roots no longer.
 #[test]
 fn a_root_beyond_all_numbers_is_refused() {
-    let mut change = ModalChange::of_vibrations(&dvector![1.0, 4.0], DMatrix::zeros(2, 2), DMatrix::zeros(2, 2));
+    let mut change = ModalChange::of_vibrations(
+        &dvector![1.0, 4.0],
+        DMatrix::zeros(2, 2),
+        DMatrix::zeros(2, 2),
+    );
     change.alpha[(0, 1)] = 1e200;
     change.alpha[(1, 0)] = 1e200;
     match general::recursive_1(&change, 2) {
@@ -60,7 +75,11 @@ fn a_root_beyond_all_numbers_is_refused() {
 fn when_roots_settle_does_not_depend_on_units() {
     let settle = |unit: f64| {
         let beta = unit * dmatrix![0.1, 0.2, 0.1; 0.2, -0.1, 0.3; 0.1, 0.3, 0.2];
-        let change = ModalChange::of_vibrations(&(unit * dvector![1.0, 3.0, 8.0]), beta, DMatrix::zeros(3, 3));
+        let change = ModalChange::of_vibrations(
+            &(unit * dvector![1.0, 3.0, 8.0]),
+            beta,
+            DMatrix::zeros(3, 3),
+        );
         let settled = general::recursive_1_converged(&change, 1e-9, 100).unwrap();
         (settled.order, settled.last_change)
     };

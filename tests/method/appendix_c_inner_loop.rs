@@ -21,7 +21,11 @@ fn chain() -> ModalModel {
     let model = DynamicModel {
         stiffness: three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]),
         mass,
-        shares: grounds.into_iter().chain(betweens).map(Share::Stiffness).collect(),
+        shares: grounds
+            .into_iter()
+            .chain(betweens)
+            .map(Share::Stiffness)
+            .collect(),
     };
     model.analyze(&test, Some(3)).expect("a held chain")
 }
@@ -30,12 +34,23 @@ fn chain() -> ModalModel {
 #[test]
 fn both_update_rules_reach_the_same_state() {
     let model = chain();
-    for factors in [[1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [1.2, 1.0, 0.9, 1.1, 1.0, 0.9], [0.8, 1.1, 1.0, 1.0, 0.9, 1.3]] {
+    for factors in [
+        [1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
+        [1.2, 1.0, 0.9, 1.1, 1.0, 0.9],
+        [0.8, 1.1, 1.0, 1.0, 0.9, 1.3],
+    ] {
         let by = |rule| ModalState::at(&model, factors.to_vec(), rule).expect("separate roots");
         let (found, exact) = (by(UpdateRule::Recursive1), by(UpdateRule::Eigensolution));
         let (modes, exact_modes) = (&found.modes, &exact.modes);
-        for (found, exact) in modes.omega_squared.iter().zip(exact_modes.omega_squared.iter()) {
-            assert!((found / exact - 1.0).abs() < EIGEN_ROUND_OFF, "{found} {exact}");
+        for (found, exact) in modes
+            .omega_squared
+            .iter()
+            .zip(exact_modes.omega_squared.iter())
+        {
+            assert!(
+                (found / exact - 1.0).abs() < EIGEN_ROUND_OFF,
+                "{found} {exact}"
+            );
         }
         assert!((&modes.shapes - &exact_modes.shapes).amax() < EIGEN_ROUND_OFF);
         assert!((found.generalized_shapes - exact.generalized_shapes).amax() < EIGEN_ROUND_OFF);
@@ -53,7 +68,11 @@ fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
     let meeting = vec![1.3, 1.0, 1.0, 1.0, 1.0, 0.95 / 3.0];
     assert!(matches!(
         ModalState::at(&model, meeting.clone(), UpdateRule::Recursive1),
-        Err(Error::CoalescingModes { first: 2, second: 1, .. })
+        Err(Error::CoalescingModes {
+            first: 2,
+            second: 1,
+            ..
+        })
     ));
     let found = ModalState::at(&model, meeting, UpdateRule::Eigensolution).unwrap();
     // Both are turned by 45 degrees, 0.3/√12 to either side of 4.05 but for what mode 0 adds.

@@ -33,7 +33,10 @@ fn recursive_1_gains_an_order_each_time() {
         let (root, shape) = slopes(|change| general::recursive_1(change, order));
         let expected = order as f64 + 1.0;
         assert!(root > expected - ORDER_SLACK, "order {order}: roots {root}");
-        assert!(shape > expected - ORDER_SLACK, "order {order}: shapes {shape}");
+        assert!(
+            shape > expected - ORDER_SLACK,
+            "order {order}: shapes {shape}"
+        );
         assert!(shape < expected + 1.0, "order {order}: shapes {shape}");
     }
 }
@@ -46,8 +49,14 @@ fn original_roots_are_an_order_better_than_their_shapes() {
     assert!((shape - 2.0).abs() < ORDER_SLACK, "{shape}");
     let change = four_modes(0.05);
     let original = general::original(&change).unwrap();
-    assert_eq!(original.roots, general::recursive_2(&change, 2).unwrap().roots);
-    assert_eq!(original.shapes, general::first_order(&change).unwrap().shapes);
+    assert_eq!(
+        original.roots,
+        general::recursive_2(&change, 2).unwrap().roots
+    );
+    assert_eq!(
+        original.shapes,
+        general::first_order(&change).unwrap().shapes
+    );
 }
 
 /// Recursive 2 solves the rows of the shapes exactly, so its errors fall two orders at a time after the first.
@@ -78,11 +87,19 @@ fn recursion_stops_at_the_second_quiet_order() {
 #[test]
 fn recursion_stops_at_its_last_order() {
     let moved_by = |size: f64| {
-        let of_order = |order| general::recursive_1(&four_modes(size), order).unwrap().roots;
+        let of_order = |order| {
+            general::recursive_1(&four_modes(size), order)
+                .unwrap()
+                .roots
+        };
         largest_change(&of_order(3), &of_order(2))
     };
     match general::recursive_1_converged(&four_modes(0.1), 1e-13, 3) {
-        Err(Error::UnsettledRoots { largest, orders, last_change }) => {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        }) => {
             assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
             assert!((last_change - moved_by(0.1)).abs() < ROUND_OFF);
             assert!(last_change > LARGEST_UNSETTLED_CHANGE);
@@ -98,7 +115,11 @@ fn recursion_stops_at_its_last_order() {
 /// Two modes coupled by mass alone move their roots in every second order only, and the recursion waits for it.
 #[test]
 fn quiet_order_between_two_others_does_not_stop_the_recursion() {
-    let change = ModalChange::of_vibrations(&dvector![1.0, 1.5], DMatrix::zeros(2, 2), dmatrix![0.0, 0.02; 0.02, 0.0]);
+    let change = ModalChange::of_vibrations(
+        &dvector![1.0, 1.5],
+        DMatrix::zeros(2, 2),
+        dmatrix![0.0, 0.02; 0.02, 0.0],
+    );
     let of_order = |order| general::recursive_1(&change, order).unwrap().roots;
     assert_eq!(of_order(3), of_order(2));
     assert!(largest_change(&of_order(4), &of_order(3)) > 1e-7);

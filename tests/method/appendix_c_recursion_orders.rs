@@ -64,12 +64,48 @@ fn fall_with(orders: [f64; 2], change: &Change, rule: Plain, largest: f64) -> Re
 const ORDERS: [(&str, Plain, f64, f64, f64); 8] = [
     ("first order", first_order, 0.002, 2.0, 2.0),
     ("original", original, 0.002, 3.0, 2.0),
-    ("Recursive 1, order 1", |k, b| recursive_1(k, b, 1), 0.002, 2.0, 2.0),
-    ("Recursive 1, order 2", |k, b| recursive_1(k, b, 2), 0.004, 3.0, 3.0),
-    ("Recursive 1, order 3", |k, b| recursive_1(k, b, 3), 0.008, 4.0, 4.0),
-    ("Recursive 1, order 4", |k, b| recursive_1(k, b, 4), 0.012, 5.0, 5.0),
-    ("Recursive 2, order 2", |k, b| recursive_2(k, b, 2), 0.008, 3.0, 4.0),
-    ("Recursive 2, order 3", |k, b| recursive_2(k, b, 3), 0.02, 5.0, 6.0),
+    (
+        "Recursive 1, order 1",
+        |k, b| recursive_1(k, b, 1),
+        0.002,
+        2.0,
+        2.0,
+    ),
+    (
+        "Recursive 1, order 2",
+        |k, b| recursive_1(k, b, 2),
+        0.004,
+        3.0,
+        3.0,
+    ),
+    (
+        "Recursive 1, order 3",
+        |k, b| recursive_1(k, b, 3),
+        0.008,
+        4.0,
+        4.0,
+    ),
+    (
+        "Recursive 1, order 4",
+        |k, b| recursive_1(k, b, 4),
+        0.012,
+        5.0,
+        5.0,
+    ),
+    (
+        "Recursive 2, order 2",
+        |k, b| recursive_2(k, b, 2),
+        0.008,
+        3.0,
+        4.0,
+    ),
+    (
+        "Recursive 2, order 3",
+        |k, b| recursive_2(k, b, 3),
+        0.02,
+        5.0,
+        6.0,
+    ),
 ];
 
 proptest! {
@@ -130,8 +166,14 @@ fn errors_fall_exactly_with_the_order_of_the_rule() {
     };
     for (name, rule, largest, root_order, shape_order) in ORDERS {
         let [roots, shapes] = slopes(&change, rule, largest);
-        assert!((roots - root_order).abs() <= ORDER_HALFWAY, "{name} roots {roots}");
-        assert!((shapes - shape_order).abs() <= ORDER_HALFWAY, "{name} shapes {shapes}");
+        assert!(
+            (roots - root_order).abs() <= ORDER_HALFWAY,
+            "{name} roots {roots}"
+        );
+        assert!(
+            (shapes - shape_order).abs() <= ORDER_HALFWAY,
+            "{name} shapes {shapes}"
+        );
     }
 }
 
@@ -144,8 +186,14 @@ fn recursive_2_gains_two_orders_where_recursive_1_gains_one() {
     let beta = change.beta(0.03);
     let exact = exact(&change.stiffness, &beta).unwrap();
     for order in [3, 4] {
-        let one = errors(&recursive_1(&change.stiffness, &beta, order).unwrap(), &exact);
-        let two = errors(&recursive_2(&change.stiffness, &beta, order).unwrap(), &exact);
+        let one = errors(
+            &recursive_1(&change.stiffness, &beta, order).unwrap(),
+            &exact,
+        );
+        let two = errors(
+            &recursive_2(&change.stiffness, &beta, order).unwrap(),
+            &exact,
+        );
         assert!(two.0 < one.0 && two.1 < one.1, "{order}: {one:?} {two:?}");
     }
 }

@@ -17,15 +17,16 @@ const SIZE: f64 = 0.03;
 fn first_by_rows(k: &DVector<f64>, beta: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
     let n = k.len();
     let lambda = |i: usize| 1.0 / k[i];
-    let roots = DVector::from_fn(n, |i, _| lambda(i) - lambda(i) * beta[(i, i)] / (k[i] + beta[(i, i)]));
-    let shapes =
-        DMatrix::from_fn(
-            n,
-            n,
-            |i, j| {
-                if i == j { 1.0 } else { -beta[(i, j)] / (k[i] + beta[(i, i)] - 1.0 / roots[j]) }
-            },
-        );
+    let roots = DVector::from_fn(n, |i, _| {
+        lambda(i) - lambda(i) * beta[(i, i)] / (k[i] + beta[(i, i)])
+    });
+    let shapes = DMatrix::from_fn(n, n, |i, j| {
+        if i == j {
+            1.0
+        } else {
+            -beta[(i, j)] / (k[i] + beta[(i, i)] - 1.0 / roots[j])
+        }
+    });
     (roots, shapes)
 }
 
@@ -38,14 +39,20 @@ fn recursive_1_by_rows(
     let n = k.len();
     let own = |i: usize| k[i] + beta[(i, i)];
     let new_roots = DVector::from_fn(n, |i, _| {
-        let sum: f64 = (0..n).filter(|&j| j != i).map(|j| beta[(i, j)] * shapes[(j, i)]).sum();
+        let sum: f64 = (0..n)
+            .filter(|&j| j != i)
+            .map(|j| beta[(i, j)] * shapes[(j, i)])
+            .sum();
         1.0 / k[i] - (beta[(i, i)] / k[i] + roots[i] * sum) / own(i)
     });
     let new_shapes = DMatrix::from_fn(n, n, |i, j| {
         if i == j {
             return 1.0;
         }
-        let sum: f64 = (0..n).filter(|&s| s != i && s != j).map(|s| beta[(i, s)] * shapes[(s, j)]).sum();
+        let sum: f64 = (0..n)
+            .filter(|&s| s != i && s != j)
+            .map(|s| beta[(i, s)] * shapes[(s, j)])
+            .sum();
         -(beta[(i, j)] + sum) / (own(i) - 1.0 / roots[j])
     });
     (new_roots, new_shapes)

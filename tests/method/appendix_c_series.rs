@@ -21,7 +21,8 @@ use crate::common::rational_series::{Found, IntegerPencil, Series};
 use crate::common::tolerances::{RATIONAL_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::{
-    CloseRootsSettings, Perturbed, close_roots, eigensolution, first_order, recursive_1, recursive_1_converged,
+    CloseRootsSettings, Perturbed, close_roots, eigensolution, first_order, recursive_1,
+    recursive_1_converged,
 };
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
@@ -35,30 +36,57 @@ const ORDERS: (usize, usize) = (4, 3);
 
 /// Every rule's name, its rows in full, and the powers below which roots and shapes agree with the exact ones.
 fn rules(change: &Change) -> Vec<(String, Found, (usize, usize))> {
-    let first = ("first order".to_owned(), change.general_first_order(), (2, 2));
+    let first = (
+        "first order".to_owned(),
+        change.general_first_order(),
+        (2, 2),
+    );
     let original = ("original".to_owned(), change.general_original(), (3, 2));
     let one = (1..=ORDERS.0).zip(change.general_recursive_1());
     let one = one.map(|(r, found)| (format!("Recursive 1, order {r}"), found, (r + 1, r + 1)));
     let two = (1..=ORDERS.1).zip(change.general_recursive_2());
-    let two = two.map(|(r, found)| (format!("Recursive 2, order {r}"), found, ((2 * r - 1).max(2), 2 * r)));
-    [first, original].into_iter().chain(one).chain(two).collect()
+    let two = two.map(|(r, found)| {
+        (
+            format!("Recursive 2, order {r}"),
+            found,
+            ((2 * r - 1).max(2), 2 * r),
+        )
+    });
+    [first, original]
+        .into_iter()
+        .chain(one)
+        .chain(two)
+        .collect()
 }
 
 /// Three modes with $k$ apart by one to six, and full integer changes from one to a largest, symmetric or not.
 fn pencil(is_symmetric: bool, largest: i64) -> impl Strategy<Value = IntegerPencil> {
-    let entry = move || (1..=largest, any::<bool>()).prop_map(|(size, sign)| if sign { size } else { -size });
+    let entry = move || {
+        (1..=largest, any::<bool>()).prop_map(|(size, sign)| if sign { size } else { -size })
+    };
     let entries = || prop::collection::vec(entry(), 9);
     (prop::collection::vec(1..=6_i64, 3), entries(), entries()).prop_map(move |(gaps, b, a)| {
         let square = |entries: Vec<i64>| {
-            let entry =
-                |i: usize, j: usize| if is_symmetric { entries[3 * i.min(j) + i.max(j)] } else { entries[3 * i + j] };
-            (0..3).map(|i| (0..3).map(|j| entry(i, j)).collect()).collect()
+            let entry = |i: usize, j: usize| {
+                if is_symmetric {
+                    entries[3 * i.min(j) + i.max(j)]
+                } else {
+                    entries[3 * i + j]
+                }
+            };
+            (0..3)
+                .map(|i| (0..3).map(|j| entry(i, j)).collect())
+                .collect()
         };
         let k = gaps.iter().scan(0, |k, gap| {
             *k += gap;
             Some(*k)
         });
-        IntegerPencil { k: k.collect(), b: square(b), a: square(a) }
+        IntegerPencil {
+            k: k.collect(),
+            b: square(b),
+            a: square(a),
+        }
     })
 }
 
@@ -94,10 +122,18 @@ fn are_within(found: &Perturbed, exact: &Found, tolerance: f64) -> Result<(), St
             return Err(format!("root {j}: {} for {root}", found.roots[j]));
         }
         let column: Vec<BigRational> = exact.shapes.iter().map(|row| number(&row[j])).collect();
-        let largest = column.iter().cloned().map(magnitude).max().expect("at least one");
+        let largest = column
+            .iter()
+            .cloned()
+            .map(magnitude)
+            .max()
+            .expect("at least one");
         for (i, component) in column.iter().enumerate() {
             if magnitude(exactly(found.shapes[(i, j)]) - component) > &tolerance * &largest {
-                return Err(format!("shape {i}, {j}: {} for {component}", found.shapes[(i, j)]));
+                return Err(format!(
+                    "shape {i}, {j}: {} for {component}",
+                    found.shapes[(i, j)]
+                ));
             }
         }
     }
@@ -110,7 +146,10 @@ fn summed(pencil: &IntegerPencil, terms: usize, t: f64) -> Found {
     let Found { roots, shapes } = pencil.exact(terms);
     Found {
         roots: roots.iter().map(at).collect(),
-        shapes: shapes.iter().map(|row| row.iter().map(at).collect()).collect(),
+        shapes: shapes
+            .iter()
+            .map(|row| row.iter().map(at).collect())
+            .collect(),
     }
 }
 
@@ -222,8 +261,18 @@ proptest! {
 fn four_modes_have_the_orders_of_the_table() {
     let pencil = IntegerPencil {
         k: vec![2, 5, 9, 14],
-        b: vec![vec![1, -2, 3, 1], vec![-2, 3, 1, -1], vec![3, 1, -1, 2], vec![1, -1, 2, 2]],
-        a: vec![vec![1, 2, -1, 3], vec![2, -1, 2, 1], vec![-1, 2, 1, 1], vec![3, 1, 1, 2]],
+        b: vec![
+            vec![1, -2, 3, 1],
+            vec![-2, 3, 1, -1],
+            vec![3, 1, -1, 2],
+            vec![1, -1, 2, 2],
+        ],
+        a: vec![
+            vec![1, 2, -1, 3],
+            vec![2, -1, 2, 1],
+            vec![-1, 2, 1, 1],
+            vec![3, 1, 1, 2],
+        ],
     };
     for pencil in [pencil.of_stiffness(), pencil] {
         let (exact, change) = (pencil.exact(TERMS), Change::series(&pencil, TERMS));

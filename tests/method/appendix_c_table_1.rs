@@ -111,17 +111,33 @@ fn two_orders_of_recursive_1_are_worth_one_of_recursive_2() {
                     .into_iter()
                     .map(|size| {
                         let change = size * coupling;
-                        (size, errors(TwoMasses { coupling, change }, formula)[mode].abs())
+                        (
+                            size,
+                            errors(TwoMasses { coupling, change }, formula)[mode].abs(),
+                        )
                     })
                     .collect()
             };
             for mode in 0..2 {
                 let two = by_formula(Formula::Recursive2 { order }, mode);
-                let one = by_formula(Formula::Recursive1 { order: 2 * order - 1 }, mode);
+                let one = by_formula(
+                    Formula::Recursive1 {
+                        order: 2 * order - 1,
+                    },
+                    mode,
+                );
                 let slope = log_log_slope(&two);
-                assert!((slope - 2.0 * order as f64).abs() < ORDER_SLACK, "order {order}: {slope}");
+                assert!(
+                    (slope - 2.0 * order as f64).abs() < ORDER_SLACK,
+                    "order {order}: {slope}"
+                );
                 for (one, two) in one.iter().zip(&two) {
-                    assert!((one.1 / two.1 - 1.0).abs() < ORDER_SLACK, "{} {}", one.1, two.1);
+                    assert!(
+                        (one.1 / two.1 - 1.0).abs() < ORDER_SLACK,
+                        "{} {}",
+                        one.1,
+                        two.1
+                    );
                 }
             }
         }
@@ -131,7 +147,10 @@ fn two_orders_of_recursive_1_are_worth_one_of_recursive_2() {
 /// Changes of exactly 3/4 with a unit coupling: ω² = (19 ± √73)/8, and Recursive 2 by hand.
 #[test]
 fn one_problem_by_hand() {
-    let problem = TwoMasses { coupling: 1.0, change: 0.75 };
+    let problem = TwoMasses {
+        coupling: 1.0,
+        change: 0.75,
+    };
     let [lower, upper] = problem.exact_roots();
     assert!((lower * (19.0 - 73.0_f64.sqrt()) / 8.0 - 1.0).abs() < ROUND_OFF);
     assert!((upper * (19.0 + 73.0_f64.sqrt()) / 8.0 - 1.0).abs() < ROUND_OFF);
@@ -147,9 +166,27 @@ fn one_problem_by_hand() {
 fn table_has_a_column_for_every_formula_and_a_row_for_every_problem() {
     let problems = problems();
     assert_eq!(problems.len(), 24);
-    assert_eq!(problems[0], TwoMasses { coupling: 0.25, change: -0.5 });
-    assert_eq!(problems[23], TwoMasses { coupling: 2.0, change: 1.0 });
-    assert_eq!(problems[7], TwoMasses { coupling: 0.5, change: -0.2 });
+    assert_eq!(
+        problems[0],
+        TwoMasses {
+            coupling: 0.25,
+            change: -0.5
+        }
+    );
+    assert_eq!(
+        problems[23],
+        TwoMasses {
+            coupling: 2.0,
+            change: 1.0
+        }
+    );
+    assert_eq!(
+        problems[7],
+        TwoMasses {
+            coupling: 0.5,
+            change: -0.2
+        }
+    );
     assert_eq!(
         formulae(4),
         [
@@ -169,7 +206,10 @@ fn table_has_a_column_for_every_formula_and_a_row_for_every_problem() {
 #[test]
 fn springs_that_are_not_positive_are_refused() {
     for coupling in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let problem = TwoMasses { coupling, change: 0.1 };
+        let problem = TwoMasses {
+            coupling,
+            change: 0.1,
+        };
         let expected = "a positive finite number";
         assert!(matches!(
             problem.root_errors(Formula::FirstOrder),
@@ -179,10 +219,25 @@ fn springs_that_are_not_positive_are_refused() {
     }
     for change in [-1.0, -2.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
-            TwoMasses { coupling: 1.0, change }.root_errors(Formula::Original),
-            Err(Error::Setting { name: "change", expected: "a finite number above -1", .. })
+            TwoMasses {
+                coupling: 1.0,
+                change
+            }
+            .root_errors(Formula::Original),
+            Err(Error::Setting {
+                name: "change",
+                expected: "a finite number above -1",
+                ..
+            })
         ));
     }
-    let softest = TwoMasses { coupling: 2.0, change: -0.99 };
-    assert!(softest.root_errors(Formula::Recursive1 { order: 60 }).is_ok());
+    let softest = TwoMasses {
+        coupling: 2.0,
+        change: -0.99,
+    };
+    assert!(
+        softest
+            .root_errors(Formula::Recursive1 { order: 60 })
+            .is_ok()
+    );
 }

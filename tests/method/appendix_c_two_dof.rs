@@ -8,7 +8,8 @@ use crate::common::appendix_c::{Plain, exact, original, recursive_2};
 use crate::common::log_log_slope;
 use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::{
-    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, MEASURABLE_ERROR, ORDER_HALFWAY, ROUND_OFF,
+    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, MEASURABLE_ERROR, ORDER_HALFWAY,
+    ROUND_OFF,
 };
 use crate::common::vibrations::{full_change, modes_by_nalgebra};
 use corfem::closed_forms::two_dof::{perturbed, squared_frequencies};
@@ -122,7 +123,8 @@ proptest! {
 fn two_masses_on_three_springs() {
     // Two masses 2 held by springs 3 and joined by a spring 5: in phase 3/2, out of phase (3 + 10)/2.
     let stiffness = dmatrix![8.0, -5.0; -5.0, 8.0];
-    let [lower, upper] = squared_frequencies(&stiffness, &DMatrix::from_diagonal_element(2, 2, 2.0)).unwrap();
+    let [lower, upper] =
+        squared_frequencies(&stiffness, &DMatrix::from_diagonal_element(2, 2, 2.0)).unwrap();
     assert!((lower - 1.5).abs() <= ROUND_OFF);
     assert!((upper - 6.5).abs() <= ROUND_OFF);
 }
@@ -130,7 +132,10 @@ fn two_masses_on_three_springs() {
 #[test]
 fn coupled_masses_by_hand() {
     // det [2 - 2x, -1 - x; -1 - x, 3 - x] = x^2 - 10 x + 5 = 0, x = 5 -+ 2 sqrt 5.
-    let found = squared_frequencies(&dmatrix![2.0, -1.0; -1.0, 3.0], &dmatrix![2.0, 1.0; 1.0, 1.0]);
+    let found = squared_frequencies(
+        &dmatrix![2.0, -1.0; -1.0, 3.0],
+        &dmatrix![2.0, 1.0; 1.0, 1.0],
+    );
     let [lower, upper] = found.unwrap();
     assert!((lower - (5.0 - 20_f64.sqrt())).abs() <= ROUND_OFF);
     assert!((upper - (5.0 + 20_f64.sqrt())).abs() <= 10.0 * ROUND_OFF);
@@ -144,7 +149,10 @@ fn a_free_motion_and_an_unstable_one_have_their_roots() {
     let none = DMatrix::zeros(2, 2);
     assert_eq!(squared_frequencies(&none, &identity).unwrap(), [0.0, 0.0]);
     let unstable = dmatrix![-3.0, 0.0; 0.0, -1.0];
-    assert_eq!(squared_frequencies(&unstable, &identity).unwrap(), [-3.0, -1.0]);
+    assert_eq!(
+        squared_frequencies(&unstable, &identity).unwrap(),
+        [-3.0, -1.0]
+    );
 }
 
 #[test]
@@ -173,37 +181,72 @@ fn coalescing_modes_turn_by_45_degrees() {
 fn closed_forms_refuse_bad_input() {
     let identity = DMatrix::identity(2, 2);
     let three = DMatrix::identity(3, 3);
-    for (stiffness, mass, expected) in [(&three, &identity, "stiffness"), (&identity, &three, "mass")] {
+    for (stiffness, mass, expected) in [
+        (&three, &identity, "stiffness"),
+        (&identity, &three, "mass"),
+    ] {
         match squared_frequencies(stiffness, mass) {
-            Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-                assert_eq!((what, expected_rows, expected_columns, rows, columns), (expected, 2, 2, 3, 3))
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                expected_columns,
+                rows,
+                columns,
+            }) => {
+                assert_eq!(
+                    (what, expected_rows, expected_columns, rows, columns),
+                    (expected, 2, 2, 3, 3)
+                )
             }
             other => panic!("{other:?}"),
         }
     }
     let skew = dmatrix![1.0, 0.5; 0.0, 1.0];
-    assert!(matches!(squared_frequencies(&skew, &identity), Err(Error::NotSymmetric { what: "stiffness", .. })));
+    assert!(matches!(
+        squared_frequencies(&skew, &identity),
+        Err(Error::NotSymmetric {
+            what: "stiffness",
+            ..
+        })
+    ));
     assert!(matches!(
         squared_frequencies(&identity, &dmatrix![1.0, 1.0; 1.0, 1.0]),
-        Err(Error::NotPositiveDefinite { what: "mass", dof: 1 })
+        Err(Error::NotPositiveDefinite {
+            what: "mass",
+            dof: 1
+        })
     ));
     assert!(matches!(
         perturbed(&dvector![1.0, 2.0], &skew),
-        Err(Error::NotSymmetric { what: "generalized stiffness change", .. })
+        Err(Error::NotSymmetric {
+            what: "generalized stiffness change",
+            ..
+        })
     ));
     assert!(matches!(
         perturbed(&dvector![1.0, 2.0], &three),
-        Err(Error::WrongShape { what: "generalized stiffness change", rows: 3, .. })
+        Err(Error::WrongShape {
+            what: "generalized stiffness change",
+            rows: 3,
+            ..
+        })
     ));
     assert!(matches!(
         perturbed(&dvector![1.0, 2.0, 3.0], &identity),
-        Err(Error::WrongShape { expected_rows: 3, rows: 2, .. })
+        Err(Error::WrongShape {
+            expected_rows: 3,
+            rows: 2,
+            ..
+        })
     ));
     assert!(matches!(
         perturbed(&dvector![1.0, -2.0], &identity),
         Err(Error::NotAVibration { mode: 1, value }) if value == -2.0
     ));
-    match perturbed(&DVector::from_vec(vec![1.0, 2.0]), &dmatrix![0.0, 2.0; 2.0, 0.0]) {
+    match perturbed(
+        &DVector::from_vec(vec![1.0, 2.0]),
+        &dmatrix![0.0, 2.0; 2.0, 0.0],
+    ) {
         // 1.5 -+ sqrt(0.25 + 4): the lower root is negative.
         Err(Error::LostRoot { mode, value }) => {
             assert_eq!(mode, 0);

@@ -1,7 +1,9 @@
 //! Appendix C on a wing section with aileron in a flow: complex and unsymmetric, against the dense complex eigensolution.
 
 use crate::common::appendix_c::largest_root_error;
-use crate::common::complex_pencils::{Complexes, aeroelastic_section, amax, complex, roots_by_qz, through};
+use crate::common::complex_pencils::{
+    Complexes, aeroelastic_section, amax, complex, roots_by_qz, through,
+};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
 use corfem::method::appendix_c::general::complex_modes::{LeftRightModes, solve};
@@ -29,19 +31,38 @@ fn section(size: f64) -> Section {
     g_change[(2, 2)] += Complex::from(0.01 * size);
     let modes = solve(&real_stiffness, &g).expect("the section has three modes");
     let stiffness = complex(&real_stiffness);
-    let change = ModalChange::new(&stiffness, &modes, &stiffness_change, &g_change).expect("it fits");
+    let change =
+        ModalChange::new(&stiffness, &modes, &stiffness_change, &g_change).expect("it fits");
     let exact = roots_by_qz(&(&stiffness + &stiffness_change), &(&g + &g_change));
-    Section { stiffness, modes, stiffness_change, change, exact }
+    Section {
+        stiffness,
+        modes,
+        stiffness_change,
+        change,
+        exact,
+    }
 }
 
 /// The section's flow makes the roots complex and the left shapes other than the right ones.
 #[test]
 fn wing_section_is_complex_and_unsymmetric() {
-    let Section { stiffness: k, modes, change, .. } = section(0.2);
-    assert!(modes.roots.iter().all(|root| root.im < -1e-3), "{}", modes.roots);
+    let Section {
+        stiffness: k,
+        modes,
+        change,
+        ..
+    } = section(0.2);
+    assert!(
+        modes.roots.iter().all(|root| root.im < -1e-3),
+        "{}",
+        modes.roots
+    );
     assert!(amax(&(&modes.left - &modes.right)) > 0.05);
     assert!(amax(&(&change.alpha - change.alpha.transpose())) > 1e-3);
-    assert!(amax(&(through(&modes.left, &k, &modes.right) - complex(&DMatrix::identity(3, 3)))) < EIGEN_ROUND_OFF);
+    assert!(
+        amax(&(through(&modes.left, &k, &modes.right) - complex(&DMatrix::identity(3, 3))))
+            < EIGEN_ROUND_OFF
+    );
     for i in 0..3 {
         assert!((change.generalized_stiffness[i] - 1.0).norm() < EIGEN_ROUND_OFF);
     }
@@ -56,7 +77,12 @@ fn wing_section_in_a_faster_flow_has_the_roots_of_the_dense_eigensolution() {
     let original = error(&general::original(&change).unwrap().roots);
     let third = error(&general::recursive_1(&change, 3).unwrap().roots);
     let recursive_2 = error(&general::recursive_2(&change, 3).unwrap().roots);
-    let converged = error(&general::recursive_1_converged(&change, 1e-14, 100).unwrap().perturbed.roots);
+    let converged = error(
+        &general::recursive_1_converged(&change, 1e-14, 100)
+            .unwrap()
+            .perturbed
+            .roots,
+    );
     assert!(first > 1e-3, "{first:e}");
     assert!(original < first / 20.0, "{original:e} {first:e}");
     assert!(third < first / 100.0, "{third:e}");
@@ -77,7 +103,10 @@ fn orders_of_recursive_1_hold_for_complex_roots() {
             })
             .collect();
         let slope = log_log_slope(&points);
-        assert!(slope > order as f64 + 1.0 - ORDER_SLACK, "order {order}: {slope}");
+        assert!(
+            slope > order as f64 + 1.0 - ORDER_SLACK,
+            "order {order}: {slope}"
+        );
     }
 }
 
@@ -89,7 +118,10 @@ fn transposed_change_belongs_to_the_left_shapes() {
     assert_eq!(transposed.beta, change.beta.transpose());
     assert_eq!(transposed.alpha, change.alpha.transpose());
     assert_eq!(transposed.roots, change.roots);
-    assert_eq!(transposed.generalized_stiffness, change.generalized_stiffness);
+    assert_eq!(
+        transposed.generalized_stiffness,
+        change.generalized_stiffness
+    );
 }
 
 #[test]
@@ -100,18 +132,39 @@ fn changes_that_do_not_fit_their_modes_are_refused() {
     let none = DMatrix::zeros(3, 3);
     assert!(ModalChange::new(&k, &modes, &none, &none).is_ok());
     // The right shapes are not the left ones here.
-    let same = LeftRightModes { left: modes.right.clone(), ..modes.clone() };
+    let same = LeftRightModes {
+        left: modes.right.clone(),
+        ..modes.clone()
+    };
     let product = through(&modes.right, &k, &modes.right);
     let refused = ModalChange::new(&k, &same, &none, &none).err();
-    let Some(Error::NotOrthonormal { what, first: 1, second: 0, expected: 0.0, found }) = refused else {
+    let Some(Error::NotOrthonormal {
+        what,
+        first: 1,
+        second: 0,
+        expected: 0.0,
+        found,
+    }) = refused
+    else {
         panic!("{refused:?}")
     };
-    assert_eq!(what, "relative generalized stiffness of left and right modes");
-    assert!((found * (product[(0, 0)] * product[(1, 1)]).norm().sqrt() - product[(1, 0)].norm()).abs() < ROUND_OFF);
+    assert_eq!(
+        what,
+        "relative generalized stiffness of left and right modes"
+    );
+    assert!(
+        (found * (product[(0, 0)] * product[(1, 1)]).norm().sqrt() - product[(1, 0)].norm()).abs()
+            < ROUND_OFF
+    );
     for (what, stiffness, stiffness_change, g_change) in [
         ("stiffness", &DMatrix::zeros(2, 3), &none, &none),
         ("stiffness change", &k, &DMatrix::zeros(2, 3), &none),
-        ("change of mass and aerodynamic terms", &k, &none, &DMatrix::zeros(2, 3)),
+        (
+            "change of mass and aerodynamic terms",
+            &k,
+            &none,
+            &DMatrix::zeros(2, 3),
+        ),
     ] {
         assert!(matches!(
             ModalChange::new(stiffness, &modes, stiffness_change, g_change),
@@ -122,19 +175,38 @@ fn changes_that_do_not_fit_their_modes_are_refused() {
     not_a_number[(2, 1)] = Complex::new(f64::NAN, 0.0);
     assert!(matches!(
         ModalChange::new(&k, &modes, &none, &not_a_number),
-        Err(Error::NotFinite { what: "change of mass and aerodynamic terms", row: 2, column: 1, .. })
+        Err(Error::NotFinite {
+            what: "change of mass and aerodynamic terms",
+            row: 2,
+            column: 1,
+            ..
+        })
     ));
-    let fewer = LeftRightModes { left: modes.left.columns(0, 2).into_owned(), ..modes.clone() };
+    let fewer = LeftRightModes {
+        left: modes.left.columns(0, 2).into_owned(),
+        ..modes.clone()
+    };
     assert!(matches!(
         ModalChange::new(&k, &fewer, &none, &none),
-        Err(Error::WrongShape { what: "left shapes", expected_columns: 3, columns: 2, .. })
+        Err(Error::WrongShape {
+            what: "left shapes",
+            expected_columns: 3,
+            columns: 2,
+            ..
+        })
     ));
 }
 
 /// Two of three modes are enough to see a change through.
 #[test]
 fn fewer_modes_than_degrees_of_freedom_see_their_part_of_a_change() {
-    let Section { stiffness: k, modes, stiffness_change, change, .. } = section(0.3);
+    let Section {
+        stiffness: k,
+        modes,
+        stiffness_change,
+        change,
+        ..
+    } = section(0.3);
     let two = LeftRightModes {
         roots: modes.roots.rows(0, 2).into_owned(),
         right: modes.right.columns(0, 2).into_owned(),

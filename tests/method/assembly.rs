@@ -17,14 +17,30 @@ use proptest::prelude::*;
 
 /// Loads on `count` DOF, two sets of them.
 fn loads(count: usize) -> impl Strategy<Value = DMatrix<f64>> {
-    prop::collection::vec(-1.0..1.0_f64, 2 * count).prop_map(move |entries| DMatrix::from_vec(count, 2, entries))
+    prop::collection::vec(-1.0..1.0_f64, 2 * count)
+        .prop_map(move |entries| DMatrix::from_vec(count, 2, entries))
 }
 
 /// One element of each kind on a unit square, any of the twelve DOF constrained.
 fn square(constrained: &[bool]) -> Structure {
-    let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1]];
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.2],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.1],
+    ];
     let grids = (0..4)
-        .map(|k| grid(k + 1, positions[k], [constrained[3 * k], constrained[3 * k + 1], constrained[3 * k + 2]]))
+        .map(|k| {
+            grid(
+                k + 1,
+                positions[k],
+                [
+                    constrained[3 * k],
+                    constrained[3 * k + 1],
+                    constrained[3 * k + 2],
+                ],
+            )
+        })
         .collect();
     let panel = |label, kind, grids: [usize; 4]| Element {
         label,
@@ -150,41 +166,93 @@ fn wrong_sizes_and_loads_are_refused_by_name() {
         );
     }
     let nothing = FactorizedStiffness::new(&matrices, &[1.0, 2.0, 3.0], &[]);
-    assert!(matches!(nothing, Err(Error::Empty { what: "free degrees of freedom" })), "{nothing:?}");
+    assert!(
+        matches!(
+            nothing,
+            Err(Error::Empty {
+                what: "free degrees of freedom"
+            })
+        ),
+        "{nothing:?}"
+    );
     let factor = factorized(&structure).unwrap();
     let refused = factor.solve(&DMatrix::zeros(4, 2)).unwrap_err();
     assert!(
         matches!(
             refused,
-            Error::WrongShape { what: "loads", expected_rows: 3, expected_columns: 2, rows: 4, columns: 2 }
+            Error::WrongShape {
+                what: "loads",
+                expected_rows: 3,
+                expected_columns: 2,
+                rows: 4,
+                columns: 2
+            }
         ),
         "{refused:?}"
     );
-    let refused = factor.solve(&DMatrix::from_column_slice(3, 1, &[0.0, f64::NAN, 0.0])).unwrap_err();
-    assert!(matches!(refused, Error::NotFinite { what: "loads", row: 1, column: 0, .. }), "{refused:?}");
-    assert_eq!(factor.solve(&DMatrix::zeros(3, 2)).unwrap(), DMatrix::zeros(3, 2));
+    let refused = factor
+        .solve(&DMatrix::from_column_slice(3, 1, &[0.0, f64::NAN, 0.0]))
+        .unwrap_err();
+    assert!(
+        matches!(
+            refused,
+            Error::NotFinite {
+                what: "loads",
+                row: 1,
+                column: 0,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
+    assert_eq!(
+        factor.solve(&DMatrix::zeros(3, 2)).unwrap(),
+        DMatrix::zeros(3, 2)
+    );
 }
 
 #[test]
 fn bad_geometry_is_refused_by_its_element() {
     let with = |kind: ElementKind, positions: &[[f64; 3]]| {
-        let grids = positions.iter().zip(1..).map(|(&position, label)| grid(label, position, [false; 3]));
-        let element =
-            Element { label: 8, kind, grids: (1..=positions.len()).collect(), size: 1.0, material: unit_material() };
+        let grids = positions
+            .iter()
+            .zip(1..)
+            .map(|(&position, label)| grid(label, position, [false; 3]));
+        let element = Element {
+            label: 8,
+            kind,
+            grids: (1..=positions.len()).collect(),
+            size: 1.0,
+            material: unit_material(),
+        };
         match element_matrices(&Structure::new(grids.collect(), vec![element]).unwrap()) {
             Err(Error::InElement { element: 8, source }) => *source,
             other => panic!("expected an error in element 8, found {other:?}"),
         }
     };
-    let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let [a, b, c, d] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
     let inside = [0.25, 0.5, 0.0];
-    assert!(matches!(with(ElementKind::Rod, &[c, c]), Error::ZeroLength(0.0)));
+    assert!(matches!(
+        with(ElementKind::Rod, &[c, c]),
+        Error::ZeroLength(0.0)
+    ));
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
         assert!(matches!(with(kind, &[a, b, b, a]), Error::ZeroArea(0.0)));
-        assert!(matches!(with(kind, &[d, a, inside, c]), Error::NotConvex(3)));
+        assert!(matches!(
+            with(kind, &[d, a, inside, c]),
+            Error::NotConvex(3)
+        ));
         // Corners that do not run round the perimeter.
         let higher = [0.0, 2.0, 0.0];
-        assert!(matches!(with(kind, &[a, c, b, higher]), Error::NotConvex(2)));
+        assert!(matches!(
+            with(kind, &[a, c, b, higher]),
+            Error::NotConvex(2)
+        ));
     }
     let refused = element_matrices(&{
         let grids = vec![grid(1, a, [true; 3]), grid(2, a, [false; 3])];

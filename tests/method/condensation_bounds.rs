@@ -20,12 +20,17 @@ struct Framework {
 
 impl Framework {
     fn stiffness(&self, factors: &[f64]) -> DMatrix<f64> {
-        self.elements.iter().zip(factors).map(|(element, factor)| *factor * element).sum()
+        self.elements
+            .iter()
+            .zip(factors)
+            .map(|(element, factor)| *factor * element)
+            .sum()
     }
 
     fn condensed(&self, factors: &[f64]) -> Condensed {
         let (elements, free) = as_element(&self.stiffness(factors));
-        let factorized = FactorizedStiffness::new(&elements, &[1.0], &free).expect("nothing is free");
+        let factorized =
+            FactorizedStiffness::new(&elements, &[1.0], &free).expect("nothing is free");
         condense(&factorized, &self.load_distribution).expect("independent dynamic DOF")
     }
 
@@ -35,16 +40,26 @@ impl Framework {
         let b = first.transformation.transpose();
         let above = &b * self.stiffness(&self.factors) * &first.transformation;
         let flexibilities = self.flexibilities();
-        let flexibility: DMatrix<f64> = flexibilities.iter().zip(&self.factors).map(|(f, factor)| f / *factor).sum();
+        let flexibility: DMatrix<f64> = flexibilities
+            .iter()
+            .zip(&self.factors)
+            .map(|(f, factor)| f / *factor)
+            .sum();
         let below = flexibility.try_inverse().expect("regular");
         [above, below, self.condensed(&self.factors).stiffness]
     }
 
     /// Flexibility of every element under its own internal loads due to unit dynamic ones, by virtual work.
     fn flexibilities(&self) -> Vec<DMatrix<f64>> {
-        let inverse = self.stiffness(&vec![1.0; self.factors.len()]).try_inverse().expect("regular");
+        let inverse = self
+            .stiffness(&vec![1.0; self.factors.len()])
+            .try_inverse()
+            .expect("regular");
         let deflections = inverse * &self.load_distribution;
-        self.elements.iter().map(|element| deflections.tr_mul(&(element * &deflections))).collect()
+        self.elements
+            .iter()
+            .map(|element| deflections.tr_mul(&(element * &deflections)))
+            .collect()
     }
 }
 
@@ -53,16 +68,28 @@ fn framework(most_more: usize) -> impl Strategy<Value = Framework> {
     (2..=6_usize, 0..=most_more).prop_flat_map(|(dof, more)| {
         let count = dof + more;
         let numbers = |low: f64, high: f64, count: usize| prop::collection::vec(low..high, count);
-        (numbers(-1.0, 1.0, dof * count), numbers(0.5, 2.0, count), numbers(0.3, 3.0, count), orthogonal(dof), 1..=dof)
+        (
+            numbers(-1.0, 1.0, dof * count),
+            numbers(0.5, 2.0, count),
+            numbers(0.3, 3.0, count),
+            orthogonal(dof),
+            1..=dof,
+        )
             .prop_map(move |(entries, stiffness, factors, columns, dynamic)| {
                 let element = |e: usize| {
                     // Unit vectors on the diagonal keep the first elements independent.
-                    let vector = |i: usize, _| 0.3 * entries[e * dof + i] + f64::from(u8::from(i == e % dof));
+                    let vector = |i: usize, _| {
+                        0.3 * entries[e * dof + i] + f64::from(u8::from(i == e % dof))
+                    };
                     let a = DVector::from_fn(dof, vector);
                     stiffness[e] * &a * a.transpose()
                 };
                 let load_distribution = columns.columns(0, dynamic).into_owned();
-                Framework { elements: (0..count).map(element).collect(), load_distribution, factors }
+                Framework {
+                    elements: (0..count).map(element).collect(),
+                    load_distribution,
+                    factors,
+                }
             })
     })
 }

@@ -45,7 +45,10 @@ pub fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
     let scale = expected.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     for (found, expected) in found.iter().zip(expected) {
         let error = (found - expected).abs();
-        assert!(error <= tolerance * scale, "{found:e} {expected:e} of {scale:e}");
+        assert!(
+            error <= tolerance * scale,
+            "{found:e} {expected:e} of {scale:e}"
+        );
     }
 }
 
@@ -164,7 +167,10 @@ fn derivatives_of_the_box_are_central_differences() {
                 (ahead - behind) / (2.0 * h)
             })
             .collect();
-        let slopes: Vec<f64> = found.iter().map(|change| change / DERIVATIVE_STEP).collect();
+        let slopes: Vec<f64> = found
+            .iter()
+            .map(|change| change / DERIVATIVE_STEP)
+            .collect();
         assert_near(&slopes, &central, CENTRAL_DIFFERENCE);
     }
 }
@@ -184,7 +190,10 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     }
     let at_start = gradient(&moved, &ModalState::start(&moved)).unwrap();
     for (a, b) in gradient(&problem, &state).unwrap().iter().zip(at_start) {
-        assert!((a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP, "{a:e} {b:e}");
+        assert!(
+            (a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP,
+            "{a:e} {b:e}"
+        );
     }
 }
 
@@ -194,7 +203,11 @@ fn close_modes_are_held_to_their_own_shapes() {
     let changes = |apart: f64, coupling: f64| {
         let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
         let shares = vec![Share::Stiffness(dmatrix![30.0, coupling; coupling, 50.0])];
-        let model = DynamicModel { shares, mass: DMatrix::identity(2, 2), stiffness };
+        let model = DynamicModel {
+            shares,
+            mass: DMatrix::identity(2, 2),
+            stiffness,
+        };
         let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
         let problem = model.analyze(&test, None).unwrap();
         by_definition(&problem, &ModalState::start(&problem)).unwrap()

@@ -11,14 +11,32 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
 /// Every way to number four corners round the perimeter.
-const ROUND_THE_PERIMETER: [[usize; 4]; 8] =
-    [[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2], [3, 2, 1, 0], [2, 1, 0, 3], [1, 0, 3, 2], [0, 3, 2, 1]];
+const ROUND_THE_PERIMETER: [[usize; 4]; 8] = [
+    [0, 1, 2, 3],
+    [1, 2, 3, 0],
+    [2, 3, 0, 1],
+    [3, 0, 1, 2],
+    [3, 2, 1, 0],
+    [2, 1, 0, 3],
+    [1, 0, 3, 2],
+    [0, 3, 2, 1],
+];
 /// Every way to number three corners.
-const ROUND_THE_TRIANGLE: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0], [1, 0, 2], [0, 2, 1]];
+const ROUND_THE_TRIANGLE: [[usize; 3]; 6] = [
+    [0, 1, 2],
+    [1, 2, 0],
+    [2, 0, 1],
+    [2, 1, 0],
+    [1, 0, 2],
+    [0, 2, 1],
+];
 
 /// The same matrix with the corners' DOF in another order.
 fn permuted(stiffness: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
-    let dof: Vec<usize> = order.iter().flat_map(|&corner| 3 * corner..3 * corner + 3).collect();
+    let dof: Vec<usize> = order
+        .iter()
+        .flat_map(|&corner| 3 * corner..3 * corner + 3)
+        .collect();
     stiffness.select_rows(&dof).select_columns(&dof)
 }
 
@@ -108,7 +126,11 @@ proptest! {
 
 #[test]
 fn the_wrong_number_of_corners_is_refused() {
-    for kind in [ElementKind::Rod, ElementKind::ShearPanel, ElementKind::Membrane] {
+    for kind in [
+        ElementKind::Rod,
+        ElementKind::ShearPanel,
+        ElementKind::Membrane,
+    ] {
         for count in (0..6).filter(|&count| count != kind.corner_count()) {
             let refused = unit_stiffness(kind, &vec![Vector3::zeros(); count], &steel());
             assert!(
@@ -132,5 +154,8 @@ fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
         );
     }
     assert!(along(3e-12).is_ok());
-    assert!(matches!(rod([Vector3::zeros(); 2], 1e7), Err(Error::ZeroLength(0.0))));
+    assert!(matches!(
+        rod([Vector3::zeros(); 2], 1e7),
+        Err(Error::ZeroLength(0.0))
+    ));
 }

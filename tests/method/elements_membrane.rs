@@ -18,7 +18,12 @@ fn gradient() -> impl Strategy<Value = Matrix3<f64>> {
 /// The motion u = H x of the corners.
 fn linear_motion(corners: &[Vector3<f64>], gradient: &Matrix3<f64>) -> DVector<f64> {
     let from = corners[0];
-    DVector::from_iterator(3 * corners.len(), corners.iter().flat_map(|corner| (gradient * (corner - from)).data.0[0]))
+    DVector::from_iterator(
+        3 * corners.len(),
+        corners
+            .iter()
+            .flat_map(|corner| (gradient * (corner - from)).data.0[0]),
+    )
 }
 
 fn energy(stiffness: &DMatrix<f64>, motion: &DVector<f64>) -> f64 {
@@ -31,11 +36,15 @@ fn energy_density(plane: [Vector3<f64>; 3], gradient: &Matrix3<f64>, material: &
     let along = (plane[1] - plane[0]).normalize();
     let normal = along.cross(&(plane[2] - plane[0])).normalize();
     let across = normal.cross(&along);
-    let strain = |u: &Vector3<f64>, v: &Vector3<f64>| 0.5 * (u.dot(&(gradient * v)) + v.dot(&(gradient * u)));
+    let strain = |u: &Vector3<f64>, v: &Vector3<f64>| {
+        0.5 * (u.dot(&(gradient * v)) + v.dot(&(gradient * u)))
+    };
     let trace = strain(&along, &along) + strain(&across, &across);
-    let determinant = strain(&along, &along) * strain(&across, &across) - strain(&along, &across).powi(2);
+    let determinant =
+        strain(&along, &along) * strain(&across, &across) - strain(&along, &across).powi(2);
     let nu = material.poissons_ratio;
-    material.youngs_modulus / (2.0 * (1.0 - nu * nu)) * (trace * trace - 2.0 * (1.0 - nu) * determinant)
+    material.youngs_modulus / (2.0 * (1.0 - nu * nu))
+        * (trace * trace - 2.0 * (1.0 - nu) * determinant)
 }
 
 fn triangle_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
@@ -96,7 +105,12 @@ proptest! {
 /// Right triangle with unit legs along x and y; the constant strains are differences of corner motions.
 #[test]
 fn a_right_triangles_stiffness_is_the_hand_result() {
-    let material = Material { youngs_modulus: 1.0, poissons_ratio: 0.25, shear_modulus: 0.4, density: 0.0 };
+    let material = Material {
+        youngs_modulus: 1.0,
+        poissons_ratio: 0.25,
+        shear_modulus: 0.4,
+        density: 0.0,
+    };
     let found = triangle([Vector3::zeros(), Vector3::x(), Vector3::y()], &material).unwrap();
     let strain = DMatrix::from_row_slice(
         3,
@@ -108,8 +122,21 @@ fn a_right_triangles_stiffness_is_the_hand_result() {
         ],
     );
     // E/(1 − ν²) = 16/15, ν times it 4/15, and G as given.
-    let elasticity =
-        DMatrix::from_row_slice(3, 3, &[16.0 / 15.0, 4.0 / 15.0, 0.0, 4.0 / 15.0, 16.0 / 15.0, 0.0, 0.0, 0.0, 0.4]);
+    let elasticity = DMatrix::from_row_slice(
+        3,
+        3,
+        &[
+            16.0 / 15.0,
+            4.0 / 15.0,
+            0.0,
+            4.0 / 15.0,
+            16.0 / 15.0,
+            0.0,
+            0.0,
+            0.0,
+            0.4,
+        ],
+    );
     let by_hand = 0.5 * strain.transpose() * elasticity * strain;
     assert!(relative_distance(&found, &by_hand) <= ROUND_OFF);
 }
@@ -130,7 +157,11 @@ fn a_rods_stiffness_is_the_hand_result() {
 #[test]
 fn stiffness_of_a_triangle_does_not_depend_on_its_size() {
     let material = Material::isotropic(1e7, 0.3).unwrap();
-    let corners = [Vector3::new(0.0, 0.0, 0.0), Vector3::new(4.0, 1.0, 0.0), Vector3::new(1.0, 3.0, 2.0)];
+    let corners = [
+        Vector3::new(0.0, 0.0, 0.0),
+        Vector3::new(4.0, 1.0, 0.0),
+        Vector3::new(1.0, 3.0, 2.0),
+    ];
     let stiffness = triangle(corners, &material).unwrap();
     for scale in [1e-6, 1e6] {
         let scaled = triangle(corners.map(|corner| scale * corner), &material).unwrap();

@@ -11,7 +11,10 @@ use crate::common::tolerances::NASTRAN_SINGLE_PRECISION;
 fn every_stored_element_is_one_of_a_known_kind() {
     let elements = elements();
     for (kind, count) in [("rod", 5), ("shear", 19), ("membrane", 16), ("triangle", 5)] {
-        let found = elements.iter().filter(|element| element.kind == kind).count();
+        let found = elements
+            .iter()
+            .filter(|element| element.kind == kind)
+            .count();
         assert_eq!(found, count, "{kind}");
     }
 }
@@ -28,11 +31,20 @@ fn elements_equal_nastran95() {
 #[test]
 fn only_the_slender_taper_needs_a_bar_of_its_own() {
     let elements = elements();
-    let own: Vec<_> = elements.iter().filter(|element| element.tolerance.is_some()).collect();
+    let own: Vec<_> = elements
+        .iter()
+        .filter(|element| element.tolerance.is_some())
+        .collect();
     assert_eq!(own.len(), 1);
-    assert_eq!((own[0].name.as_str(), own[0].tolerance), ("shear_slender_taper_from_1", Some(1e-6)));
+    assert_eq!(
+        (own[0].name.as_str(), own[0].tolerance),
+        ("shear_slender_taper_from_1", Some(1e-6))
+    );
     let distance = relative_distance(&own[0].computed(), &own[0].stored());
-    assert!(distance > NASTRAN_SINGLE_PRECISION, "an exception without need: {distance:e}");
+    assert!(
+        distance > NASTRAN_SINGLE_PRECISION,
+        "an exception without need: {distance:e}"
+    );
 }
 
 /// A snapped panel has the true panel's pattern of forces and another energy: one factor on the whole matrix, that of
@@ -45,12 +57,24 @@ fn a_snapped_panel_differs_by_the_factor_of_its_closed_form_alone() {
     for (element, published) in snapped.iter().zip(["1.001", "0.982"]) {
         let (ours, theirs) = (element.computed(), element.stored());
         let distance = relative_distance(&ours, &theirs);
-        assert!(distance > 1e3 * NASTRAN_SINGLE_PRECISION, "{}: does not differ: {distance:e}", element.name);
+        assert!(
+            distance > 1e3 * NASTRAN_SINGLE_PRECISION,
+            "{}: does not differ: {distance:e}",
+            element.name
+        );
         let factor = ours.dot(&theirs) / ours.norm_squared();
         assert_eq!(format!("{factor:.3}"), published, "{}", element.name);
         let rest = relative_distance(&(factor * &ours), &theirs);
-        assert!(rest <= NASTRAN_SINGLE_PRECISION, "{}: {rest:e}", element.name);
+        assert!(
+            rest <= NASTRAN_SINGLE_PRECISION,
+            "{}: {rest:e}",
+            element.name
+        );
         let explained = snap_factor(&element.corners(), &element.material());
-        assert!((explained / factor - 1.0).abs() <= NASTRAN_SINGLE_PRECISION, "{}: {explained} {factor}", element.name);
+        assert!(
+            (explained / factor - 1.0).abs() <= NASTRAN_SINGLE_PRECISION,
+            "{}: {explained} {factor}",
+            element.name
+        );
     }
 }

@@ -3,14 +3,16 @@
 use crate::common::log_log_slope;
 use crate::common::matrices::relative_distance;
 use crate::common::panels::{
-    distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid, warped_panel,
+    distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid,
+    warped_panel,
 };
 use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
 use approx::assert_relative_eq;
 use corfem::closed_forms::analytical::{
-    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
+    sides_14_23_parallel_energy,
 };
 use corfem::method::elements::panel::{MeanPlane, mean_plane};
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, shear_panel};
@@ -21,7 +23,11 @@ use proptest::prelude::*;
 type Corners = [Vector3<f64>; 4];
 
 /// How far a closed form lies from the quadrature, relative.
-fn discrepancy(closed_form: fn(&MeanPlane, &Material) -> f64, corners: &Corners, material: &Material) -> f64 {
+fn discrepancy(
+    closed_form: fn(&MeanPlane, &Material) -> f64,
+    corners: &Corners,
+    material: &Material,
+) -> f64 {
     let plane = mean_plane(corners).unwrap();
     (closed_form(&plane, material) / energy_coefficient(&plane, material) - 1.0).abs()
 }
@@ -119,7 +125,8 @@ proptest! {
 #[test]
 fn a_rectangles_stiffness_is_the_hand_result() {
     let (length, width) = (4.0, 3.0);
-    let corners = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 1.0));
+    let corners = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)]
+        .map(|(x, y)| Vector3::new(x, y, 1.0));
     let material = aluminum();
     // A flow of one along each side, half of it to each of the side's corners.
     let (fx, fy) = (length / 2.0, width / 2.0);
@@ -142,25 +149,43 @@ fn a_rectangles_stiffness_is_the_hand_result() {
 fn sides_become_parallel_without_a_jump() {
     let material = aluminum();
     let energy = |tilt: f64| {
-        let corners = [(0.0, 0.0), (6.0, 0.0), (5.0, 4.0 - tilt), (0.5, 4.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
+        let corners = [(0.0, 0.0), (6.0, 0.0), (5.0, 4.0 - tilt), (0.5, 4.0)]
+            .map(|(x, y)| Vector3::new(x, y, 0.0));
         energy_coefficient(&mean_plane(&corners).unwrap(), &material)
     };
     let parallel = energy(0.0);
-    let points: Vec<(f64, f64)> =
-        [1e-2, 1e-3, 1e-4, 1e-5, 1e-6].map(|tilt| (tilt, (energy(tilt) / parallel - 1.0).abs())).to_vec();
+    let points: Vec<(f64, f64)> = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6]
+        .map(|tilt| (tilt, (energy(tilt) / parallel - 1.0).abs()))
+        .to_vec();
     let slope = log_log_slope(&points);
-    assert!((slope - 1.0).abs() < crate::common::tolerances::SLOPE, "slope {slope}");
+    assert!(
+        (slope - 1.0).abs() < crate::common::tolerances::SLOPE,
+        "slope {slope}"
+    );
     assert!((energy(1e-12) / parallel - 1.0).abs() < ELEMENT_ROUND_OFF);
 }
 
 /// NASTRAN uses the closed form for parallel sides also where they are parallel only nearly, so each of its terms counts.
 #[test]
 fn parallelogram_formula_has_a_term_for_every_side() {
-    let corners = [Vector2::new(0.0, 0.0), Vector2::new(10.0, 0.0), Vector2::new(11.0, 5.0), Vector2::new(2.0, 4.0)];
-    let plane =
-        MeanPlane { area: 41.0, corners, diagonals: [Vector3::new(11.0, 5.0, 0.0), Vector3::new(-8.0, 4.0, 0.0)] };
+    let corners = [
+        Vector2::new(0.0, 0.0),
+        Vector2::new(10.0, 0.0),
+        Vector2::new(11.0, 5.0),
+        Vector2::new(2.0, 4.0),
+    ];
+    let plane = MeanPlane {
+        area: 41.0,
+        corners,
+        diagonals: [Vector3::new(11.0, 5.0, 0.0), Vector3::new(-8.0, 4.0, 0.0)],
+    };
     let material = aluminum();
     let d = -0.5 * (2.0 / 4.0 + (11.0 - 10.0) / 5.0 + (5.0 - 4.0) / (11.0 - 2.0));
-    let expected = 41.0 / (2.0 * material.shear_modulus) * (1.0 + 2.0 * d * d / (1.0 + material.poissons_ratio));
-    assert_relative_eq!(parallelogram_energy(&plane, &material), expected, max_relative = ROUND_OFF);
+    let expected = 41.0 / (2.0 * material.shear_modulus)
+        * (1.0 + 2.0 * d * d / (1.0 + material.poissons_ratio));
+    assert_relative_eq!(
+        parallelogram_energy(&plane, &material),
+        expected,
+        max_relative = ROUND_OFF
+    );
 }

@@ -5,7 +5,9 @@
 use crate::common::appendix_c::three_mass_chain;
 use crate::common::boxes::first_problem;
 use crate::common::structures::as_element;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SRSS, ROUND_OFF, WRONG_FORM};
+use crate::common::tolerances::{
+    EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SRSS, ROUND_OFF, WRONG_FORM,
+};
 use approx::assert_relative_eq;
 use corfem::cases::Case;
 use corfem::cases::published::PublishedTable;
@@ -21,7 +23,11 @@ use std::f64::consts::PI;
 
 fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Condensed {
     let (elements, free) = as_element(stiffness);
-    condense(&FactorizedStiffness::new(&elements, &[1.0], &free).expect("held"), t).expect("independent")
+    condense(
+        &FactorizedStiffness::new(&elements, &[1.0], &free).expect("held"),
+        t,
+    )
+    .expect("independent")
 }
 
 #[test]
@@ -30,7 +36,11 @@ fn root_is_the_reciprocal_of_the_squared_circular_frequency() {
     let problem = first_problem(1);
     let lambda = problem.exact.modes.omega_squared.map(f64::recip);
     for (root, frequency) in lambda.iter().zip(problem.exact.modes.frequencies_hz()) {
-        assert_relative_eq!(root.powf(-0.5) / (2.0 * PI), frequency, max_relative = EIGEN_ROUND_OFF);
+        assert_relative_eq!(
+            root.powf(-0.5) / (2.0 * PI),
+            frequency,
+            max_relative = EIGEN_ROUND_OFF
+        );
         let as_printed = (2.0 * PI * frequency).powi(2);
         assert!((as_printed.powf(-0.5) / (2.0 * PI) / frequency - 1.0).abs() > 0.9);
     }
@@ -67,19 +77,35 @@ fn print_of_a_7_and_a_8_has_a_transpose_too_many() {
 fn roots_of_b_7_are_squared_circular_frequencies() {
     // (B.7): q = ω² λ⁻¹ D⁻¹ m₁ q, D the diagonal of m₁. With λ_i = ω_Gi² the new modes satisfy it; with the λ = 1/ω² of
     // (10) and (C.1) they do not, and not even one mode alone would, whose frequency nothing changes.
-    let raw = ModeSet { omega_squared: dvector![100.0, 400.0], shapes: dmatrix![2.0, 0.3; 0.0, 1.0] };
+    let raw = ModeSet {
+        omega_squared: dvector![100.0, 400.0],
+        shapes: dmatrix![2.0, 0.3; 0.0, 1.0],
+    };
     let mass = DMatrix::from_diagonal(&dvector![1.0, 3.0]);
-    let modes = orthogonalize(&raw, &mass).expect("independent shapes").modes;
+    let modes = orthogonalize(&raw, &mass)
+        .expect("independent shapes")
+        .modes;
     let m = generalized_mass(&raw.shapes, &mass).unwrap();
-    let q = raw.shapes.clone().try_inverse().expect("independent shapes") * &modes.shapes;
+    let q = raw
+        .shapes
+        .clone()
+        .try_inverse()
+        .expect("independent shapes")
+        * &modes.shapes;
     let right_side = |lambda: &DVector<f64>| {
         let inverse = lambda.component_mul(&m.diagonal()).map(f64::recip);
         DMatrix::from_diagonal(&inverse) * &m * &q * DMatrix::from_diagonal(&modes.omega_squared)
     };
     assert!((right_side(&raw.omega_squared) - &q).amax() < MATRIX_ROUND_OFF);
     assert!((right_side(&raw.omega_squared.map(f64::recip)) - &q).amax() > WRONG_FORM);
-    let alone = ModeSet { omega_squared: dvector![100.0], shapes: dmatrix![2.0; 0.0] };
-    let omega_squared = orthogonalize(&alone, &mass).expect("one shape").modes.omega_squared[0];
+    let alone = ModeSet {
+        omega_squared: dvector![100.0],
+        shapes: dmatrix![2.0; 0.0],
+    };
+    let omega_squared = orthogonalize(&alone, &mass)
+        .expect("one shape")
+        .modes
+        .omega_squared[0];
     assert_relative_eq!(omega_squared, 100.0, max_relative = ROUND_OFF);
 }
 
@@ -91,13 +117,21 @@ fn frequency_error_is_relative() {
     for mode in 1..=9 {
         let row = mode.to_string();
         let percent = table.required(&row, "initial_percent").expect("printed");
-        let difference =
-            table.required(&row, "initial_hz").expect("printed") - table.required(&row, "gvt_hz").expect("printed");
+        let difference = table.required(&row, "initial_hz").expect("printed")
+            - table.required(&row, "gvt_hz").expect("printed");
         relative += (percent / 100.0_f64).powi(2);
         absolute += difference * difference;
     }
-    assert!((relative.sqrt() - 0.3828).abs() < PRINTED_SRSS, "{}", relative.sqrt());
-    assert!((97.0..98.0).contains(&absolute.sqrt()), "{}", absolute.sqrt());
+    assert!(
+        (relative.sqrt() - 0.3828).abs() < PRINTED_SRSS,
+        "{}",
+        relative.sqrt()
+    );
+    assert!(
+        (97.0..98.0).contains(&absolute.sqrt()),
+        "{}",
+        absolute.sqrt()
+    );
 }
 
 #[test]
@@ -107,7 +141,8 @@ fn printed_step_is_the_change_of_the_factor_not_the_factor() {
     let problem = first_problem(2);
     let state = ModalState::start(&problem);
     let errors = by_definition(&problem, &state).expect("separate modes");
-    let stiffness = stiffness_changes(&problem, &[1.0; 15], &[1.0; 15], &errors, StepRule::Own).unwrap();
+    let stiffness =
+        stiffness_changes(&problem, &[1.0; 15], &[1.0; 15], &errors, StepRule::Own).unwrap();
     let error_sum = state.errors.sum();
     let factors = unlimited_factors(&errors, &stiffness, error_sum, 0.8);
     let e_s_after = |factors: Vec<f64>| {

@@ -7,7 +7,8 @@ use crate::common::appendix_c::exact;
 use crate::common::boxes::first_problem;
 use crate::common::complex_pencils::{Complexes, aeroelastic_section, amax, complex, through};
 use crate::common::tolerances::{
-    COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, SECOND_ORDER_ROOT, SHAPE_ROUND_OFF, WRONG_FORM,
+    COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, SECOND_ORDER_ROOT, SHAPE_ROUND_OFF,
+    WRONG_FORM,
 };
 use approx::assert_relative_eq;
 use corfem::cases::Case;
@@ -35,7 +36,12 @@ impl Changed {
         }
         let k = problem.exact.modes.omega_squared.clone();
         let Perturbed { roots, shapes } = exact(&k, &beta).expect("solved");
-        Self { k, beta, gamma: roots, p: shapes }
+        Self {
+            k,
+            beta,
+            gamma: roots,
+            p: shapes,
+        }
     }
 
     /// Largest relative error of roots whose change a formula gives.
@@ -57,12 +63,17 @@ impl Changed {
     /// Largest error of the shapes that a formula gives for mode i's component in mode j.
     fn shape_error(&self, shape: impl Fn(usize, usize) -> f64) -> f64 {
         let error = |i: usize, j: usize| (shape(i, j) - self.p[(i, j)]).abs();
-        (0..MODES).flat_map(|j| without(&[j]).map(move |i| error(i, j)).collect::<Vec<_>>()).fold(0.0, f64::max)
+        (0..MODES)
+            .flat_map(|j| without(&[j]).map(move |i| error(i, j)).collect::<Vec<_>>())
+            .fold(0.0, f64::max)
     }
 
     /// The numerator of (8), without its sign.
     fn numerator(&self, i: usize, j: usize) -> f64 {
-        self.beta[(i, j)] + without(&[i, j]).map(|s| self.beta[(i, s)] * self.p[(s, j)]).sum::<f64>()
+        self.beta[(i, j)]
+            + without(&[i, j])
+                .map(|s| self.beta[(i, s)] * self.p[(s, j)])
+                .sum::<f64>()
     }
 
     /// The denominator of (8) with the root of a mode.
@@ -83,7 +94,11 @@ fn root_recursion_needs_the_shapes_transposed() {
     let sum = |p: &DMatrix<f64>, i: usize| without(&[i]).map(|j| c.beta[(i, j)] * p[(j, i)]).sum();
     let error = |p: &DMatrix<f64>| c.root_error(|i| c.implicit_root(i, c.gamma[i], sum(p, i)));
     assert!(error(&c.p) < EIGEN_ROUND_OFF, "{:e}", error(&c.p));
-    assert!(error(&c.p.transpose()) > WRONG_FORM, "{:e}", error(&c.p.transpose()));
+    assert!(
+        error(&c.p.transpose()) > WRONG_FORM,
+        "{:e}",
+        error(&c.p.transpose())
+    );
 }
 
 #[test]
@@ -93,7 +108,10 @@ fn root_recursion_carries_the_changed_root_not_the_old_one() {
     let sum = |i: usize| without(&[i]).map(|j| c.beta[(i, j)] * c.p[(j, i)]).sum();
     let changed = c.root_error(|i| c.implicit_root(i, c.gamma[i], sum(i)));
     let old = c.root_error(|i| c.implicit_root(i, 1.0 / c.k[i], sum(i)));
-    assert!(changed < EIGEN_ROUND_OFF && old > WRONG_FORM, "{changed:e} {old:e}");
+    assert!(
+        changed < EIGEN_ROUND_OFF && old > WRONG_FORM,
+        "{changed:e} {old:e}"
+    );
 }
 
 #[test]
@@ -104,7 +122,10 @@ fn shape_recursion_divides_by_the_denominator_with_a_minus_sign() {
     let unsigned = c.shape_error(|i, j| c.numerator(i, j) / c.denominator(i, j));
     let inverted = c.shape_error(|i, j| -c.numerator(i, j) * c.denominator(i, j));
     assert!(right < SHAPE_ROUND_OFF, "{right:e}");
-    assert!(unsigned > WRONG_FORM && inverted > WRONG_FORM, "{unsigned:e} {inverted:e}");
+    assert!(
+        unsigned > WRONG_FORM && inverted > WRONG_FORM,
+        "{unsigned:e} {inverted:e}"
+    );
 }
 
 #[test]
@@ -113,7 +134,10 @@ fn shape_recursion_has_the_root_of_the_mode_not_of_the_row() {
     let c = Changed::new();
     let of_the_mode = c.shape_error(|i, j| -c.numerator(i, j) / c.denominator(i, j));
     let of_the_row = c.shape_error(|i, j| -c.numerator(i, j) / c.denominator(i, i));
-    assert!(of_the_mode < SHAPE_ROUND_OFF && of_the_row > WRONG_FORM, "{of_the_mode:e} {of_the_row:e}");
+    assert!(
+        of_the_mode < SHAPE_ROUND_OFF && of_the_row > WRONG_FORM,
+        "{of_the_mode:e} {of_the_row:e}"
+    );
 }
 
 #[test]
@@ -125,7 +149,10 @@ fn shape_recursion_sums_over_the_components_of_its_own_mode() {
     let row = |i: usize, j: usize| without(&[i, j]).map(|s| c.beta[(i, s)] * c.p[(i, s)]).sum();
     let right = c.shape_error(|i, j| shape(i, j, column(i, j)));
     let scanned = c.shape_error(|i, j| shape(i, j, row(i, j)));
-    assert!(right < SHAPE_ROUND_OFF && scanned > WRONG_FORM, "{right:e} {scanned:e}");
+    assert!(
+        right < SHAPE_ROUND_OFF && scanned > WRONG_FORM,
+        "{right:e} {scanned:e}"
+    );
 }
 
 #[test]
@@ -134,7 +161,11 @@ fn shape_recursion_leaves_row_and_mode_out_of_its_sum() {
     // the denominator's β_ii does.
     let c = Changed::new();
     for left_out in [|i: usize, _| vec![i], |_, j: usize| vec![j], |_, _| vec![]] {
-        let sum = |i: usize, j: usize| without(&left_out(i, j)).map(|s| c.beta[(i, s)] * c.p[(s, j)]).sum::<f64>();
+        let sum = |i: usize, j: usize| {
+            without(&left_out(i, j))
+                .map(|s| c.beta[(i, s)] * c.p[(s, j)])
+                .sum::<f64>()
+        };
         let error = c.shape_error(|i, j| -(c.beta[(i, j)] + sum(i, j)) / c.denominator(i, j));
         assert!(error > WRONG_FORM, "{error:e}");
     }
@@ -144,10 +175,17 @@ fn shape_recursion_leaves_row_and_mode_out_of_its_sum() {
 fn explicit_root_sums_over_its_own_mode_too() {
     // (C.24): with j = i left out of the sum the second-order root misses the first-order change.
     let c = Changed::new();
-    let sum = |i: usize| without(&[i]).map(|j| c.beta[(i, j)] * c.p[(j, i)]).sum::<f64>();
+    let sum = |i: usize| {
+        without(&[i])
+            .map(|j| c.beta[(i, j)] * c.p[(j, i)])
+            .sum::<f64>()
+    };
     let with = c.root_error(|i| c.explicit_root(i, sum(i) + c.beta[(i, i)]));
     let printed = c.root_error(|i| c.explicit_root(i, sum(i)));
-    assert!(with < EIGEN_ROUND_OFF && printed > WRONG_FORM, "{with:e} {printed:e}");
+    assert!(
+        with < EIGEN_ROUND_OFF && printed > WRONG_FORM,
+        "{with:e} {printed:e}"
+    );
 }
 
 #[test]
@@ -161,7 +199,10 @@ fn explicit_root_needs_the_shapes_transposed() {
     let first_error = c.root_error(|i| first.roots[i] - 1.0 / c.k[i]);
     let (right, printed) = (error(&first.shapes), error(&first.shapes.transpose()));
     assert!(right < SECOND_ORDER_ROOT, "{right:e}");
-    assert!((printed - 2.0 * first_error).abs() < SECOND_ORDER_ROOT, "{printed:e} {first_error:e}");
+    assert!(
+        (printed - 2.0 * first_error).abs() < SECOND_ORDER_ROOT,
+        "{printed:e} {first_error:e}"
+    );
     assert!(first_error > 50.0 * right, "{first_error:e}");
 }
 
@@ -177,7 +218,11 @@ fn three_modes() -> (ModalChange<f64>, Perturbed) {
 /// The matrix of (C.17), (C.18) or (C.19) for a changed root, with what stands for β_is γ − α_is.
 fn rows(change: &ModalChange<f64>, gamma: f64, entry: impl Fn(f64, f64) -> f64) -> DMatrix<f64> {
     DMatrix::from_fn(3, 3, |i, s| {
-        let own = if i == s { change.generalized_stiffness[i] * (gamma - change.roots[i]) } else { 0.0 };
+        let own = if i == s {
+            change.generalized_stiffness[i] * (gamma - change.roots[i])
+        } else {
+            0.0
+        };
         own + entry(change.beta[(i, s)], change.alpha[(i, s)])
     })
 }
@@ -199,7 +244,9 @@ fn own_component_counts_once() {
     // (C.15) prints δ_ji + p_ji and (C.21) p_ii = 1: together the mode's own component would be two.
     let (change, exact) = three_modes();
     for mode in 0..3 {
-        let rows = rows(&change, exact.roots[mode], |beta, alpha| beta * exact.roots[mode] - alpha);
+        let rows = rows(&change, exact.roots[mode], |beta, alpha| {
+            beta * exact.roots[mode] - alpha
+        });
         let mut p = exact.shapes.column(mode).into_owned();
         assert!((&rows * &p).amax() < MATRIX_ROUND_OFF);
         p[mode] += 1.0;
@@ -214,10 +261,17 @@ fn generalized_matrices_obey_g_equals_k_lambda() {
     let model = Case::new(1).expect("a case").model().expect("a model");
     let dynamic = model.matrices(&[1.0; 15]).expect("held");
     let v = &problem.exact.modes.shapes;
-    let (k, g) = (v.tr_mul(&(&dynamic.stiffness * v)), v.tr_mul(&(&dynamic.mass * v)));
+    let (k, g) = (
+        v.tr_mul(&(&dynamic.stiffness * v)),
+        v.tr_mul(&(&dynamic.mass * v)),
+    );
     for i in 0..MODES {
         let lambda = 1.0 / problem.exact.modes.omega_squared[i];
-        assert_relative_eq!(g[(i, i)], k[(i, i)] * lambda, max_relative = MATRIX_ROUND_OFF);
+        assert_relative_eq!(
+            g[(i, i)],
+            k[(i, i)] * lambda,
+            max_relative = MATRIX_ROUND_OFF
+        );
         assert!((k[(i, i)] / (g[(i, i)] * lambda) - 1.0).abs() > WRONG_FORM);
     }
 }
@@ -234,8 +288,9 @@ fn transposed_pencil_needs_g_transposed() {
     // (C.4), (C.6), (C.7), (C.9) print G where the transposed pencil (C.2) has Gᵗ. K is its own transpose.
     let (stiffness, g, modes) = wing_section();
     let (u, v) = (&modes.left, &modes.right);
-    let c_4 =
-        |g: &Complexes| amax(&(through(v, &stiffness, u) * DMatrix::from_diagonal(&modes.roots) - through(v, g, u)));
+    let c_4 = |g: &Complexes| {
+        amax(&(through(v, &stiffness, u) * DMatrix::from_diagonal(&modes.roots) - through(v, g, u)))
+    };
     assert!(c_4(&g.transpose()) < COMPLEX_EIGEN_ROUND_OFF);
     assert!(c_4(&g) > WRONG_FORM);
     // (C.9): a scalar equals its transpose, uᵗGv = vᵗGᵗu; vᵗGu is another number.
@@ -253,10 +308,16 @@ fn changes_are_seen_through_the_transposed_left_shapes() {
     let stiffness_change = complex(&dmatrix![0.1, 0.0, 0.02; 0.0, -0.2, 0.0; 0.02, 0.0, 0.05]);
     let g_change = aeroelastic_section(0.3).1 - &g;
     let lambda = Complex::new(0.7, 0.2);
-    let changed = through(u, &((&stiffness + &stiffness_change) * lambda - (&g + &g_change)), v);
+    let changed = through(
+        u,
+        &((&stiffness + &stiffness_change) * lambda - (&g + &g_change)),
+        v,
+    );
     let k = through(u, &stiffness, v);
     let unchanged = &k * (DMatrix::identity(3, 3) * lambda - DMatrix::from_diagonal(&modes.roots));
-    let error = |alpha: &Complexes, beta: &Complexes| amax(&(&unchanged + beta * lambda - alpha - &changed));
+    let error = |alpha: &Complexes, beta: &Complexes| {
+        amax(&(&unchanged + beta * lambda - alpha - &changed))
+    };
     let ours = ModalChange::new(&stiffness, &modes, &stiffness_change, &g_change).expect("it fits");
     assert!(error(&ours.alpha, &ours.beta) < COMPLEX_EIGEN_ROUND_OFF);
     assert!(error(&(u * &g_change * v.transpose()), &ours.beta) > WRONG_FORM);

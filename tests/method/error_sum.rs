@@ -13,7 +13,10 @@ use proptest::prelude::*;
 
 /// Analysis modes that are the test modes' partners in order, with the test's signs.
 fn in_order(count: usize) -> Pairing {
-    Pairing { analysis_mode: (0..count).collect(), sign: vec![1.0; count] }
+    Pairing {
+        analysis_mode: (0..count).collect(),
+        sign: vec![1.0; count],
+    }
 }
 
 proptest! {
@@ -107,9 +110,18 @@ proptest! {
 fn errors_by_hand() {
     // Frequencies 1.1 and 1.8 against 1 and 2: (0.1)^2 + (-0.1)^2. Shapes (2, 1) against (1, 0) is (1, 1/2) against
     // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
-    let analysis = ModeSet { omega_squared: dvector![3.24, 1.21], shapes: dmatrix![1.0, 2.0; -3.0, 1.0] };
-    let test = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, -1.0; 0.0, 4.0] };
-    let pairing = Pairing { analysis_mode: vec![1, 0], sign: vec![1.0, -1.0] };
+    let analysis = ModeSet {
+        omega_squared: dvector![3.24, 1.21],
+        shapes: dmatrix![1.0, 2.0; -3.0, 1.0],
+    };
+    let test = ModeSet {
+        omega_squared: dvector![1.0, 4.0],
+        shapes: dmatrix![1.0, -1.0; 0.0, 4.0],
+    };
+    let pairing = Pairing {
+        analysis_mode: vec![1, 0],
+        sign: vec![1.0, -1.0],
+    };
     let found = errors(&analysis, &pairing, &test).unwrap();
     assert!((found.frequency - 0.02_f64.sqrt()).abs() <= ROUND_OFF);
     assert!((found.shape - (37.0 / 288.0_f64).sqrt()).abs() <= ROUND_OFF);
@@ -118,9 +130,17 @@ fn errors_by_hand() {
 
 #[test]
 fn a_mode_that_moves_where_nothing_is_measured_is_named() {
-    let analysis = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 0.0; 1.0, 0.0] };
-    let test = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 1.0; 1.0, -1.0] };
-    let error = errors(&analysis, &in_order(2), &test).unwrap_err().to_string();
+    let analysis = ModeSet {
+        omega_squared: dvector![1.0, 4.0],
+        shapes: dmatrix![1.0, 0.0; 1.0, 0.0],
+    };
+    let test = ModeSet {
+        omega_squared: dvector![1.0, 4.0],
+        shapes: dmatrix![1.0, 1.0; 1.0, -1.0],
+    };
+    let error = errors(&analysis, &in_order(2), &test)
+        .unwrap_err()
+        .to_string();
     let message = "largest component where it is compared of analysis mode 1 (from zero): expected a positive finite number, \
         found 0";
     assert_eq!(error, message);
@@ -128,14 +148,30 @@ fn a_mode_that_moves_where_nothing_is_measured_is_named() {
 
 #[test]
 fn squares_too_large_for_a_number_are_refused_as_such() {
-    let modes = |scale| ModeSet { omega_squared: dvector![scale], shapes: dmatrix![1.0] };
+    let modes = |scale| ModeSet {
+        omega_squared: dvector![scale],
+        shapes: dmatrix![1.0],
+    };
     let error = errors(&modes(1e300), &in_order(1), &modes(1e-20)).unwrap_err();
-    assert!(matches!(error, Error::NotFinite { what: "error sum", .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            Error::NotFinite {
+                what: "error sum",
+                ..
+            }
+        ),
+        "{error}"
+    );
 }
 
 #[test]
 fn sums_and_root_mean_squares_by_hand() {
-    let errors = Errors { frequency: 0.3, shape: 0.6, mode_count: 9 };
+    let errors = Errors {
+        frequency: 0.3,
+        shape: 0.6,
+        mode_count: 9,
+    };
     assert!((errors.sum() - 0.9).abs() <= ROUND_OFF);
     assert!((errors.frequency_rms() - 0.1).abs() <= ROUND_OFF);
     assert!((errors.shape_rms() - 0.2).abs() <= ROUND_OFF);
@@ -146,9 +182,13 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
     // The text gives 0.3828 for Case 1's start: the root sum of squares of the table's percent errors.
     let table = PublishedTable::number(3).unwrap();
     let column = |heading: &str| -> Vec<f64> {
-        (1..=9).map(|mode| table.required(&mode.to_string(), heading).unwrap()).collect()
+        (1..=9)
+            .map(|mode| table.required(&mode.to_string(), heading).unwrap())
+            .collect()
     };
-    let modes = |frequencies: &[f64]| ModeSet::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap();
+    let modes = |frequencies: &[f64]| {
+        ModeSet::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap()
+    };
     let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
     let found = errors(&analysis, &in_order(9), &test).unwrap();
     assert!((found.frequency - 0.3828).abs() <= PRINTED_PERCENT / 100.0);
@@ -157,7 +197,10 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
     let percent = DVector::from_vec(column("initial_percent"));
     assert!((percent.norm() - 38.28).abs() <= 3.0 * PRINTED_PERCENT);
     // The difference in hertz that the equation prints is another order of magnitude altogether.
-    let difference: f64 =
-        column("initial_hz").iter().zip(column("gvt_hz")).map(|(analysis, test)| (analysis - test).powi(2)).sum();
+    let difference: f64 = column("initial_hz")
+        .iter()
+        .zip(column("gvt_hz"))
+        .map(|(analysis, test)| (analysis - test).powi(2))
+        .sum();
     assert!(difference.sqrt() > 100.0 * found.frequency);
 }

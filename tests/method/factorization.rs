@@ -21,11 +21,32 @@ fn net(cells: usize) -> Structure {
     let material = Material::isotropic(1.0e7, 0.3).expect("a material");
     let place = |i: usize, j: usize| Vector3::new(i as f64 + 0.5 * j as f64, j as f64, 0.0);
     let all = || (0..=cells).flat_map(|j| (0..=cells).map(move |i| (i, j)));
-    let grid = |(i, j)| Grid { label: label(i, j), position: place(i, j), constrained: [j == 0, j == 0, true] };
-    let corners = |(i, j)| vec![label(i, j), label(i + 1, j), label(i + 1, j + 1), label(i, j + 1)];
+    let grid = |(i, j)| Grid {
+        label: label(i, j),
+        position: place(i, j),
+        constrained: [j == 0, j == 0, true],
+    };
+    let corners = |(i, j)| {
+        vec![
+            label(i, j),
+            label(i + 1, j),
+            label(i + 1, j + 1),
+            label(i, j + 1),
+        ]
+    };
     let cells = all().filter(|at| at.0 < cells && at.1 < cells).map(corners);
-    let element = |(row, grids)| Element { label: row + 1, kind: ElementKind::Membrane, grids, size: 0.1, material };
-    Structure::new(all().map(grid).collect(), cells.enumerate().map(element).collect()).expect("a structure")
+    let element = |(row, grids)| Element {
+        label: row + 1,
+        kind: ElementKind::Membrane,
+        grids,
+        size: 0.1,
+        material,
+    };
+    Structure::new(
+        all().map(grid).collect(),
+        cells.enumerate().map(element).collect(),
+    )
+    .expect("a structure")
 }
 
 fn plan(structure: &Structure) -> Arc<FactorizationPlan> {
@@ -38,7 +59,9 @@ fn plan(structure: &Structure) -> Arc<FactorizationPlan> {
 #[test]
 fn fill_grows_as_nested_dissection_promises() {
     let cells = [16_usize, 32, 64, 128];
-    let points: Vec<(f64, f64)> = cells.map(|n| (n as f64, plan(&net(n)).factor_entries() as f64)).to_vec();
+    let points: Vec<(f64, f64)> = cells
+        .map(|n| (n as f64, plan(&net(n)).factor_entries() as f64))
+        .to_vec();
     let found = log_log_slope(&points);
     assert!((found - 2.3).abs() <= FILL_ORDER, "{found}: {points:?}");
 }
@@ -57,13 +80,36 @@ fn work_grows_as_nested_dissection_promises() {
 fn a_plan_of_other_elements_is_refused() {
     let (small, large) = (net(3), net(4));
     let elements = element_matrices(&large).expect("elements");
-    let refused = FactorizedStiffness::planned(&plan(&small), &elements, &sizes(&large), large.free_dof());
-    assert!(matches!(refused, Err(Error::WrongShape { what: "degrees of freedom of the plan", .. })), "{refused:?}");
+    let refused =
+        FactorizedStiffness::planned(&plan(&small), &elements, &sizes(&large), large.free_dof());
+    assert!(
+        matches!(
+            refused,
+            Err(Error::WrongShape {
+                what: "degrees of freedom of the plan",
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
     let mut moved = elements.clone();
     moved.swap(0, 1);
-    let refused = FactorizedStiffness::planned(&plan(&large), &moved, &sizes(&large), large.free_dof());
-    assert!(matches!(refused, Err(Error::WrongShape { what: "elements of the plan", .. })), "{refused:?}");
-    assert!(FactorizedStiffness::planned(&plan(&large), &elements, &sizes(&large), large.free_dof()).is_ok());
+    let refused =
+        FactorizedStiffness::planned(&plan(&large), &moved, &sizes(&large), large.free_dof());
+    assert!(
+        matches!(
+            refused,
+            Err(Error::WrongShape {
+                what: "elements of the plan",
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
+    assert!(
+        FactorizedStiffness::planned(&plan(&large), &elements, &sizes(&large), large.free_dof())
+            .is_ok()
+    );
 }
 
 #[test]
@@ -75,7 +121,18 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
          distribution 3, which is not defined"
     );
     let refused = LoadDistribution::new(3, vec![vec![(2, f64::NAN)]]).unwrap_err();
-    assert!(matches!(refused, Error::NotFinite { what: "load distribution", row: 2, column: 0, .. }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::NotFinite {
+                what: "load distribution",
+                row: 2,
+                column: 0,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
     let sparse = LoadDistribution::of(&t).expect("finite");
     assert_eq!(sparse.columns(), [vec![(0, 1.0), (2, 0.5)], vec![(2, 2.0)]]);

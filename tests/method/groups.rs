@@ -20,8 +20,14 @@ fn grouped(number: usize) -> CaseResult {
 fn by_geometry(case: &Case) -> [Vec<usize>; 3] {
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
     for panel in &case.panels {
-        let same_parity = panel.grids.iter().all(|grid| grid % 2 == panel.grids[0] % 2);
-        let same_rib = panel.grids.iter().all(|grid| (grid - 1) / 4 == (panel.grids[0] - 1) / 4);
+        let same_parity = panel
+            .grids
+            .iter()
+            .all(|grid| grid % 2 == panel.grids[0] % 2);
+        let same_rib = panel
+            .grids
+            .iter()
+            .all(|grid| (grid - 1) / 4 == (panel.grids[0] - 1) / 4);
         let group = if same_parity {
             0
         } else if same_rib {
@@ -36,12 +42,18 @@ fn by_geometry(case: &Case) -> [Vec<usize>; 3] {
 
 #[test]
 fn substructures_are_what_the_geometry_says() {
-    let case = Case { grouping: Grouping::Substructures, ..Case::new(2).expect("a case") };
+    let case = Case {
+        grouping: Grouping::Substructures,
+        ..Case::new(2).expect("a case")
+    };
     let model = case.model().expect("a model");
     let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["covers", "spars", "ribs"]);
     for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
-        assert_eq!((parameter.scaled, &parameter.members), (Scaled::Stiffness, &expected));
+        assert_eq!(
+            (parameter.scaled, &parameter.members),
+            (Scaled::Stiffness, &expected)
+        );
     }
 }
 
@@ -56,7 +68,11 @@ fn one_factor_moves_every_element_of_a_group() {
             for (group, &factor) in groups.iter().zip(&pass.factors) {
                 for &label in group {
                     let first = result.case.panels[label - 1].gage;
-                    approx::assert_relative_eq!(gages[label - 1], first * factor, max_relative = 0.1 * ROUND_OFF);
+                    approx::assert_relative_eq!(
+                        gages[label - 1],
+                        first * factor,
+                        max_relative = 0.1 * ROUND_OFF
+                    );
                 }
             }
         }
@@ -70,7 +86,10 @@ fn error_common_to_a_group_is_found() {
         let result = grouped(number);
         assert!(result.correlation.converged, "Case {number}");
         let covers = result.pass_gages.last().expect("a pass")[1];
-        assert!((covers / TEST_GAGE - 1.0).abs() < GROUPED_GAGE, "Case {number}: covers at {covers}");
+        assert!(
+            (covers / TEST_GAGE - 1.0).abs() < GROUPED_GAGE,
+            "Case {number}: covers at {covers}"
+        );
     }
 }
 
@@ -79,7 +98,10 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
     // Case 3 alternates thick and thin within every group: no three factors can mend it.
     let result = grouped(3);
     assert!(!result.correlation.converged && !result.succeeded());
-    let (first, last) = (&result.correlation.initial, result.correlation.passes.last().expect("a pass"));
+    let (first, last) = (
+        &result.correlation.initial,
+        result.correlation.passes.last().expect("a pass"),
+    );
     assert!(last.check.errors.sum() < first.errors.sum());
     for pass in &result.correlation.passes {
         for factor in &pass.factors {
@@ -110,7 +132,12 @@ fn there_is_a_gage_for_every_panel() {
     let case = Case::new(1).expect("a case");
     for count in [14, 16] {
         match case.model_with(&vec![TEST_GAGE; count]) {
-            Err(CaseError::Method(Error::WrongShape { what, expected_rows, rows, .. })) => {
+            Err(CaseError::Method(Error::WrongShape {
+                what,
+                expected_rows,
+                rows,
+                ..
+            })) => {
                 assert_eq!((what, expected_rows, rows), ("panel gages", 15, count))
             }
             other => panic!("{other:?}"),
@@ -124,16 +151,31 @@ fn the_size_of_a_group_is_the_mean_of_its_members() {
     let case = Case::new(1).unwrap();
     let own = case.model().unwrap();
     let structure = own.structure();
-    let (panel, other, rod) = (&structure.elements()[0], &structure.elements()[1], &structure.elements()[20]);
+    let (panel, other, rod) = (
+        &structure.elements()[0],
+        &structure.elements()[1],
+        &structure.elements()[20],
+    );
     assert_ne!(panel.size, rod.size);
     let expected = [panel.size + rod.size, 3.0 * other.size];
-    let tip = Parameter { scaled: Scaled::PointMass, ..Parameter::group("tip", &[0]) };
-    let parameters =
-        vec![Parameter::group("two", &[panel.label, rod.label]), Parameter::element(other.label, None), tip];
-    let sizes =
-        with_parameters(&case, parameters).analyze(&[2.0, 3.0, 1.0], &case.test_modes().unwrap(), None).unwrap().sizes;
+    let tip = Parameter {
+        scaled: Scaled::PointMass,
+        ..Parameter::group("tip", &[0])
+    };
+    let parameters = vec![
+        Parameter::group("two", &[panel.label, rod.label]),
+        Parameter::element(other.label, None),
+        tip,
+    ];
+    let sizes = with_parameters(&case, parameters)
+        .analyze(&[2.0, 3.0, 1.0], &case.test_modes().unwrap(), None)
+        .unwrap()
+        .sizes;
     for (found, expected) in sizes.iter().zip(expected) {
-        assert!((found / expected - 1.0).abs() <= ROUND_OFF, "{found} {expected}");
+        assert!(
+            (found / expected - 1.0).abs() <= ROUND_OFF,
+            "{found} {expected}"
+        );
     }
     assert_eq!(sizes[2], REFERENCE_GAGE);
 }

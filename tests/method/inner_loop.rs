@@ -3,7 +3,8 @@
 
 use crate::common::boxes::{problem_of, uneven_box};
 use crate::common::loops::{
-    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop, chain_problem, given,
+    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop,
+    chain_problem, given,
 };
 use crate::common::vibrations::chain_and_truth;
 use corfem::cases::Case;
@@ -21,22 +22,40 @@ fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
     let problem = chain_problem(&given.chain, &given.truth);
     match run(&problem, &given.base, &given.total_ranges, &given.settings) {
         Ok(run) => Ok((problem, run)),
-        Err(Error::UnsettledRoots { .. } | Error::CoalescingModes { .. }) => Err(TestCaseError::reject("close roots")),
+        Err(Error::UnsettledRoots { .. } | Error::CoalescingModes { .. }) => {
+            Err(TestCaseError::reject("close roots"))
+        }
         Err(error) => Err(TestCaseError::fail(error.to_string())),
     }
 }
 
 /// A box corrected between 0.007 and 0.013 in of every panel.
 fn limited_run(case: &Case) -> (InnerRun, Vec<Option<Range>>) {
-    let of_panel = |panel: &Panel| Some(Range { lower: 0.007 / panel.gage, upper: 0.013 / panel.gage });
+    let of_panel = |panel: &Panel| {
+        Some(Range {
+            lower: 0.007 / panel.gage,
+            upper: 0.013 / panel.gage,
+        })
+    };
     let ranges: Vec<Option<Range>> = case.panels.iter().map(of_panel).collect();
-    let run = run(&problem_of(case), &[1.0; 15], &ranges, &InnerSettings::default()).unwrap();
+    let run = run(
+        &problem_of(case),
+        &[1.0; 15],
+        &ranges,
+        &InnerSettings::default(),
+    )
+    .unwrap();
     (run, ranges)
 }
 
 /// A single step without halvings, its relaxation a thousandth of the usual.
 fn small_step() -> InnerSettings {
-    InnerSettings { first_relaxation: 1e-3, halvings: 0, iterations: 1, ..InnerSettings::default() }
+    InnerSettings {
+        first_relaxation: 1e-3,
+        halvings: 0,
+        iterations: 1,
+        ..InnerSettings::default()
+    }
 }
 
 proptest! {
@@ -106,7 +125,13 @@ proptest! {
 fn nearly_all_of_three_hundred_boxes_reach_the_tolerance_within_limits() {
     let mut runner = TestRunner::deterministic();
     let draw = |_| uneven_box().new_tree(&mut runner).unwrap().current();
-    let stops: Vec<Stop> = (0..300).map(draw).map(|case| limited_run(&case).0.stop).collect();
-    let reached = stops.iter().filter(|stop| **stop == Stop::Tolerance).count();
+    let stops: Vec<Stop> = (0..300)
+        .map(draw)
+        .map(|case| limited_run(&case).0.stop)
+        .collect();
+    let reached = stops
+        .iter()
+        .filter(|stop| **stop == Stop::Tolerance)
+        .count();
     assert!(reached >= 297, "{reached} of 300");
 }

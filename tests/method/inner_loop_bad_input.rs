@@ -26,15 +26,24 @@ fn with_settings(change: impl Fn(&mut InnerSettings)) -> Result<InnerRun, Error>
 fn relaxations_and_tolerance_must_be_positive() {
     type Setter = fn(&mut InnerSettings, f64);
     let setters: [(&str, Setter); 3] = [
-        ("first_relaxation", |settings, value| settings.first_relaxation = value),
+        ("first_relaxation", |settings, value| {
+            settings.first_relaxation = value
+        }),
         ("relaxation", |settings, value| settings.relaxation = value),
         ("tolerance", |settings, value| settings.tolerance = value),
     ];
     for (setting, set) in setters {
         for bad in [0.0, -1.0, f64::INFINITY] {
             match with_settings(|settings| set(settings, bad)) {
-                Err(Error::Setting { name, expected, found }) => {
-                    assert_eq!((name, expected, found), (setting, "a positive finite number", bad))
+                Err(Error::Setting {
+                    name,
+                    expected,
+                    found,
+                }) => {
+                    assert_eq!(
+                        (name, expected, found),
+                        (setting, "a positive finite number", bad)
+                    )
                 }
                 other => panic!("{other:?}"),
             }
@@ -50,7 +59,10 @@ fn relaxations_and_tolerance_must_be_positive() {
 #[test]
 fn factor_limits_must_be_in_order() {
     for (low, high) in [(1.5, 0.55), (0.0, 1.5), (1.0, 1.0), (0.5, f64::INFINITY)] {
-        let range = Range { lower: low, upper: high };
+        let range = Range {
+            lower: low,
+            upper: high,
+        };
         match with_settings(|settings| settings.factor_range = range) {
             Err(Error::Limits { what, lower, upper }) => {
                 assert_eq!((what.as_str(), lower, upper), ("factor limits", low, high));
@@ -62,10 +74,16 @@ fn factor_limits_must_be_in_order() {
 
 #[test]
 fn total_limits_must_be_in_order() {
-    let crossed = Range { lower: 2.0, upper: 0.5 };
+    let crossed = Range {
+        lower: 2.0,
+        upper: 0.5,
+    };
     match run_with(&[1.0; 2], &[None, Some(crossed)], |_| {}) {
         Err(Error::Limits { what, lower, upper }) => {
-            assert_eq!((what.as_str(), lower, upper), ("parameter limits", 2.0, 0.5));
+            assert_eq!(
+                (what.as_str(), lower, upper),
+                ("parameter limits", 2.0, 0.5)
+            );
         }
         other => panic!("{other:?}"),
     }
@@ -80,8 +98,17 @@ fn lists_must_have_one_entry_a_parameter() {
         (2, 3, ("parameter limits", 2, 1, 3, 1)),
     ] {
         match run_with(&vec![1.0; factors], &vec![None; limits], |_| {}) {
-            Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-                assert_eq!((what, expected_rows, expected_columns, rows, columns), expected)
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                expected_columns,
+                rows,
+                columns,
+            }) => {
+                assert_eq!(
+                    (what, expected_rows, expected_columns, rows, columns),
+                    expected
+                )
             }
             other => panic!("{other:?}"),
         }
@@ -90,6 +117,12 @@ fn lists_must_have_one_entry_a_parameter() {
 
 #[test]
 fn a_factor_of_an_earlier_pass_that_is_no_number_is_an_error() {
-    let range = Some(Range { lower: 0.5, upper: 2.0 });
-    assert!(matches!(run_with(&[1.0, f64::NAN], &[None, range], |_| {}), Err(Error::NotFinite { .. })));
+    let range = Some(Range {
+        lower: 0.5,
+        upper: 2.0,
+    });
+    assert!(matches!(
+        run_with(&[1.0, f64::NAN], &[None, range], |_| {}),
+        Err(Error::NotFinite { .. })
+    ));
 }

@@ -14,12 +14,19 @@ use nalgebra::{DMatrix, dmatrix};
 #[test]
 fn repeated_roots_that_nothing_couples_are_corrected_by_either_rule() {
     let stiffness = DMatrix::identity(2, 2) * 100.0;
-    let model =
-        DynamicModel { shares: vec![Share::Stiffness(stiffness.clone())], mass: DMatrix::identity(2, 2), stiffness };
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(stiffness.clone())],
+        mass: DMatrix::identity(2, 2),
+        stiffness,
+    };
     let test = solve(&(1.3 * &model.stiffness), &model.mass, 2).unwrap();
     let problem = model.analyze(&test, None).unwrap();
     for update in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
-        let settings = InnerSettings { update, tolerance: 1e-3, ..InnerSettings::default() };
+        let settings = InnerSettings {
+            update,
+            tolerance: 1e-3,
+            ..InnerSettings::default()
+        };
         let corrected = run(&problem, &[1.0], &[None], &settings).unwrap();
         assert_eq!(corrected.stop, Stop::Tolerance);
         assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
@@ -32,7 +39,11 @@ fn coupled(missing: f64) -> ModalModel {
     let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
     let mass = DMatrix::identity(2, 2);
     let test = solve(&(&stiffness + missing * &coupling), &mass, 2).unwrap();
-    let model = DynamicModel { shares: vec![Share::Stiffness(coupling)], stiffness, mass };
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(coupling)],
+        stiffness,
+        mass,
+    };
     model.analyze(&test, Some(2)).unwrap()
 }
 
@@ -42,7 +53,11 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     let problem = coupled(20.0);
     let at = |factor, update| ModalState::at(&problem, vec![factor], update);
     match at(8.0, UpdateRule::Recursive1) {
-        Err(Error::UnsettledRoots { largest, orders, last_change }) => {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        }) => {
             assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, MOST_ORDERS));
             assert!(last_change > largest);
         }
@@ -55,8 +70,16 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     }
     // In the loop such a step is halved; when none settles, the first is an error.
     let by = |halvings| {
-        let factor_range = Range { lower: 0.05, upper: 8.0 };
-        let settings = InnerSettings { halvings, first_relaxation: 1e3, factor_range, ..InnerSettings::default() };
+        let factor_range = Range {
+            lower: 0.05,
+            upper: 8.0,
+        };
+        let settings = InnerSettings {
+            halvings,
+            first_relaxation: 1e3,
+            factor_range,
+            ..InnerSettings::default()
+        };
         run(&problem, &[1.0], &[None], &settings)
     };
     assert!(matches!(by(0), Err(Error::UnsettledRoots { .. })));
@@ -71,7 +94,9 @@ fn modes_that_meet_end_a_correlation_begun() {
     let of = |first: f64, second: f64, coupling: f64| {
         let stiffness = dmatrix![first, 0.0; 0.0, second];
         DynamicModel {
-            shares: vec![Share::Stiffness(&stiffness + dmatrix![0.0, coupling; coupling, 0.0])],
+            shares: vec![Share::Stiffness(
+                &stiffness + dmatrix![0.0, coupling; coupling, 0.0],
+            )],
             mass: DMatrix::identity(2, 2),
             stiffness,
         }
@@ -84,11 +109,28 @@ fn modes_that_meet_end_a_correlation_begun() {
             analyses += 1;
             models[usize::from(analyses > 1)].analyze(&test, None)
         };
-        let inner = InnerSettings { halvings: 0, ..InnerSettings::default() };
-        correlate(analyze, &[None], &Settings { inner, ..Settings::default() }, |_, _| {})
+        let inner = InnerSettings {
+            halvings: 0,
+            ..InnerSettings::default()
+        };
+        correlate(
+            analyze,
+            &[None],
+            &Settings {
+                inner,
+                ..Settings::default()
+            },
+            |_, _| {},
+        )
     };
     let refused = run([&together, &apart]);
-    assert!(matches!(refused, Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Err(Error::CoalescingModes { .. } | Error::UnsettledRoots { .. })
+        ),
+        "{refused:?}"
+    );
     let found = run([&apart, &together]).unwrap();
     assert_eq!(found.passes.len(), 1);
     assert!((found.passes[0].factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR_BY_DEFAULT);

@@ -16,7 +16,10 @@ use nalgebra::dmatrix;
 
 /// The loop on one spring as the paper's sums have it.
 fn plain() -> InnerSettings {
-    InnerSettings { measure: ErrorMeasure::Sum, ..InnerSettings::default() }
+    InnerSettings {
+        measure: ErrorMeasure::Sum,
+        ..InnerSettings::default()
+    }
 }
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
@@ -26,7 +29,11 @@ fn one_spring() -> ModalModel {
 
 #[test]
 fn one_spring_by_hand() {
-    let settings = InnerSettings { first_relaxation: 2.0, iterations: 1, ..plain() };
+    let settings = InnerSettings {
+        first_relaxation: 2.0,
+        iterations: 1,
+        ..plain()
+    };
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     assert!((run.start.sum() - 1.0 / 9.0).abs() <= ROUND_OFF);
     // Δe = (√1.001 − 1)/0.9 and Δk = 0.001/0.81.
@@ -41,7 +48,12 @@ fn one_spring_by_hand() {
 
 #[test]
 fn relaxation_is_another_in_the_first_iteration() {
-    let settings = InnerSettings { first_relaxation: 0.5, relaxation: 2.0, iterations: 2, ..plain() };
+    let settings = InnerSettings {
+        first_relaxation: 0.5,
+        relaxation: 2.0,
+        iterations: 2,
+        ..plain()
+    };
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     let step = |iteration: usize, error_sum: f64| {
         let record = &run.iterations[iteration];
@@ -56,9 +68,16 @@ fn relaxation_is_another_in_the_first_iteration() {
 #[test]
 fn a_step_that_overshoots_is_halved() {
     // R = 12 asks for 0.4, bounded to 0.55, which is farther off than the start; half of that step, 0.775, is nearer.
-    let settings = InnerSettings { first_relaxation: 12.0, iterations: 1, ..plain() };
+    let settings = InnerSettings {
+        first_relaxation: 12.0,
+        iterations: 1,
+        ..plain()
+    };
     let run_with = |halvings| {
-        let settings = InnerSettings { halvings, ..settings.clone() };
+        let settings = InnerSettings {
+            halvings,
+            ..settings.clone()
+        };
         run(&one_spring(), &[1.0], &[None], &settings).unwrap()
     };
     let run = run_with(1);
@@ -79,7 +98,10 @@ fn a_step_that_overshoots_is_halved() {
 fn a_step_too_far_for_the_perturbation_is_halved() {
     // Springs of 2, 1/2 and 1 times: the whole step loses a root, half of it raises the error sum, a quarter is good.
     let problem = chain_problem(&Chain::uniform(3), &[2.0, 0.5, 1.0]);
-    let wide = Range { lower: 0.05, upper: 20.0 };
+    let wide = Range {
+        lower: 0.05,
+        upper: 20.0,
+    };
     let settings = InnerSettings {
         first_relaxation: 4.0,
         factor_range: wide,
@@ -91,8 +113,11 @@ fn a_step_too_far_for_the_perturbation_is_halved() {
     assert_eq!(run.iterations[0].halvings, 2);
     assert!(run.last.errors.sum() < run.start.sum());
     let at = |fraction: f64| {
-        let factors =
-            run.first_unlimited_factors.iter().map(|c| 1.0 + fraction * (c.clamp(0.05, 20.0) - 1.0)).collect();
+        let factors = run
+            .first_unlimited_factors
+            .iter()
+            .map(|c| 1.0 + fraction * (c.clamp(0.05, 20.0) - 1.0))
+            .collect();
         ModalState::at(&problem, factors, UpdateRule::default())
     };
     assert!(matches!(at(1.0), Err(Error::LostRoot { mode: 2, .. })));
@@ -106,7 +131,10 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
     let model = DynamicModel {
         stiffness: dmatrix![100.0],
         mass: dmatrix![1.0],
-        shares: vec![Share::Stiffness(dmatrix![300.0]), Share::Stiffness(dmatrix![-200.0])],
+        shares: vec![
+            Share::Stiffness(dmatrix![300.0]),
+            Share::Stiffness(dmatrix![-200.0]),
+        ],
     };
     let test = solve(&dmatrix![81.0], &model.mass, 1).unwrap();
     let problem = model.analyze(&test, Some(1)).unwrap();
@@ -117,7 +145,11 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
         ..InnerSettings::default()
     };
     let run = run(&problem, &[1.0; 2], &[None; 2], &settings).unwrap();
-    let whole = ModalState::at(&problem, run.first_unlimited_factors.clone(), settings.update);
+    let whole = ModalState::at(
+        &problem,
+        run.first_unlimited_factors.clone(),
+        settings.update,
+    );
     assert!(matches!(whole, Err(Error::NotAVibration { mode: 0, .. })));
     assert!(run.iterations[0].halvings >= 1);
     assert!(run.last.errors.sum() < run.start.sum());
@@ -126,20 +158,32 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
 #[test]
 fn equal_modes_are_a_local_minimum() {
     let chain = Chain::uniform(3);
-    let run = run(&chain_problem(&chain, &[1.0; 3]), &[1.0; 3], &[None; 3], &InnerSettings::default()).unwrap();
+    let run = run(
+        &chain_problem(&chain, &[1.0; 3]),
+        &[1.0; 3],
+        &[None; 3],
+        &InnerSettings::default(),
+    )
+    .unwrap();
     // A step is tried although the start is within tolerance; nothing lowers an error sum of nothing.
     assert_eq!(run.stop, Stop::LocalMinimum);
     assert!(run.iterations.is_empty());
     // The shapes are scaled once more with the model's mass: equal to round-off.
     assert!(run.start.sum() <= ROUND_OFF);
     assert_eq!(run.first_unlimited_factors.len(), 3);
-    let farthest = run.first_unlimited_factors.iter().map(|factor| (factor - 1.0).abs());
+    let farthest = run
+        .first_unlimited_factors
+        .iter()
+        .map(|factor| (factor - 1.0).abs());
     assert!(farthest.fold(0.0, f64::max) <= ROUND_OFF);
 }
 
 #[test]
 fn a_start_within_tolerance_is_still_stepped_from_once() {
-    let settings = InnerSettings { tolerance: 10.0, ..InnerSettings::default() };
+    let settings = InnerSettings {
+        tolerance: 10.0,
+        ..InnerSettings::default()
+    };
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     assert_eq!(run.stop, Stop::Tolerance);
     assert_eq!(run.iterations.len(), 1);
@@ -147,7 +191,10 @@ fn a_start_within_tolerance_is_still_stepped_from_once() {
 
 #[test]
 fn no_iterations_are_no_steps() {
-    let settings = InnerSettings { iterations: 0, ..InnerSettings::default() };
+    let settings = InnerSettings {
+        iterations: 0,
+        ..InnerSettings::default()
+    };
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     assert_eq!(run.stop, Stop::Iterations);
     assert!(run.iterations.is_empty() && run.first_unlimited_factors.is_empty());
@@ -166,7 +213,10 @@ fn the_box_stops_for_each_of_the_three_reasons() {
     assert_eq!(within.stop, Stop::Tolerance);
     assert!(within.last.errors.sum() < 0.025);
     let cut_short = run_with(&|settings| settings.iterations = 3);
-    assert_eq!((cut_short.stop, cut_short.iterations.len()), (Stop::Iterations, 3));
+    assert_eq!(
+        (cut_short.stop, cut_short.iterations.len()),
+        (Stop::Iterations, 3)
+    );
     assert_eq!(cut_short.last.errors, within.iterations[2].errors);
     let stuck = run_with(&|settings| {
         settings.tolerance = 1e-6;
@@ -184,9 +234,16 @@ fn case_3_is_held_by_its_gages_and_case_4_by_the_factor() {
     let settings = InnerSettings::default();
     let run_3 = run(&problem_of(&case), &[1.0; 15], &ranges, &settings).unwrap();
     assert_limits_hold(&run_3, &[1.0; 15], &ranges, settings.factor_range);
-    let held = |run: &InnerRun, limit| run.iterations.iter().any(|iteration| iteration.limits.contains(&limit));
+    let held = |run: &InnerRun, limit| {
+        run.iterations
+            .iter()
+            .any(|iteration| iteration.limits.contains(&limit))
+    };
     assert!(held(&run_3, Limit::Total));
-    let once = InnerSettings { iterations: 1, ..settings };
+    let once = InnerSettings {
+        iterations: 1,
+        ..settings
+    };
     let run_4 = run(&first_problem(4), &[1.0; 15], &[None; 15], &once).unwrap();
     // Element 8 asks for far more than the factor's bound and gets that.
     assert_eq!(run_4.iterations[0].limits[7], Limit::Factor);
@@ -199,7 +256,10 @@ fn case_3_is_held_by_its_gages_and_case_4_by_the_factor() {
 fn the_default_settings_are_the_papers() {
     let settings = InnerSettings::default();
     assert_eq!((settings.first_relaxation, settings.relaxation), (0.8, 1.0));
-    assert_eq!((settings.factor_range.lower, settings.factor_range.upper), (0.55, 1.5));
+    assert_eq!(
+        (settings.factor_range.lower, settings.factor_range.upper),
+        (0.55, 1.5)
+    );
     assert_eq!(settings.tolerance, 0.025);
     assert_eq!((settings.halvings, settings.iterations), (5, 30));
 }
@@ -207,7 +267,11 @@ fn the_default_settings_are_the_papers() {
 #[test]
 fn the_tolerance_itself_is_not_within_the_tolerance() {
     let to = |tolerance: f64| {
-        let settings = InnerSettings { tolerance, iterations: 1, ..plain() };
+        let settings = InnerSettings {
+            tolerance,
+            iterations: 1,
+            ..plain()
+        };
         run(&one_spring(), &[1.0], &[None], &settings).unwrap()
     };
     let reached = to(1e-9).last.errors.sum();

@@ -5,7 +5,8 @@ use crate::common::strategies::{orthogonal, positive_definite, symmetric};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_solution, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
+    check_finite, check_shape, check_solution, check_symmetric, cholesky, symmetric_eigen,
+    symmetric_part,
 };
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -147,7 +148,17 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
             cholesky("test matrix", &square, 0.0).unwrap_err(),
             symmetric_eigen("test matrix", &square).unwrap_err(),
         ] {
-            assert!(matches!(refused, Error::NotFinite { row: 2, column: 1, .. }), "{refused:?}");
+            assert!(
+                matches!(
+                    refused,
+                    Error::NotFinite {
+                        row: 2,
+                        column: 1,
+                        ..
+                    }
+                ),
+                "{refused:?}"
+            );
         }
     }
     assert!(check_finite("test matrix", &DMatrix::<f64>::zeros(3, 4)).is_ok());
@@ -172,7 +183,15 @@ fn another_shape_is_refused_with_both() {
         symmetric_eigen("test matrix", &matrix).unwrap_err(),
     ] {
         assert!(
-            matches!(refused, Error::WrongShape { expected_rows: 3, expected_columns: 3, columns: 4, .. }),
+            matches!(
+                refused,
+                Error::WrongShape {
+                    expected_rows: 3,
+                    expected_columns: 3,
+                    columns: 4,
+                    ..
+                }
+            ),
             "{refused:?}"
         );
     }
@@ -181,7 +200,8 @@ fn another_shape_is_refused_with_both() {
 #[test]
 fn asymmetry_beyond_a_part_in_ten_to_the_eighth_is_refused_by_its_worst_pair() {
     let skewed = |by: f64| {
-        let mut matrix = DMatrix::from_fn(4, 4, |row, column| if row == column { 100.0 } else { 1.0 });
+        let mut matrix =
+            DMatrix::from_fn(4, 4, |row, column| if row == column { 100.0 } else { 1.0 });
         matrix[(3, 1)] += by;
         matrix[(0, 2)] -= 0.1 * by;
         matrix
@@ -211,7 +231,13 @@ fn of_equal_asymmetries_the_first_is_named() {
 
 #[test]
 fn a_solver_that_does_not_solve_is_refused_with_its_residual() {
-    let matrix = DMatrix::from_fn(6, 6, |i, j| if i == j { 1.0 } else { 0.3 / (1.0 + i.abs_diff(j) as f64) });
+    let matrix = DMatrix::from_fn(6, 6, |i, j| {
+        if i == j {
+            1.0
+        } else {
+            0.3 / (1.0 + i.abs_diff(j) as f64)
+        }
+    });
     let inverse = matrix.clone().try_inverse().expect("it is regular");
     let probe = DVector::from_fn(6, |i, _| 1.0 + i as f64);
     let product = |x: &DVector<f64>| &matrix * x;
@@ -220,23 +246,41 @@ fn a_solver_that_does_not_solve_is_refused_with_its_residual() {
     let mut wrong = inverse.clone();
     wrong[(4, 2)] += 1e-9;
     match check_solution("test matrix", product, |right| &wrong * right, &probe) {
-        Err(Error::WrongSolution { what: "test matrix", residual, allowed }) => assert!(residual > allowed),
+        Err(Error::WrongSolution {
+            what: "test matrix",
+            residual,
+            allowed,
+        }) => assert!(residual > allowed),
         other => panic!("{other:?}"),
     }
-    let nothing = check_solution("test matrix", product, |_| DVector::from_element(6, f64::NAN), &probe);
+    let nothing = check_solution(
+        "test matrix",
+        product,
+        |_| DVector::from_element(6, f64::NAN),
+        &probe,
+    );
     assert!(matches!(nothing, Err(Error::WrongSolution { .. })));
 }
 
 #[test]
 fn eigenvalues_of_very_large_and_small_matrices_scale() {
     // Large matrices are divided before they are solved.
-    for (size, power) in [4, 100].into_iter().flat_map(|size| [-300, -200, 200, 300].map(|power| (size, power))) {
+    for (size, power) in [4, 100]
+        .into_iter()
+        .flat_map(|size| [-300, -200, 200, 300].map(|power| (size, power)))
+    {
         let matrix = DMatrix::from_fn(size, size, |i, j| 1.0 / (1 + i + j) as f64);
         let (expected, _) = symmetric_eigen("test matrix", &matrix).unwrap();
         let scale = 10_f64.powi(power);
         let (found, shapes) = symmetric_eigen("test matrix", &(&matrix * scale)).unwrap();
-        assert!((found / scale - &expected).amax() <= MATRIX_ROUND_OFF, "{size}, {power}");
-        assert!((shapes.tr_mul(&shapes) - DMatrix::identity(size, size)).amax() <= MATRIX_ROUND_OFF, "{size}, {power}");
+        assert!(
+            (found / scale - &expected).amax() <= MATRIX_ROUND_OFF,
+            "{size}, {power}"
+        );
+        assert!(
+            (shapes.tr_mul(&shapes) - DMatrix::identity(size, size)).amax() <= MATRIX_ROUND_OFF,
+            "{size}, {power}"
+        );
     }
 }
 
@@ -244,11 +288,29 @@ fn eigenvalues_of_very_large_and_small_matrices_scale() {
 #[test]
 fn the_residual_of_a_wrong_solution_is_a_fraction() {
     let probe = DVector::from_column_slice(&[3.0, 4.0, 0.0, 0.0]);
-    let off = |by: f64| check_solution("springs", |x| 2.0 * x, |loads| 0.5 * (1.0 + by) * loads, &probe);
-    let Err(Error::WrongSolution { residual, allowed, .. }) = off(1e-6) else { panic!("a wrong solution passes") };
-    assert!((residual / 1e-6 - 1.0).abs() <= DIFFERENCE_ROUND_OFF, "{residual:e}");
+    let off = |by: f64| {
+        check_solution(
+            "springs",
+            |x| 2.0 * x,
+            |loads| 0.5 * (1.0 + by) * loads,
+            &probe,
+        )
+    };
+    let Err(Error::WrongSolution {
+        residual, allowed, ..
+    }) = off(1e-6)
+    else {
+        panic!("a wrong solution passes")
+    };
+    assert!(
+        (residual / 1e-6 - 1.0).abs() <= DIFFERENCE_ROUND_OFF,
+        "{residual:e}"
+    );
     let expected = 1e4 * f64::EPSILON * 2.0 * 5.0 * (1.0 + 1e-6) / 10.0;
-    assert!((allowed / expected - 1.0).abs() <= DIFFERENCE_ROUND_OFF, "{allowed:e}");
+    assert!(
+        (allowed / expected - 1.0).abs() <= DIFFERENCE_ROUND_OFF,
+        "{allowed:e}"
+    );
     off(0.9 * allowed).unwrap();
     off(1.1 * allowed).unwrap_err();
 }

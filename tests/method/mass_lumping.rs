@@ -14,12 +14,27 @@ fn rectangle_and_triangle_lump_equally_and_rod_by_halves() {
     let at = |x, y| Vector3::new(x, y, 0.0);
     let rectangle = [at(0.0, 0.0), at(4.0, 0.0), at(4.0, 3.0), at(0.0, 3.0)];
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
-        assert_eq!(corner_volumes(kind, &rectangle).expect("four corners"), vec![3.0; 4]);
+        assert_eq!(
+            corner_volumes(kind, &rectangle).expect("four corners"),
+            vec![3.0; 4]
+        );
     }
-    assert_eq!(corner_volumes(ElementKind::Triangle, &rectangle[..3]).expect("three"), vec![2.0; 3]);
-    assert_eq!(corner_volumes(ElementKind::Rod, &rectangle[1..3]).expect("two"), vec![1.5; 2]);
+    assert_eq!(
+        corner_volumes(ElementKind::Triangle, &rectangle[..3]).expect("three"),
+        vec![2.0; 3]
+    );
+    assert_eq!(
+        corner_volumes(ElementKind::Rod, &rectangle[1..3]).expect("two"),
+        vec![1.5; 2]
+    );
     let error = corner_volumes(ElementKind::Rod, &rectangle).expect_err("four corners");
-    assert!(matches!(error, Error::WrongCornerCount { expected: 2, found: 4 }));
+    assert!(matches!(
+        error,
+        Error::WrongCornerCount {
+            expected: 2,
+            found: 4
+        }
+    ));
 }
 
 #[test]
@@ -38,7 +53,12 @@ fn trapezoid_lumps_more_where_it_is_wider() {
 fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_triangles() {
     // A square of side 6 with one corner raised by 9. Diagonals (6, 6, 0) and (-6, 6, 9): 9 |(6, -6, 8)| / 2 = 9 sqrt(34).
     let at = Vector3::new;
-    let corners = [at(0.0, 0.0, 0.0), at(6.0, 0.0, 0.0), at(6.0, 6.0, 0.0), at(0.0, 6.0, 9.0)];
+    let corners = [
+        at(0.0, 0.0, 0.0),
+        at(6.0, 0.0, 0.0),
+        at(6.0, 6.0, 0.0),
+        at(0.0, 6.0, 9.0),
+    ];
     let area = 9.0 * 34.0_f64.sqrt();
     // Corner 4 and its neighbors: sides (0, -6, -9) and (6, 0, -9), half of 18 |(3, -3, 2)|.
     let (raised, beside) = (9.0 * 22.0_f64.sqrt(), 3.0 * 117.0_f64.sqrt());

@@ -21,7 +21,11 @@ use nalgebra::{DMatrix, DVector};
 pub const DENSITY: f64 = 2.5e-4;
 
 /// The box of Case 2 at its test gages, its panels with a density, given parameters and point mass factors.
-pub fn boxed(parameters: Vec<Parameter>, density: f64, point_factors: [f64; 9]) -> Result<FiniteElementModel, Error> {
+pub fn boxed(
+    parameters: Vec<Parameter>,
+    density: f64,
+    point_factors: [f64; 9],
+) -> Result<FiniteElementModel, Error> {
     let case = Case::new(2).expect("a case");
     let model = case.model_with(&[0.010; 15]).expect("a model");
     let mut elements = model.structure().elements().to_vec();
@@ -33,15 +37,24 @@ pub fn boxed(parameters: Vec<Parameter>, density: f64, point_factors: [f64; 9]) 
     for (dof, factor) in point_factors.iter().enumerate() {
         mass[(dof, dof)] *= factor;
     }
-    FiniteElementModel::new(structure, model.load_distribution().dense(), mass, parameters)
+    FiniteElementModel::new(
+        structure,
+        model.load_distribution().dense(),
+        mass,
+        parameters,
+    )
 }
 
 pub fn point_masses() -> Vec<Parameter> {
-    (0..9).map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass, &[dof])).collect()
+    (0..9)
+        .map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass, &[dof]))
+        .collect()
 }
 
 fn element_masses() -> Vec<Parameter> {
-    (1..=39).map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass, &[label])).collect()
+    (1..=39)
+        .map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass, &[label]))
+        .collect()
 }
 
 pub fn modes(model: &FiniteElementModel) -> ModeSet {
@@ -55,9 +68,16 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
     let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
     let structure = model.structure();
     let matrices = element_matrices(structure).expect("good panels");
-    let sizes: Vec<f64> = structure.elements().iter().map(|element| element.size).collect();
-    let stiffness = FactorizedStiffness::new(&matrices, &sizes, structure.free_dof()).expect("held");
-    let b_t = condense(&stiffness, &model.load_distribution().dense()).expect("independent").transformation;
+    let sizes: Vec<f64> = structure
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect();
+    let stiffness =
+        FactorizedStiffness::new(&matrices, &sizes, structure.free_dof()).expect("held");
+    let b_t = condense(&stiffness, &model.load_distribution().dense())
+        .expect("independent")
+        .transformation;
     let mut structural = DMatrix::zeros(36, 36);
     for element in structure.elements() {
         let volumes = corner_volumes(element.kind, &structure.corners(element)).expect("fits");
@@ -72,32 +92,52 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
     let expected = b_t.tr_mul(&(structural * &b_t)) + model.mass();
     let dynamic = model.matrices(&[1.0; 39]).expect("held");
     assert_eq!(dynamic.mass.shape(), (9, 9));
-    assert_relative_eq!(dynamic.mass, expected, epsilon = MATRIX_ROUND_OFF * expected.amax());
+    assert_relative_eq!(
+        dynamic.mass,
+        expected,
+        epsilon = MATRIX_ROUND_OFF * expected.amax()
+    );
     let added = dynamic.mass - model.mass();
-    assert!(added.trace() > model.mass()[(2, 2)], "the elements weigh more than the smallest point mass");
+    assert!(
+        added.trace() > model.mass()[(2, 2)],
+        "the elements weigh more than the smallest point mass"
+    );
 }
 
 #[test]
 fn mass_shares_sum_to_the_mass() {
     let parameters = point_masses().into_iter().chain(element_masses()).collect();
     let model = boxed(parameters, DENSITY, [1.0; 9]).expect("a model");
-    for factors in [vec![1.0; 48], (0..48).map(|e| 0.6 + 0.02 * e as f64).collect()] {
+    for factors in [
+        vec![1.0; 48],
+        (0..48).map(|e| 0.6 + 0.02 * e as f64).collect(),
+    ] {
         let dynamic = model.matrices(&factors).expect("held");
         let mut sum = DMatrix::zeros(9, 9);
         for share in &dynamic.shares {
             assert!(matches!(share, Share::Mass(_)));
             sum += share.matrix();
         }
-        assert_relative_eq!(sum, dynamic.mass, epsilon = MATRIX_ROUND_OFF * dynamic.mass.amax());
+        assert_relative_eq!(
+            sum,
+            dynamic.mass,
+            epsilon = MATRIX_ROUND_OFF * dynamic.mass.amax()
+        );
     }
 }
 
 #[test]
 fn mass_factors_leave_sizes_and_stiffness_alone() {
     let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
-    let (light, heavy) = (model.matrices(&[1.0; 39]).expect("held"), model.matrices(&[2.0; 39]).expect("held"));
+    let (light, heavy) = (
+        model.matrices(&[1.0; 39]).expect("held"),
+        model.matrices(&[2.0; 39]).expect("held"),
+    );
     assert_eq!(light.stiffness, heavy.stiffness);
-    assert_eq!(model.sizes(&[2.0; 39]).expect("sizes"), model.sizes(&[1.0; 39]).expect("sizes"));
+    assert_eq!(
+        model.sizes(&[2.0; 39]).expect("sizes"),
+        model.sizes(&[1.0; 39]).expect("sizes")
+    );
     let (one, two) = (&light.mass - model.mass(), &heavy.mass - model.mass());
     assert_relative_eq!(2.0 * one, two, epsilon = MATRIX_ROUND_OFF * two.amax());
 }
@@ -118,14 +158,24 @@ fn unit_mass_share_is_symmetric_and_semidefinite() {
 pub fn both() -> (FiniteElementModel, ModeSet) {
     let truth = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let parameters = (1..=15).map(|label| Parameter::element(label, None)).chain(point_masses()).collect();
-    (boxed(parameters, DENSITY, wrong).expect("a model"), modes(&truth))
+    let parameters = (1..=15)
+        .map(|label| Parameter::element(label, None))
+        .chain(point_masses())
+        .collect();
+    (
+        boxed(parameters, DENSITY, wrong).expect("a model"),
+        modes(&truth),
+    )
 }
 
 #[test]
 fn mass_derivatives_are_central_differences() {
     let (model, test) = both();
-    let problem = model.matrices(&[1.0; 24]).expect("held").analyze(&test, Some(9)).expect("reduced");
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
     let state = ModalState::start(&problem);
     let derivatives = by_definition(&problem, &state).expect("separate modes");
     for e in 0..24 {
@@ -143,7 +193,10 @@ fn mass_derivatives_are_central_differences() {
         // What a forward difference of exact error sums differs by; first-order roots and shapes leave the rest,
         // which is of the same order in the step.
         let difference = (forward - central - 0.5 * curvature * h).abs();
-        assert!(difference < FORWARD_DIFFERENCE, "parameter {e}: {forward} for {central}, off by {difference}");
+        assert!(
+            difference < FORWARD_DIFFERENCE,
+            "parameter {e}: {forward} for {central}, off by {difference}"
+        );
     }
 }
 
@@ -164,15 +217,25 @@ fn first_order_state(problem: &ModalModel, factors: &[f64]) -> DVector<f64> {
 #[test]
 fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
     let (model, test) = both();
-    let problem = model.matrices(&[1.0; 24]).expect("held").analyze(&test, Some(9)).expect("reduced");
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
     let points: Vec<(f64, f64)> = [0.005, 0.01, 0.02, 0.04]
         .into_iter()
         .map(|size| {
-            let factors: Vec<f64> = (0..24).map(|e| 1.0 + if e % 3 == 0 { size } else { -size }).collect();
+            let factors: Vec<f64> = (0..24)
+                .map(|e| 1.0 + if e % 3 == 0 { size } else { -size })
+                .collect();
             let first = first_order_state(&problem, &factors);
-            let exact = ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
+            let exact =
+                ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
             let pairs = first.iter().zip(exact.modes.omega_squared.iter());
-            (size, pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max))
+            (
+                size,
+                pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max),
+            )
         })
         .collect();
     let slope = log_log_slope(&points);
@@ -182,11 +245,22 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
 #[test]
 fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     let (model, test) = both();
-    let problem = model.matrices(&[1.0; 24]).expect("held").analyze(&test, Some(9)).expect("reduced");
-    let factors: Vec<f64> = (0..24).map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0).collect();
+    let problem = model
+        .matrices(&[1.0; 24])
+        .expect("held")
+        .analyze(&test, Some(9))
+        .expect("reduced");
+    let factors: Vec<f64> = (0..24)
+        .map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0)
+        .collect();
     let ours = ModalState::at(&problem, factors.clone(), UpdateRule::default()).expect("solved");
     let exact = ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
-    for (a, b) in ours.modes.omega_squared.iter().zip(exact.modes.omega_squared.iter()) {
+    for (a, b) in ours
+        .modes
+        .omega_squared
+        .iter()
+        .zip(exact.modes.omega_squared.iter())
+    {
         assert_relative_eq!(*a, *b, max_relative = 1e2 * MATRIX_ROUND_OFF);
     }
     assert_relative_eq!(
@@ -194,19 +268,38 @@ fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
         exact.modes.shapes,
         epsilon = 1e4 * MATRIX_ROUND_OFF * exact.modes.shapes.amax()
     );
-    assert_relative_eq!(ours.errors.sum(), exact.errors.sum(), max_relative = 1e4 * MATRIX_ROUND_OFF);
+    assert_relative_eq!(
+        ours.errors.sum(),
+        exact.errors.sum(),
+        max_relative = 1e4 * MATRIX_ROUND_OFF
+    );
 }
 
 /// What a gage has to do with mass: nothing. Twice the stiffness everywhere leaves $B$ and the mass alone, and every squared
 /// frequency doubles; were the mass to follow the gages, they would not. The density is a hundred times aluminum's, so that it shows.
 #[test]
 fn gages_twice_as_thick_double_every_squared_frequency() {
-    let stiffness: Vec<Parameter> = (1..=39).map(|label| Parameter::element(label, None)).collect();
+    let stiffness: Vec<Parameter> = (1..=39)
+        .map(|label| Parameter::element(label, None))
+        .collect();
     let model = boxed(stiffness, 100.0 * DENSITY, [1.0; 9]).expect("a model");
     let at = |factor: f64| model.matrices(&[factor; 39]).expect("held");
     let (first, thick) = (at(1.0), at(2.0));
-    assert!(first.mass.trace() > 1.1 * model.mass().trace(), "elements have a mass of their own");
-    assert_relative_eq!(thick.mass, first.mass, epsilon = MATRIX_ROUND_OFF * first.mass.amax());
-    let [first, thick] = [1.0, 2.0].map(|factor| model.modes(&[factor; 39]).expect("solved").omega_squared.clone());
+    assert!(
+        first.mass.trace() > 1.1 * model.mass().trace(),
+        "elements have a mass of their own"
+    );
+    assert_relative_eq!(
+        thick.mass,
+        first.mass,
+        epsilon = MATRIX_ROUND_OFF * first.mass.amax()
+    );
+    let [first, thick] = [1.0, 2.0].map(|factor| {
+        model
+            .modes(&[factor; 39])
+            .expect("solved")
+            .omega_squared
+            .clone()
+    });
     assert_relative_eq!(thick, 2.0 * first, max_relative = 1e2 * MATRIX_ROUND_OFF);
 }

@@ -15,7 +15,10 @@ use proptest::prelude::*;
 /// The problem of a chain with all its modes.
 fn problem(chain: &Chain, truth: &[f64]) -> ModalModel {
     let count = truth.len();
-    chain.model(&vec![1.0; count]).analyze(&chain.modes(truth), Some(count)).unwrap()
+    chain
+        .model(&vec![1.0; count])
+        .analyze(&chain.modes(truth), Some(count))
+        .unwrap()
 }
 
 proptest! {
@@ -161,27 +164,57 @@ fn problems_that_do_not_fit_are_refused() {
         change(&mut model);
         model.analyze(&test, Some(3))
     };
-    assert!(matches!(new(&|model| model.shares.clear()), Err(Error::Empty { what: "parameters" })));
     assert!(matches!(
-        new(&|model| model.shares[1] = Share::Stiffness(DMatrix::identity(2, 2))),
-        Err(Error::WrongShape { what: "parameter share", expected_rows: 3, expected_columns: 3, rows: 2, columns: 2 })
+        new(&|model| model.shares.clear()),
+        Err(Error::Empty { what: "parameters" })
     ));
     assert!(matches!(
-        new(&|model| model.shares[2] = Share::Stiffness(dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0])),
-        Err(Error::NotSymmetric { what: "parameter share", row: 1, column: 0, .. })
+        new(&|model| model.shares[1] = Share::Stiffness(DMatrix::identity(2, 2))),
+        Err(Error::WrongShape {
+            what: "parameter share",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 2,
+            columns: 2
+        })
+    ));
+    assert!(matches!(
+        new(&|model| model.shares[2] =
+            Share::Stiffness(dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0])),
+        Err(Error::NotSymmetric {
+            what: "parameter share",
+            row: 1,
+            column: 0,
+            ..
+        })
     ));
     assert!(matches!(
         new(&|model| model.mass[(1, 1)] = 0.0),
-        Err(Error::NotPositiveDefinite { what: "dynamic mass", dof: 1 })
+        Err(Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            dof: 1
+        })
     ));
     assert!(matches!(
         model.analyze(&test, Some(2)),
-        Err(Error::TooMany { what: "test modes", available: 2, requested: 3 })
+        Err(Error::TooMany {
+            what: "test modes",
+            available: 2,
+            requested: 3
+        })
     ));
-    let other = ModeSet { shapes: DMatrix::identity(4, 3), ..test.clone().into() };
+    let other = ModeSet {
+        shapes: DMatrix::identity(4, 3),
+        ..test.clone().into()
+    };
     assert!(matches!(
         model.analyze(&other, Some(3)),
-        Err(Error::WrongShape { what: "test mode shapes", expected_rows: 3, rows: 4, .. })
+        Err(Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            rows: 4,
+            ..
+        })
     ));
 }
 
@@ -192,7 +225,13 @@ fn there_is_one_factor_a_parameter() {
     for factors in [vec![1.0; 2], vec![1.0; 4]] {
         let found = factors.len();
         match ModalState::at(&problem, factors, UpdateRule::default()) {
-            Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => assert_eq!(
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                expected_columns,
+                rows,
+                columns,
+            }) => assert_eq!(
                 (what, expected_rows, expected_columns, rows, columns),
                 ("parameter factors", 3, 1, found, 1)
             ),
@@ -201,7 +240,10 @@ fn there_is_one_factor_a_parameter() {
     }
     assert!(matches!(
         ModalState::at(&problem, vec![1.0, f64::NAN, 1.0], UpdateRule::default()),
-        Err(Error::NotFinite { what: "generalized stiffness change", .. })
+        Err(Error::NotFinite {
+            what: "generalized stiffness change",
+            ..
+        })
     ));
 }
 
@@ -210,10 +252,17 @@ fn there_is_one_factor_a_parameter() {
 fn shares_by_rows_are_shares_by_matrices() {
     for number in 1..=4 {
         let case = Case::new(number).unwrap();
-        let (model, test) = (case.model().unwrap(), case.test_modes().unwrap().lowest(7).unwrap());
+        let (model, test) = (
+            case.model().unwrap(),
+            case.test_modes().unwrap().lowest(7).unwrap(),
+        );
         let factors: Vec<f64> = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect();
         let rows = model.analyze(&factors, &test, Some(8)).unwrap();
-        let whole = model.matrices(&factors).unwrap().analyze(&test, Some(8)).unwrap();
+        let whole = model
+            .matrices(&factors)
+            .unwrap()
+            .analyze(&test, Some(8))
+            .unwrap();
         assert_eq!(rows.exact.pairing, whole.exact.pairing);
         assert_eq!(rows.exact.modes, whole.exact.modes);
         for (a, b) in rows.shares.iter().zip(&whole.shares) {
@@ -236,9 +285,14 @@ fn the_scale_of_the_test_shapes_does_not_matter() {
     for (mode, mut shape) in rescaled.shapes.column_iter_mut().enumerate() {
         shape *= (-3.7_f64).powi(mode as i32 - 4);
     }
-    let (one, other) =
-        (model.analyze(&[1.0; 15], &test, None).unwrap(), model.analyze(&[1.0; 15], &rescaled, None).unwrap());
-    assert_eq!(one.exact.pairing.analysis_mode, other.exact.pairing.analysis_mode);
+    let (one, other) = (
+        model.analyze(&[1.0; 15], &test, None).unwrap(),
+        model.analyze(&[1.0; 15], &rescaled, None).unwrap(),
+    );
+    assert_eq!(
+        one.exact.pairing.analysis_mode,
+        other.exact.pairing.analysis_mode
+    );
     assert!((one.exact.errors.sum() - other.exact.errors.sum()).abs() <= ROUND_OFF);
     for (a, b) in one.test_shares.iter().zip(&other.test_shares) {
         assert!((a.diagonal() - b.diagonal()).amax() <= MATRIX_ROUND_OFF);

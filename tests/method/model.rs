@@ -14,7 +14,13 @@ const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
     ("covers", &[2, 4, 8, 9, 11, 15]),
     ("spars", &[1, 3, 5, 6, 10, 14]),
     ("ribs", &[7, 12, 13]),
-    ("rods", &[16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39]),
+    (
+        "rods",
+        &[
+            16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37,
+            38, 39,
+        ],
+    ),
 ];
 
 proptest! {
@@ -72,23 +78,42 @@ fn a_model_keeps_what_it_was_made_of() {
     let parameters = vec![Parameter::element(2, None), group("ends", &[1, 3], None)];
     let model = chain(parameters.clone()).unwrap();
     assert_eq!(model.parameters(), parameters);
-    let Parameter { name, scaled, members, .. } = &model.parameters()[0];
-    assert_eq!((name.as_str(), *scaled, members.as_slice()), ("2", Scaled::Stiffness, &[2][..]));
-    let range = Range { lower: 1.0, upper: 5.0 };
+    let Parameter {
+        name,
+        scaled,
+        members,
+        ..
+    } = &model.parameters()[0];
+    assert_eq!(
+        (name.as_str(), *scaled, members.as_slice()),
+        ("2", Scaled::Stiffness, &[2][..])
+    );
+    let range = Range {
+        lower: 1.0,
+        upper: 5.0,
+    };
     assert_eq!(Parameter::element(2, Some(range)).size_range, Some(range));
     assert_eq!(model.structure().elements().len(), 3);
-    let labels: Vec<usize> = model.element_matrices().iter().map(|matrix| matrix.label).collect();
+    let labels: Vec<usize> = model
+        .element_matrices()
+        .iter()
+        .map(|matrix| matrix.label)
+        .collect();
     assert_eq!(labels, [1, 2, 3]);
     assert_eq!(model.load_distribution().dense(), DMatrix::identity(3, 3));
     assert_eq!(model.mass(), &DMatrix::identity(3, 3));
     assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
     // T and M the identity: K_D is K_S, and a spring's share its own matrix.
     let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
-    let expected = DMatrix::from_row_slice(3, 3, &[13.0, -12.0, 0.0, -12.0, 16.0, -4.0, 0.0, -4.0, 4.0]);
+    let expected =
+        DMatrix::from_row_slice(3, 3, &[13.0, -12.0, 0.0, -12.0, 16.0, -4.0, 0.0, -4.0, 4.0]);
     assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);
-    let middle = DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
+    let middle =
+        DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
     assert!(relative_distance(dynamic.shares[0].matrix(), &middle) <= MATRIX_ROUND_OFF);
-    assert!(relative_distance(dynamic.shares[1].matrix(), &(expected - middle)) <= MATRIX_ROUND_OFF);
+    assert!(
+        relative_distance(dynamic.shares[1].matrix(), &(expected - middle)) <= MATRIX_ROUND_OFF
+    );
 }
 
 #[test]
@@ -101,13 +126,30 @@ fn factor_ranges_are_size_bounds_over_first_sizes() {
     ]);
     let found = model.unwrap().factor_ranges().unwrap();
     assert_eq!(found, [bounds(0.5, 1.5), None, bounds(0.5, 1.0)]);
-    let both = Parameter { factor_range: bounds(0.25, 1.25), ..group("both", &[1, 2], bounds(1.0, 8.0)) };
-    let factor_alone = Parameter { factor_range: bounds(0.1, 7.0), ..Parameter::element(3, None) };
+    let both = Parameter {
+        factor_range: bounds(0.25, 1.25),
+        ..group("both", &[1, 2], bounds(1.0, 8.0))
+    };
+    let factor_alone = Parameter {
+        factor_range: bounds(0.1, 7.0),
+        ..Parameter::element(3, None)
+    };
     let found = chain(vec![both, factor_alone]).unwrap().factor_ranges();
     assert_eq!(found.unwrap(), [bounds(0.5, 1.25), bounds(0.1, 7.0)]);
     let together = chain(vec![group("all", &[1, 2, 3], bounds(1.0, 16.0))]);
-    assert_eq!(together.unwrap().factor_ranges().unwrap(), [bounds(0.5, 2.0)]);
-    let paper = Case::new(3).unwrap().model().unwrap().factor_ranges().unwrap();
+    assert_eq!(
+        together.unwrap().factor_ranges().unwrap(),
+        [bounds(0.5, 2.0)]
+    );
+    let paper = Case::new(3)
+        .unwrap()
+        .model()
+        .unwrap()
+        .factor_ranges()
+        .unwrap();
     assert_eq!(paper.len(), 15);
-    assert_eq!((paper[0], paper[1]), (bounds(0.007 / 0.013, 1.0), bounds(1.0, 0.013 / 0.007)));
+    assert_eq!(
+        (paper[0], paper[1]),
+        (bounds(0.007 / 0.013, 1.0), bounds(1.0, 0.013 / 0.007))
+    );
 }

@@ -24,20 +24,59 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
         }
     };
     let what = || "factor of parameter some".to_owned();
-    assert_eq!(refused(&[1, 3], 3.0, 8.0), (what(), 1.5, 1.0, "crossed"), "2 must grow, 8 must not");
-    assert_eq!(refused(&[1], 3.0, 4.0), (what(), 1.5, 2.0, "start"), "the start is below");
-    assert_eq!(refused(&[1], 0.5, 1.0), (what(), 0.25, 0.5, "start"), "the start is above");
-    assert_eq!(refused(&[1], 0.0, 4.0), (what(), 0.0, 2.0, "crossed"), "a bound of zero");
-    let error = chain(vec![group("some", &[1], Some(Range { lower: 3.0, upper: 4.0 }))]).unwrap().factor_ranges();
+    assert_eq!(
+        refused(&[1, 3], 3.0, 8.0),
+        (what(), 1.5, 1.0, "crossed"),
+        "2 must grow, 8 must not"
+    );
+    assert_eq!(
+        refused(&[1], 3.0, 4.0),
+        (what(), 1.5, 2.0, "start"),
+        "the start is below"
+    );
+    assert_eq!(
+        refused(&[1], 0.5, 1.0),
+        (what(), 0.25, 0.5, "start"),
+        "the start is above"
+    );
+    assert_eq!(
+        refused(&[1], 0.0, 4.0),
+        (what(), 0.0, 2.0, "crossed"),
+        "a bound of zero"
+    );
+    let error = chain(vec![group(
+        "some",
+        &[1],
+        Some(Range {
+            lower: 3.0,
+            upper: 4.0,
+        }),
+    )])
+    .unwrap()
+    .factor_ranges();
     let said = error.unwrap_err().to_string();
-    assert_eq!(said, "factor of parameter some: expected limits that hold its start, 1, found 1.5 to 2");
+    assert_eq!(
+        said,
+        "factor of parameter some: expected limits that hold its start, 1, found 1.5 to 2"
+    );
 }
 
 #[test]
 fn parameters_that_cannot_be_are_refused_by_name() {
-    assert!(matches!(chain(vec![]), Err(Error::Empty { what: "parameters" })));
+    assert!(matches!(
+        chain(vec![]),
+        Err(Error::Empty { what: "parameters" })
+    ));
     let nothing = chain(vec![Parameter::element(1, None), group("none", &[], None)]);
-    assert!(matches!(nothing, Err(Error::Empty { what: "members of a parameter" })), "{nothing:?}");
+    assert!(
+        matches!(
+            nothing,
+            Err(Error::Empty {
+                what: "members of a parameter"
+            })
+        ),
+        "{nothing:?}"
+    );
     let refused = chain(vec![group("wing", &[1, 4], None)]).unwrap_err();
     assert!(
         matches!(&refused, Error::Unknown { owner, what: "element", label: 4 } if owner == "parameter wing"),
@@ -47,7 +86,11 @@ fn parameters_that_cannot_be_are_refused_by_name() {
         refused.to_string(),
         "parameter wing: expected an existing element, found element 4, which is not defined"
     );
-    let shared = chain(vec![group("wing", &[1, 2], None), group("tail", &[3, 2], None)]).unwrap_err();
+    let shared = chain(vec![
+        group("wing", &[1, 2], None),
+        group("tail", &[3, 2], None),
+    ])
+    .unwrap_err();
     assert!(
         matches!(&shared, Error::SharedElement { element: 2, first, second } if first == "wing" && second == "tail"),
         "{shared:?}"
@@ -61,7 +104,11 @@ fn parameters_that_cannot_be_are_refused_by_name() {
 
 #[test]
 fn factors_that_cannot_be_are_refused_by_their_parameter() {
-    let model = chain(vec![group("wing", &[1, 2], None), Parameter::element(3, None)]).unwrap();
+    let model = chain(vec![
+        group("wing", &[1, 2], None),
+        Parameter::element(3, None),
+    ])
+    .unwrap();
     for factors in [vec![1.0], vec![1.0; 3]] {
         let refused = model.sizes(&factors).unwrap_err();
         assert!(
@@ -72,7 +119,10 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
         );
     }
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for (factors, name) in [([value, 1.0], "parameter wing"), ([1.0, value], "parameter 3")] {
+        for (factors, name) in [
+            ([value, 1.0], "parameter wing"),
+            ([1.0, value], "parameter 3"),
+        ] {
             let refused = model.matrices(&factors).unwrap_err();
             assert!(
                 matches!(&refused, Error::NotPositive { what: "factor", owner, .. } if owner == name),
@@ -99,7 +149,15 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     data.masses[4] = f64::NAN;
     let refused = Case::on(1, data).unwrap().model().unwrap_err();
     assert!(
-        matches!(refused, CaseError::Method(Error::NotFinite { what: "dynamic mass", row: 4, column: 4, .. })),
+        matches!(
+            refused,
+            CaseError::Method(Error::NotFinite {
+                what: "dynamic mass",
+                row: 4,
+                column: 4,
+                ..
+            })
+        ),
         "{refused:?}"
     );
 }
@@ -111,7 +169,13 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
     assert!(
         matches!(
             refused,
-            Error::WrongShape { what: "load distribution", expected_rows: 3, expected_columns: 3, rows: 2, columns: 3 }
+            Error::WrongShape {
+                what: "load distribution",
+                expected_rows: 3,
+                expected_columns: 3,
+                rows: 2,
+                columns: 3
+            }
         ),
         "{refused:?}"
     );
@@ -119,33 +183,90 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
     assert!(
         matches!(
             refused,
-            Error::WrongShape { what: "dynamic mass", expected_rows: 3, expected_columns: 3, rows: 2, columns: 2 }
+            Error::WrongShape {
+                what: "dynamic mass",
+                expected_rows: 3,
+                expected_columns: 3,
+                rows: 2,
+                columns: 2
+            }
         ),
         "{refused:?}"
     );
     let mut t = identity();
     t[(2, 1)] = f64::NAN;
     let refused = with_mass(t, identity()).unwrap_err();
-    assert!(matches!(refused, Error::NotFinite { what: "load distribution", row: 2, column: 1, .. }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::NotFinite {
+                what: "load distribution",
+                row: 2,
+                column: 1,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
     let mut mass = identity();
     mass[(2, 1)] = 0.5;
     let refused = with_mass(identity(), mass).unwrap_err();
-    assert!(matches!(refused, Error::NotSymmetric { what: "dynamic mass", row: 2, column: 1, .. }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::NotSymmetric {
+                what: "dynamic mass",
+                row: 2,
+                column: 1,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
     let nothing = with_mass(DMatrix::zeros(3, 0), DMatrix::zeros(0, 0)).unwrap_err();
-    assert!(matches!(nothing, Error::Empty { what: "dynamic degrees of freedom" }), "{nothing:?}");
+    assert!(
+        matches!(
+            nothing,
+            Error::Empty {
+                what: "dynamic degrees of freedom"
+            }
+        ),
+        "{nothing:?}"
+    );
 }
 
 #[test]
 fn what_is_wrong_with_an_element_or_the_structure_comes_through() {
     let grids = spring_chain(&[1.0], [true, false]).grids().to_vec();
-    let looped = Element { label: 5, kind: ElementKind::Rod, grids: vec![2, 2], size: 1.0, material: unit_material() };
+    let looped = Element {
+        label: 5,
+        kind: ElementKind::Rod,
+        grids: vec![2, 2],
+        size: 1.0,
+        material: unit_material(),
+    };
     let structure = Structure::new(grids, vec![looped]).unwrap();
     let one = DMatrix::identity(1, 1);
-    let refused = FiniteElementModel::new(structure, one.clone(), one.clone(), vec![Parameter::element(5, None)]);
-    let Err(Error::InElement { element: 5, source }) = refused else { panic!("{refused:?}") };
+    let refused = FiniteElementModel::new(
+        structure,
+        one.clone(),
+        one.clone(),
+        vec![Parameter::element(5, None)],
+    );
+    let Err(Error::InElement { element: 5, source }) = refused else {
+        panic!("{refused:?}")
+    };
     assert!(matches!(*source, Error::ZeroLength(0.0)), "{source:?}");
     let free = spring_chain(&[1.0], [false, false]);
     let t = DMatrix::identity(2, 1);
-    let refused = FiniteElementModel::new(free, t, one, vec![Parameter::element(1, None)]).unwrap().matrices(&[1.0]);
-    assert!(matches!(refused, Err(Error::SingularStiffness { direction: 'x', .. })), "{refused:?}");
+    let refused = FiniteElementModel::new(free, t, one, vec![Parameter::element(1, None)])
+        .unwrap()
+        .matrices(&[1.0]);
+    assert!(
+        matches!(
+            refused,
+            Err(Error::SingularStiffness { direction: 'x', .. })
+        ),
+        "{refused:?}"
+    );
 }

@@ -166,7 +166,11 @@ fn two_masses_by_hand() {
     let modes = solve(&stiffness, &mass, 2).unwrap();
     assert_eq!(modes.len(), 2);
     assert!(!modes.is_empty());
-    for (found, expected) in modes.omega_squared.iter().zip([4.0 * (3.0 - 6_f64.sqrt()), 4.0 * (3.0 + 6_f64.sqrt())]) {
+    for (found, expected) in modes
+        .omega_squared
+        .iter()
+        .zip([4.0 * (3.0 - 6_f64.sqrt()), 4.0 * (3.0 + 6_f64.sqrt())])
+    {
         assert!((found / expected - 1.0).abs() <= ROUND_OFF);
     }
     let frequency = (4.0 * (3.0 - 6_f64.sqrt())).sqrt() / (2.0 * PI);
@@ -175,7 +179,10 @@ fn two_masses_by_hand() {
 
 #[test]
 fn no_modes_are_empty() {
-    let none = ModeSet { omega_squared: DVector::zeros(0), shapes: DMatrix::zeros(3, 0) };
+    let none = ModeSet {
+        omega_squared: DVector::zeros(0),
+        shapes: DMatrix::zeros(3, 0),
+    };
     assert!(none.is_empty());
     assert_eq!(none.len(), 0);
 }

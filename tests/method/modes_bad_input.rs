@@ -15,7 +15,11 @@ fn diagonal(entries: &[f64]) -> DMatrix<f64> {
 
 #[test]
 fn a_zero_or_negative_mass_names_its_dof() {
-    for (masses, expected) in [([1.0, 0.0, 1.0], 1), ([1.0, 1.0, -2.0], 2), ([0.0, 1.0, 1.0], 0)] {
+    for (masses, expected) in [
+        ([1.0, 0.0, 1.0], 1),
+        ([1.0, 1.0, -2.0], 2),
+        ([0.0, 1.0, 1.0], 0),
+    ] {
         match solve(&identity(3), &diagonal(&masses), 3) {
             Err(Error::NotPositiveDefinite { what, dof }) => {
                 assert_eq!((what, dof), ("dynamic mass", expected));
@@ -41,7 +45,12 @@ fn nan_and_infinity_name_their_entry() {
     let mut stiffness = identity(3);
     stiffness[(2, 1)] = f64::NAN;
     match solve(&stiffness, &identity(3), 3) {
-        Err(Error::NotFinite { what, row, column, value }) => {
+        Err(Error::NotFinite {
+            what,
+            row,
+            column,
+            value,
+        }) => {
             assert_eq!((what, row, column), ("dynamic stiffness", 2, 1));
             assert!(value.is_nan());
         }
@@ -50,8 +59,16 @@ fn nan_and_infinity_name_their_entry() {
     let mut mass = identity(3);
     mass[(0, 2)] = f64::INFINITY;
     match solve(&identity(3), &mass, 3) {
-        Err(Error::NotFinite { what, row, column, value }) => {
-            assert_eq!((what, row, column, value), ("dynamic mass", 0, 2, f64::INFINITY))
+        Err(Error::NotFinite {
+            what,
+            row,
+            column,
+            value,
+        }) => {
+            assert_eq!(
+                (what, row, column, value),
+                ("dynamic mass", 0, 2, f64::INFINITY)
+            )
         }
         other => panic!("{other:?}"),
     }
@@ -61,14 +78,21 @@ fn nan_and_infinity_name_their_entry() {
 fn an_unsymmetric_matrix_names_the_worst_pair() {
     let stiffness = dmatrix![4.0, 1.0, 0.0; 1.0, 4.0, 0.5; 0.0, 0.9, 4.0];
     match solve(&stiffness, &identity(3), 3) {
-        Err(Error::NotSymmetric { what, row, column, difference }) => {
+        Err(Error::NotSymmetric {
+            what,
+            row,
+            column,
+            difference,
+        }) => {
             assert_eq!((what, row, column), ("dynamic stiffness", 2, 1));
             assert!((difference - 0.1).abs() < f64::EPSILON);
         }
         other => panic!("{other:?}"),
     }
     match solve(&identity(2), &dmatrix![1.0, 0.1; 0.0, 1.0], 2) {
-        Err(Error::NotSymmetric { what, row, column, .. }) => assert_eq!((what, row, column), ("dynamic mass", 1, 0)),
+        Err(Error::NotSymmetric {
+            what, row, column, ..
+        }) => assert_eq!((what, row, column), ("dynamic mass", 1, 0)),
         other => panic!("{other:?}"),
     }
 }
@@ -76,14 +100,32 @@ fn an_unsymmetric_matrix_names_the_worst_pair() {
 #[test]
 fn matrices_of_other_shapes_are_refused() {
     match solve(&DMatrix::zeros(3, 2), &identity(3), 1) {
-        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-            assert_eq!((what, expected_rows, expected_columns, rows, columns), ("dynamic stiffness", 3, 3, 3, 2))
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => {
+            assert_eq!(
+                (what, expected_rows, expected_columns, rows, columns),
+                ("dynamic stiffness", 3, 3, 3, 2)
+            )
         }
         other => panic!("{other:?}"),
     }
     match solve(&identity(3), &identity(2), 1) {
-        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-            assert_eq!((what, expected_rows, expected_columns, rows, columns), ("dynamic mass", 3, 3, 2, 2))
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => {
+            assert_eq!(
+                (what, expected_rows, expected_columns, rows, columns),
+                ("dynamic mass", 3, 3, 2, 2)
+            )
         }
         other => panic!("{other:?}"),
     }
@@ -92,7 +134,11 @@ fn matrices_of_other_shapes_are_refused() {
 #[test]
 fn too_many_modes_or_none_are_refused() {
     match solve(&identity(3), &identity(3), 4) {
-        Err(Error::TooMany { what, available, requested }) => assert_eq!((what, available, requested), ("modes", 3, 4)),
+        Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => assert_eq!((what, available, requested), ("modes", 3, 4)),
         other => panic!("{other:?}"),
     }
     match solve(&identity(3), &identity(3), 0) {
@@ -101,10 +147,17 @@ fn too_many_modes_or_none_are_refused() {
     }
     let modes = solve(&identity(3), &identity(3), 2).unwrap();
     match modes.lowest(3) {
-        Err(Error::TooMany { what, available, requested }) => assert_eq!((what, available, requested), ("modes", 2, 3)),
+        Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }) => assert_eq!((what, available, requested), ("modes", 2, 3)),
         other => panic!("{other:?}"),
     }
-    assert!(matches!(modes.lowest(0), Err(Error::Empty { what: "modes" })));
+    assert!(matches!(
+        modes.lowest(0),
+        Err(Error::Empty { what: "modes" })
+    ));
 }
 
 #[test]
@@ -126,13 +179,24 @@ fn measured_modes_must_fit_together() {
         other => panic!("{other:?}"),
     }
     match ModeSet::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1)) {
-        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-            assert_eq!((what, expected_rows, expected_columns, rows, columns), ("test mode shapes", 3, 2, 3, 1))
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => {
+            assert_eq!(
+                (what, expected_rows, expected_columns, rows, columns),
+                ("test mode shapes", 3, 2, 3, 1)
+            )
         }
         other => panic!("{other:?}"),
     }
     match ModeSet::from_measured(&[1.0], &dmatrix![1.0; f64::NAN]) {
-        Err(Error::NotFinite { what, row, column, .. }) => {
+        Err(Error::NotFinite {
+            what, row, column, ..
+        }) => {
             assert_eq!((what, row, column), ("test mode shapes", 1, 0));
         }
         other => panic!("{other:?}"),
@@ -144,7 +208,10 @@ fn measured_frequencies_must_be_positive() {
     for bad in [0.0, -1.0, f64::INFINITY] {
         match ModeSet::from_measured(&[1.0, bad], &identity(2)) {
             Err(Error::NotPositive { what, owner, value }) => {
-                assert_eq!((what, owner.as_str(), value), ("frequency", "test mode 1 (from zero)", bad))
+                assert_eq!(
+                    (what, owner.as_str(), value),
+                    ("frequency", "test mode 1 (from zero)", bad)
+                )
             }
             other => panic!("{other:?}"),
         }
@@ -159,7 +226,10 @@ fn measured_frequencies_must_be_positive() {
 fn measured_shapes_must_move() {
     match ModeSet::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0]) {
         Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!((what, owner.as_str(), value), ("largest component", "test mode 1 (from zero)", 0.0))
+            assert_eq!(
+                (what, owner.as_str(), value),
+                ("largest component", "test mode 1 (from zero)", 0.0)
+            )
         }
         other => panic!("{other:?}"),
     }
@@ -170,13 +240,25 @@ fn shapes_are_scaled_with_a_mass_that_fits_and_that_they_move() {
     let modes = ModeSet::from_measured(&[1.0, 2.0], &identity(2)).unwrap();
     match modes.scaled_with(&DMatrix::from_diagonal(&dvector![1.0, -4.0])) {
         Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!((what, owner.as_str(), value), ("generalized mass", "test mode 1 (from zero)", -4.0))
+            assert_eq!(
+                (what, owner.as_str(), value),
+                ("generalized mass", "test mode 1 (from zero)", -4.0)
+            )
         }
         other => panic!("{other:?}"),
     }
     match modes.scaled_with(&identity(3)) {
-        Err(Error::WrongShape { what, expected_rows, expected_columns, rows, columns }) => {
-            assert_eq!((what, expected_rows, expected_columns, rows, columns), ("test mode shapes", 3, 2, 2, 2))
+        Err(Error::WrongShape {
+            what,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) => {
+            assert_eq!(
+                (what, expected_rows, expected_columns, rows, columns),
+                ("test mode shapes", 3, 2, 2, 2)
+            )
         }
         other => panic!("{other:?}"),
     }
@@ -184,22 +266,36 @@ fn shapes_are_scaled_with_a_mass_that_fits_and_that_they_move() {
     broken.shapes[(0, 1)] = f64::INFINITY;
     assert!(matches!(
         broken.scaled_with(&identity(2)),
-        Err(Error::NotFinite { what: "test mode shapes", row: 0, column: 1, .. })
+        Err(Error::NotFinite {
+            what: "test mode shapes",
+            row: 0,
+            column: 1,
+            ..
+        })
     ));
 }
 
 #[test]
 fn a_chain_needs_masses_and_springs() {
-    assert!(matches!(uniform_held_modes(0, 1.0, 1.0), Err(Error::Empty { what: "masses" })));
+    assert!(matches!(
+        uniform_held_modes(0, 1.0, 1.0),
+        Err(Error::Empty { what: "masses" })
+    ));
     match uniform_held_modes(2, 0.0, 1.0) {
         Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!((what, owner.as_str(), value), ("stiffness", "the uniform chain", 0.0))
+            assert_eq!(
+                (what, owner.as_str(), value),
+                ("stiffness", "the uniform chain", 0.0)
+            )
         }
         other => panic!("{other:?}"),
     }
     match uniform_held_modes(2, 1.0, -1.0) {
         Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!((what, owner.as_str(), value), ("mass", "the uniform chain", -1.0))
+            assert_eq!(
+                (what, owner.as_str(), value),
+                ("mass", "the uniform chain", -1.0)
+            )
         }
         other => panic!("{other:?}"),
     }
@@ -209,6 +305,15 @@ fn a_chain_needs_masses_and_springs() {
 fn a_frequency_whose_square_is_no_positive_number_is_refused() {
     for frequency in [1e-170, 1e170] {
         let refused = ModeSet::from_measured(&[frequency], &identity(1)).unwrap_err();
-        assert!(matches!(refused, Error::NotPositive { what: "squared frequency", .. }), "{refused:?}");
+        assert!(
+            matches!(
+                refused,
+                Error::NotPositive {
+                    what: "squared frequency",
+                    ..
+                }
+            ),
+            "{refused:?}"
+        );
     }
 }

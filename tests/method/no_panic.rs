@@ -25,7 +25,12 @@ type Answer = Result<Vec<f64>, Error>;
 /// A public function, by its module or type, and a call of it.
 type Entry = (&'static str, fn(&mut Draws) -> Answer);
 
-const LISTS: [&[Entry]; 4] = [matrices::MATRICES, perturbation::PERTURBATION, structures::STRUCTURES, loops::LOOPS];
+const LISTS: [&[Entry]; 4] = [
+    matrices::MATRICES,
+    perturbation::PERTURBATION,
+    structures::STRUCTURES,
+    loops::LOOPS,
+];
 
 /// Public functions that no entry calls by itself: they hand out a part, a length or a name, or put parts together unseen.
 const NOT_CALLED: [&str; 21] = [
@@ -57,7 +62,12 @@ fn entries(matrix: &DMatrix<f64>) -> Vec<f64> {
 }
 
 fn modes(found: &ModeSet) -> Vec<f64> {
-    found.omega_squared.iter().chain(found.shapes.iter()).copied().collect()
+    found
+        .omega_squared
+        .iter()
+        .chain(found.shapes.iter())
+        .copied()
+        .collect()
 }
 
 /// The public functions of a source file: by the type of the `impl` they stand in, or by the file's module.
@@ -66,14 +76,20 @@ fn public_functions(module: &str, source: &str) -> Vec<String> {
     for line in source.lines() {
         if let Some(of) = line.strip_prefix("impl").filter(|of| !of.ends_with("{}")) {
             // Without the parameters of the block itself.
-            let of = of.split_once("> ").filter(|_| of.starts_with('<')).map_or(of, |(_, of)| of);
+            let of = of
+                .split_once("> ")
+                .filter(|_| of.starts_with('<'))
+                .map_or(of, |(_, of)| of);
             let of = of.rsplit(" for ").next().unwrap_or(of).trim();
             owner = of.split(['<', ' ']).next().unwrap_or(of).to_owned();
         } else if line == "}" {
             owner = module.to_owned();
         }
         if let Some(rest) = line.trim_start().strip_prefix("pub fn ") {
-            found.push(format!("{owner}::{}", rest.split(['(', '<']).next().unwrap_or(rest)));
+            found.push(format!(
+                "{owner}::{}",
+                rest.split(['(', '<']).next().unwrap_or(rest)
+            ));
         }
     }
     found
@@ -83,32 +99,62 @@ fn public_functions(module: &str, source: &str) -> Vec<String> {
 fn uncalled<'a>(functions: &'a [String], entries: &str, excused: &[&str]) -> Vec<&'a str> {
     let is_called = |function: &str| {
         let name = function.rsplit("::").next().unwrap_or(function);
-        let entry = entries.split("\n    (\"").find(|entry| entry.starts_with(&format!("{function}\"")));
+        let entry = entries
+            .split("\n    (\"")
+            .find(|entry| entry.starts_with(&format!("{function}\"")));
         entry.is_some_and(|entry| entry.contains(&format!("{name}(")))
     };
     let is_missing = |function: &&str| !excused.contains(function) && !is_called(function);
-    functions.iter().map(String::as_str).filter(is_missing).collect()
+    functions
+        .iter()
+        .map(String::as_str)
+        .filter(is_missing)
+        .collect()
 }
 
 #[test]
 fn every_public_function_of_the_method_is_called() {
     let mut functions = Vec::new();
     for file in files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/method")) {
-        let stem = |path: &Path| path.file_stem().expect("a name").to_string_lossy().into_owned();
-        let module = if stem(&file) == "mod" { stem(file.parent().expect("a folder")) } else { stem(&file) };
-        functions.extend(public_functions(&module, &fs::read_to_string(&file).expect("it reads")));
+        let stem = |path: &Path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        };
+        let module = if stem(&file) == "mod" {
+            stem(file.parent().expect("a folder"))
+        } else {
+            stem(&file)
+        };
+        functions.extend(public_functions(
+            &module,
+            &fs::read_to_string(&file).expect("it reads"),
+        ));
     }
-    assert!(functions.len() > 80, "only {} public functions were found", functions.len());
+    assert!(
+        functions.len() > 80,
+        "only {} public functions were found",
+        functions.len()
+    );
     let tests = ["matrices", "perturbation", "structures", "loops"];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/method/no_panic");
-    let texts = tests.map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).expect("it reads"));
+    let texts = tests
+        .map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).expect("it reads"));
     let missing = uncalled(&functions, &texts.concat(), &NOT_CALLED);
-    assert!(missing.is_empty(), "of {} public functions nobody calls {missing:?}", functions.len());
+    assert!(
+        missing.is_empty(),
+        "of {} public functions nobody calls {missing:?}",
+        functions.len()
+    );
     let known = |name: &&str| functions.iter().any(|function| function == name);
     let called = LISTS.iter().copied().flatten().map(|(name, _)| *name);
     // What stands on the method in other rooms may be called beside it.
     let of_method = called.filter(|name| !name.starts_with("WholeModel::"));
-    let gone: Vec<&str> = of_method.chain(NOT_CALLED).filter(|name| !known(name)).collect();
+    let gone: Vec<&str> = of_method
+        .chain(NOT_CALLED)
+        .filter(|name| !known(name))
+        .collect();
     assert!(gone.is_empty(), "no longer public functions: {gone:?}");
 }
 
@@ -118,18 +164,32 @@ fn the_list_finds_a_function_that_is_not_called() {
     let functions = public_functions("room", source);
     assert_eq!(functions, ["room::free", "Box::held", "room::last"]);
     let entries = "x = [\n    (\"room::free\", |d| free(d)),\n    (\"Box::held\", |d| other(d)),\n";
-    assert_eq!(uncalled(&functions, entries, &["room::last"]), ["Box::held"]);
-    assert_eq!(public_functions("a", "impl fmt::Display for Verdict {\n    pub fn b() {}\n"), ["Verdict::b"]);
+    assert_eq!(
+        uncalled(&functions, entries, &["room::last"]),
+        ["Box::held"]
+    );
+    assert_eq!(
+        public_functions("a", "impl fmt::Display for Verdict {\n    pub fn b() {}\n"),
+        ["Verdict::b"]
+    );
 }
 
 #[test]
 fn no_panic_and_no_answer_that_is_no_number() {
-    let calls = std::env::var("CORFEM_CALLS").ok().and_then(|calls| calls.parse().ok()).unwrap_or(300);
+    let calls = std::env::var("CORFEM_CALLS")
+        .ok()
+        .and_then(|calls| calls.parse().ok())
+        .unwrap_or(300);
     let mut faults = Vec::new();
     let words = std::env::var("CORFEM_ENTRIES").unwrap_or_default();
     let is_asked_for = |name: &str| words.split(',').any(|word| name.contains(word));
     let mut made = 0;
-    for (name, entry) in LISTS.iter().copied().flatten().filter(|(name, _)| is_asked_for(name)) {
+    for (name, entry) in LISTS
+        .iter()
+        .copied()
+        .flatten()
+        .filter(|(name, _)| is_asked_for(name))
+    {
         let mut answers = 0;
         made += calls;
         for seed in 0..calls {
@@ -137,7 +197,11 @@ fn no_panic_and_no_answer_that_is_no_number() {
             match catch_unwind(AssertUnwindSafe(|| entry(&mut draws))) {
                 Err(panic) => {
                     let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
-                    let said = panic.downcast_ref::<String>().cloned().or(said).unwrap_or_default();
+                    let said = panic
+                        .downcast_ref::<String>()
+                        .cloned()
+                        .or(said)
+                        .unwrap_or_default();
                     faults.push(format!("{name}, seed {seed}: panics: {said}"));
                 }
                 Ok(Ok(numbers)) => {
@@ -165,5 +229,10 @@ fn no_panic_and_no_answer_that_is_no_number() {
             first.push(fault.chars().take(200).collect());
         }
     }
-    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), first.join("\n"));
+    assert!(
+        faults.is_empty(),
+        "{} faults:\n{}",
+        faults.len(),
+        first.join("\n")
+    );
 }

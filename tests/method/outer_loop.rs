@@ -20,15 +20,21 @@ fn settings() -> impl Strategy<Value = Settings> {
         (0.005..0.3_f64, 0.005..0.3_f64, 0.005..0.3_f64),
         (0..=3_usize, 0..=4_usize, 0..=8_usize),
     )
-        .prop_map(|(inner, outer, (least_passes, most_passes, iterations))| Settings {
-            inner: InnerSettings { tolerance: inner.0, iterations, ..InnerSettings::default() },
-            later_inner_tolerance: inner.1,
-            error_sum_tolerance: outer.0,
-            frequency_tolerance: outer.1,
-            shape_tolerance: outer.2,
-            least_passes,
-            most_passes,
-        })
+        .prop_map(
+            |(inner, outer, (least_passes, most_passes, iterations))| Settings {
+                inner: InnerSettings {
+                    tolerance: inner.0,
+                    iterations,
+                    ..InnerSettings::default()
+                },
+                later_inner_tolerance: inner.1,
+                error_sum_tolerance: outer.0,
+                frequency_tolerance: outer.1,
+                shape_tolerance: outer.2,
+                least_passes,
+                most_passes,
+            },
+        )
 }
 
 proptest! {

@@ -32,16 +32,31 @@ fn with_settings(change: impl Fn(&mut Settings)) -> Result<Correlation, Error> {
 fn tolerances_must_be_positive() {
     type Setter = fn(&mut Settings, f64);
     let setters: [(&str, Setter); 4] = [
-        ("later_inner_tolerance", |settings, value| settings.later_inner_tolerance = value),
-        ("error_sum_tolerance", |settings, value| settings.error_sum_tolerance = value),
-        ("frequency_tolerance", |settings, value| settings.frequency_tolerance = value),
-        ("shape_tolerance", |settings, value| settings.shape_tolerance = value),
+        ("later_inner_tolerance", |settings, value| {
+            settings.later_inner_tolerance = value
+        }),
+        ("error_sum_tolerance", |settings, value| {
+            settings.error_sum_tolerance = value
+        }),
+        ("frequency_tolerance", |settings, value| {
+            settings.frequency_tolerance = value
+        }),
+        ("shape_tolerance", |settings, value| {
+            settings.shape_tolerance = value
+        }),
     ];
     for (setting, set) in setters {
         for bad in [0.0, -0.1, f64::INFINITY] {
             match with_settings(|settings| set(settings, bad)) {
-                Err(Error::Setting { name, expected, found }) => {
-                    assert_eq!((name, expected, found), (setting, "a positive finite number", bad))
+                Err(Error::Setting {
+                    name,
+                    expected,
+                    found,
+                }) => {
+                    assert_eq!(
+                        (name, expected, found),
+                        (setting, "a positive finite number", bad)
+                    )
                 }
                 other => panic!("{other:?}"),
             }
@@ -61,14 +76,23 @@ fn settings_are_checked_before_any_analysis() {
         &[None; 3],
         |settings| settings.shape_tolerance = -1.0,
     );
-    assert!(matches!(result, Err(Error::Setting { name: "shape_tolerance", .. })));
+    assert!(matches!(
+        result,
+        Err(Error::Setting {
+            name: "shape_tolerance",
+            ..
+        })
+    ));
 }
 
 #[test]
 fn the_inner_loops_errors_are_handed_on() {
     assert!(matches!(
         with_settings(|settings| settings.inner.relaxation = 0.0),
-        Err(Error::Setting { name: "relaxation", .. })
+        Err(Error::Setting {
+            name: "relaxation",
+            ..
+        })
     ));
     assert!(matches!(
         with_settings(|settings| settings.inner.factor_range.lower = 9.0),
@@ -84,7 +108,11 @@ fn errors_of_the_analysis_are_handed_on() {
         let result = correlate_with(
             |factors| {
                 analyses += 1;
-                if analyses > good { Err(Error::ZeroLength(7.0)) } else { analyzed(factors) }
+                if analyses > good {
+                    Err(Error::ZeroLength(7.0))
+                } else {
+                    analyzed(factors)
+                }
             },
             &[None; 3],
             |_| {},
@@ -111,8 +139,16 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
             |_| {},
         );
         match result {
-            Err(Error::WrongShape { what, expected_rows, rows, .. }) => {
-                assert_eq!((what, expected_rows, rows), ("parameter factors", parameter_count, count))
+            Err(Error::WrongShape {
+                what,
+                expected_rows,
+                rows,
+                ..
+            }) => {
+                assert_eq!(
+                    (what, expected_rows, rows),
+                    ("parameter factors", parameter_count, count)
+                )
             }
             other => panic!("{other:?}"),
         }
@@ -121,7 +157,10 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
 
 #[test]
 fn bounds_must_be_in_order() {
-    let crossed = Some(Range { lower: 2.0, upper: 0.5 });
+    let crossed = Some(Range {
+        lower: 2.0,
+        upper: 0.5,
+    });
     let result = correlate_with(analyzed, &[None, None, crossed], |_| {});
     assert!(matches!(
         result,

@@ -11,7 +11,10 @@ use corfem::method::outer_loop::{Settings, correlate};
 #[test]
 fn a_model_that_is_right_needs_no_pass() {
     let chain = Chain::uniform(3);
-    let settings = Settings { least_passes: 0, ..Settings::default() };
+    let settings = Settings {
+        least_passes: 0,
+        ..Settings::default()
+    };
     let found = correlate_chain(&chain, &[1.0; 3], &settings);
     assert!(found.converged);
     assert!(found.passes.is_empty());
@@ -20,7 +23,10 @@ fn a_model_that_is_right_needs_no_pass() {
 
 #[test]
 fn a_pass_without_a_step_is_the_last() {
-    let settings = Settings { least_passes: 3, ..Settings::default() };
+    let settings = Settings {
+        least_passes: 3,
+        ..Settings::default()
+    };
     let found = correlate_chain(&Chain::uniform(3), &[1.0; 3], &settings);
     assert_eq!(found.passes.len(), 1);
     assert!(found.converged);
@@ -36,7 +42,10 @@ fn every_tolerance_counts() {
     // One pass; the errors it leaves meet every tolerance just above them, and none just below any one.
     let (chain, truth) = (Chain::uniform(3), [1.3, 0.8, 1.1]);
     let once = |change: &dyn Fn(&mut Settings)| {
-        let mut settings = Settings { most_passes: 1, ..Settings::default() };
+        let mut settings = Settings {
+            most_passes: 1,
+            ..Settings::default()
+        };
         change(&mut settings);
         correlate_chain(&chain, &truth, &settings)
     };
@@ -62,26 +71,45 @@ fn every_tolerance_counts() {
 fn passes_after_the_first_have_their_own_tolerance() {
     let chain = Chain::uniform(4);
     let settings = Settings {
-        inner: InnerSettings { tolerance: 0.1, ..InnerSettings::default() },
+        inner: InnerSettings {
+            tolerance: 0.1,
+            ..InnerSettings::default()
+        },
         later_inner_tolerance: 0.02,
         least_passes: 2,
         most_passes: 2,
         ..Settings::default()
     };
     let found = correlate_chain(&chain, &[1.4, 0.8, 1.2, 0.7], &settings);
-    let sums: Vec<f64> = found.passes.iter().map(|pass| pass.inner.last.errors.sum()).collect();
+    let sums: Vec<f64> = found
+        .passes
+        .iter()
+        .map(|pass| pass.inner.last.errors.sum())
+        .collect();
     // As the sums of nine modes: four are compared.
     assert!(1.5 * sums[0] < 0.1 && 1.5 * sums[0] > 0.02);
     assert!(1.5 * sums[1] < 0.02);
-    assert!(found.passes.iter().all(|pass| pass.inner.stop == Stop::Tolerance));
+    assert!(
+        found
+            .passes
+            .iter()
+            .all(|pass| pass.inner.stop == Stop::Tolerance)
+    );
 }
 
 #[test]
 fn the_most_passes_have_the_last_word() {
-    let settings = Settings { least_passes: 5, most_passes: 2, ..Settings::default() };
+    let settings = Settings {
+        least_passes: 5,
+        most_passes: 2,
+        ..Settings::default()
+    };
     let found = correlate_chain(&Chain::uniform(3), &[1.3, 0.8, 1.1], &settings);
     assert_eq!(found.passes.len(), 2);
-    let none = Settings { most_passes: 0, ..settings };
+    let none = Settings {
+        most_passes: 0,
+        ..settings
+    };
     let found = correlate_chain(&Chain::uniform(3), &[1.3, 0.8, 1.1], &none);
     assert!(found.passes.is_empty() && !found.converged);
     assert_eq!(found.best_factors, [1.0; 3]);
@@ -141,7 +169,13 @@ fn the_box_needs_a_second_pass_because_b_was_frozen() {
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     let ranges = model.factor_ranges().unwrap();
-    let found = correlate(|f| model.analyze(f, &test, None), &ranges, &case.settings, |_, _| {}).unwrap();
+    let found = correlate(
+        |f| model.analyze(f, &test, None),
+        &ranges,
+        &case.settings,
+        |_, _| {},
+    )
+    .unwrap();
     let [first, second] = &found.passes[..] else {
         panic!("{} passes", found.passes.len());
     };
@@ -169,8 +203,18 @@ fn of_equal_passes_the_first_is_best() {
     let chain = Chain::uniform(3);
     let model = chain.model(&[1.0; 3]);
     let test = chain.modes(&[1.3, 0.8, 1.1]);
-    let settings = Settings { least_passes: 2, most_passes: 2, ..Settings::default() };
-    let found = correlate(|_| model.analyze(&test, None), &[None; 3], &settings, |_, _| {}).unwrap();
+    let settings = Settings {
+        least_passes: 2,
+        most_passes: 2,
+        ..Settings::default()
+    };
+    let found = correlate(
+        |_| model.analyze(&test, None),
+        &[None; 3],
+        &settings,
+        |_, _| {},
+    )
+    .unwrap();
     assert_eq!(found.passes.len(), 2);
     for pass in &found.passes {
         assert_eq!(pass.check.errors, found.initial.errors);

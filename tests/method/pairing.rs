@@ -1,6 +1,8 @@
 //! Mode sorting (4): every test mode gets its own analysis mode, whatever the order and signs they come in.
 
-use crate::common::pairings::{cross, cross_with_ties, noisy_pairs, pairs_by_sorting, rearrangement};
+use crate::common::pairings::{
+    cross, cross_with_ties, noisy_pairs, pairs_by_sorting, rearrangement,
+};
 use crate::common::strategies::orthogonal;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain, pencil};
@@ -176,7 +178,10 @@ fn a_shape_without_a_sign_keeps_its_own() {
 
 #[test]
 fn cross_orthogonality_by_hand() {
-    let modes = |shapes: DMatrix<f64>| ModeSet { omega_squared: DVector::from_element(shapes.ncols(), 1.0), shapes };
+    let modes = |shapes: DMatrix<f64>| ModeSet {
+        omega_squared: DVector::from_element(shapes.ncols(), 1.0),
+        shapes,
+    };
     let analysis = modes(dmatrix![1.0, 2.0, 0.0; 0.0, 1.0, -1.0]);
     let test = modes(dmatrix![3.0; 5.0]);
     let mass = dmatrix![2.0, 1.0; 1.0, 4.0];
@@ -187,8 +192,14 @@ fn cross_orthogonality_by_hand() {
 
 #[test]
 fn paired_by_hand() {
-    let analysis = ModeSet { omega_squared: dvector![1.0, 4.0, 9.0], shapes: dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0] };
-    let pairing = Pairing { analysis_mode: vec![2, 0], sign: vec![-1.0, 1.0] };
+    let analysis = ModeSet {
+        omega_squared: dvector![1.0, 4.0, 9.0],
+        shapes: dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0],
+    };
+    let pairing = Pairing {
+        analysis_mode: vec![2, 0],
+        sign: vec![-1.0, 1.0],
+    };
     let paired = paired(&analysis, &pairing).unwrap();
     assert_eq!(paired.omega_squared, dvector![9.0, 1.0]);
     assert_eq!(paired.shapes, dmatrix![-3.0, 1.0; -6.0, 4.0]);

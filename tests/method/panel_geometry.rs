@@ -72,8 +72,9 @@ proptest! {
 
 #[test]
 fn a_panel_needs_area() {
-    let kite =
-        |width: f64| [(-3.0, 0.0), (0.0, -width), (3.0, 0.0), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 0.0));
+    let kite = |width: f64| {
+        [(-3.0, 0.0), (0.0, -width), (3.0, 0.0), (0.0, width)].map(|(x, y)| Vector3::new(x, y, 0.0))
+    };
     for start in 0..4 {
         let numbered = |width: f64| {
             let corners = kite(width);
@@ -99,17 +100,22 @@ fn a_panel_needs_area() {
 #[test]
 fn a_corner_is_straight_within_one_part_in_ten_to_the_tenth() {
     let bent = |height: f64| {
-        mean_plane(&[(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, height)].map(|(x, y)| Vector3::new(x, y, 0.0)))
+        mean_plane(
+            &[(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, height)]
+                .map(|(x, y)| Vector3::new(x, y, 0.0)),
+        )
     };
     assert!(matches!(bent(0.7e-10), Err(Error::NotConvex(4))));
     assert!(bent(1.5e-10).is_ok());
-    let repeated = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
+    let repeated =
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
     assert!(matches!(mean_plane(&repeated), Err(Error::NotConvex(2))));
 }
 
 #[test]
 fn a_triangle_needs_area() {
-    let corners = |height: f64| [(0.0, 0.0), (1.0, 0.0), (0.5, height)].map(|(x, y)| Vector3::new(x, y, 0.0));
+    let corners =
+        |height: f64| [(0.0, 0.0), (1.0, 0.0), (0.5, height)].map(|(x, y)| Vector3::new(x, y, 0.0));
     for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
         let numbered = |height: f64| triangle(order.map(|k| corners(height)[k]), &steel());
         for height in [0.0, 1.5e-10] {
@@ -127,7 +133,8 @@ fn a_triangle_needs_area() {
 #[test]
 fn a_plane_frame_of_reference_is_right_handed() {
     // The reversed square is seen from the other side, so that its corners still run counterclockwise.
-    let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vector3::new(x, y, 5.0));
+    let square =
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vector3::new(x, y, 5.0));
     let [a, b, c, d] = square;
     for corners in [[a, b, c, d], [a, d, c, b]] {
         let plane = mean_plane(&corners).unwrap();

@@ -10,7 +10,11 @@ const MOST_POINTS: usize = 24;
 
 /// Integral of s^degree from −1 to 1.
 fn monomial(degree: usize) -> f64 {
-    if degree.is_multiple_of(2) { 2.0 / (degree + 1) as f64 } else { 0.0 }
+    if degree.is_multiple_of(2) {
+        2.0 / (degree + 1) as f64
+    } else {
+        0.0
+    }
 }
 
 fn integrate(rule: &[(f64, f64)], function: impl Fn(f64) -> f64) -> f64 {
@@ -24,7 +28,10 @@ fn rules_are_exact_to_degree_2n_minus_1_and_no_further() {
         assert_eq!(rule.len(), count);
         for degree in 0..2 * count {
             let error = integrate(&rule, |s| s.powi(degree as i32)) - monomial(degree);
-            assert!(error.abs() <= ROUND_OFF, "{count} points, degree {degree}: {error:e}");
+            assert!(
+                error.abs() <= ROUND_OFF,
+                "{count} points, degree {degree}: {error:e}"
+            );
         }
         // The first error is known: 2^(2n+1) n!^4 / ((2n+1) (2n)!^2) for the monomial of degree 2n.
         let known = (1..=count).fold(2.0 / (2 * count + 1) as f64, |product, k| {
@@ -32,7 +39,10 @@ fn rules_are_exact_to_degree_2n_minus_1_and_no_further() {
             product * (2.0 * k * k / (2.0 * k * (2.0 * k - 1.0))).powi(2)
         });
         let error = monomial(2 * count) - integrate(&rule, |s| s.powi(2 * count as i32));
-        assert!((error - known).abs() <= ROUND_OFF, "{count} points: {error:e}, not {known:e}");
+        assert!(
+            (error - known).abs() <= ROUND_OFF,
+            "{count} points: {error:e}, not {known:e}"
+        );
     }
 }
 
@@ -48,12 +58,24 @@ fn rules_equal_golub_and_welsch() {
             jacobi[(k, k - 1)] = beside;
         }
         let eigen = jacobi.symmetric_eigen();
-        let mut expected: Vec<(f64, f64)> =
-            (0..count).map(|k| (eigen.eigenvalues[k], 2.0 * eigen.eigenvectors[(0, k)].powi(2))).collect();
+        let mut expected: Vec<(f64, f64)> = (0..count)
+            .map(|k| {
+                (
+                    eigen.eigenvalues[k],
+                    2.0 * eigen.eigenvectors[(0, k)].powi(2),
+                )
+            })
+            .collect();
         expected.sort_by(|a, b| a.0.total_cmp(&b.0));
         for ((point, weight), (s, w)) in gauss_legendre(count).into_iter().zip(expected) {
-            assert!((point - s).abs() <= ROUND_OFF, "{count} points: {point} {s}");
-            assert!((weight - w).abs() <= ROUND_OFF, "{count} points: {weight} {w}");
+            assert!(
+                (point - s).abs() <= ROUND_OFF,
+                "{count} points: {point} {s}"
+            );
+            assert!(
+                (weight - w).abs() <= ROUND_OFF,
+                "{count} points: {weight} {w}"
+            );
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Singular structures: whatever nothing holds is named, and nothing that is held is refused.
 
 use crate::common::nastran95::boxes;
-use crate::common::structures::{as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod};
+use crate::common::structures::{
+    as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod,
+};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
 use corfem::method::error::Error;
 use corfem::method::factorization::FactorizedStiffness;
@@ -12,13 +14,20 @@ use proptest::prelude::*;
 /// What a singular structure is refused with: its grid, direction and ratio.
 fn refusal(structure: &Structure) -> (usize, char, f64) {
     match factorized(structure) {
-        Err(Error::SingularStiffness { grid, direction, ratio }) => (grid, direction, ratio),
+        Err(Error::SingularStiffness {
+            grid,
+            direction,
+            ratio,
+        }) => (grid, direction, ratio),
         other => panic!("expected a singular stiffness, found {other:?}"),
     }
 }
 
 fn row_of(structure: &Structure, grid: usize, direction: char) -> usize {
-    let direction = DIRECTIONS.iter().position(|&name| name == direction).unwrap();
+    let direction = DIRECTIONS
+        .iter()
+        .position(|&name| name == direction)
+        .unwrap();
     structure.free_dof_index(grid, direction).unwrap()
 }
 
@@ -66,14 +75,19 @@ proptest! {
 #[test]
 fn a_dof_without_stiffness_is_refused_by_name() {
     let free_end = |from: [f64; 3]| {
-        let grids = vec![grid(11, from, [true; 3]), grid(12, [1.0, 1.0, 1.0], [false; 3])];
+        let grids = vec![
+            grid(11, from, [true; 3]),
+            grid(12, [1.0, 1.0, 1.0], [false; 3]),
+        ];
         Structure::new(grids, vec![rod(1, [11, 12], 1.0)]).unwrap()
     };
     // A rod along x leaves y and z alone, the first of which is named; one along z leaves x and y.
     assert_eq!(refusal(&free_end([0.0, 1.0, 1.0])), (12, 'y', 0.0));
     assert_eq!(refusal(&free_end([1.0, 1.0, 0.0])), (12, 'x', 0.0));
     assert_eq!(
-        factorized(&free_end([0.0, 1.0, 1.0])).unwrap_err().to_string(),
+        factorized(&free_end([0.0, 1.0, 1.0]))
+            .unwrap_err()
+            .to_string(),
         "stiffness: expected no free motion, found grid 12 free along y (ratio 0.0e0)"
     );
 }
@@ -87,7 +101,10 @@ fn a_box_without_some_of_its_shear_covers_is_a_mechanism() {
         let motions = free_motions(&dense(&structure));
         assert!(motions.ncols() > 0);
         let share = motions.row(row_of(&structure, grid, direction)).norm() / motions.norm();
-        assert!(share * 6.0 > TAKES_PART, "{name}: {grid}{direction} {share:e}");
+        assert!(
+            share * 6.0 > TAKES_PART,
+            "{name}: {grid}{direction} {share:e}"
+        );
         assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
     }
 }
@@ -119,5 +136,14 @@ fn an_indefinite_element_matrix_is_refused() {
     let stiffness = DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 0.0, 2.0, 1.0]);
     let (elements, free) = as_element(&stiffness);
     let refused = FactorizedStiffness::new(&elements, &[1.0], &free);
-    assert!(matches!(refused, Err(Error::NotPositiveDefinite { what: "structural stiffness", dof: 2 })), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Err(Error::NotPositiveDefinite {
+                what: "structural stiffness",
+                dof: 2
+            })
+        ),
+        "{refused:?}"
+    );
 }

@@ -9,7 +9,8 @@ use corfem::method::model::{ModalModel, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
 use corfem::method::step::{
-    Accumulation, LEAST_SHARE, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
+    Accumulation, LEAST_SHARE, Limit, StepRule, limited_factor, stiffness_changes,
+    unlimited_factors,
 };
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
@@ -18,7 +19,10 @@ use proptest::prelude::*;
 /// each other.
 fn changes() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
     (1..=6_usize).prop_flat_map(|count| {
-        (prop::collection::vec(-1e-3..1e-3_f64, count), prop::collection::vec(1e-5..1e-3_f64, count))
+        (
+            prop::collection::vec(-1e-3..1e-3_f64, count),
+            prop::collection::vec(1e-5..1e-3_f64, count),
+        )
     })
 }
 
@@ -118,17 +122,26 @@ fn at_start(model: &ModalModel, errors: &[f64], rule: StepRule) -> Vec<f64> {
 /// A chain of as many springs as parameters are wanted, where their stiffness does not matter.
 fn bare(count: usize) -> ModalModel {
     let chain = Chain::uniform(count);
-    chain.model(&vec![1.0; count]).analyze(&chain.modes(&vec![1.1; count]), None).unwrap()
+    chain
+        .model(&vec![1.0; count])
+        .analyze(&chain.modes(&vec![1.1; count]), None)
+        .unwrap()
 }
 
 /// Three parameters on two test modes: relative stiffnesses (3, 4), (6, 8) with a coupling, and none.
 fn by_hand() -> (ModalModel, Vec<f64>) {
     let chain = Chain::uniform(3);
     let modes = chain.modes(&[1.1; 3]);
-    let two =
-        ModeSet { omega_squared: modes.omega_squared.rows(0, 2).into(), shapes: modes.shapes.columns(0, 2).into() };
+    let two = ModeSet {
+        omega_squared: modes.omega_squared.rows(0, 2).into(),
+        shapes: modes.shapes.columns(0, 2).into(),
+    };
     let mut model = chain.model(&[1.0; 3]).analyze(&two, None).unwrap();
-    model.test_shares = vec![dmatrix![3.0, 1.0; 1.0, 4.0], dmatrix![6.0, 2.0; 2.0, 8.0], DMatrix::zeros(2, 2)];
+    model.test_shares = vec![
+        dmatrix![3.0, 1.0; 1.0, 4.0],
+        dmatrix![6.0, 2.0; 2.0, 8.0],
+        DMatrix::zeros(2, 2),
+    ];
     (model, vec![0.002, -0.001, 0.0])
 }
 
@@ -149,7 +162,10 @@ fn assert_close(found: &[f64], expected: [f64; 3]) {
 fn matrix_is_the_librarys_own_rule_by_hand() {
     // Δk is 0.001 times the roots of 9 + 16 + 1 + 1 and of 36 + 64 + 4 + 4.
     let (first, second) = (27_f64.sqrt(), 108_f64.sqrt());
-    assert_close(&factors_by_hand(0.5, 0.8, StepRule::Matrix), [1.0 - 0.8 / first, 1.0 + 0.4 / second, 1.0]);
+    assert_close(
+        &factors_by_hand(0.5, 0.8, StepRule::Matrix),
+        [1.0 - 0.8 / first, 1.0 + 0.4 / second, 1.0],
+    );
     assert_eq!(StepRule::default(), StepRule::Matrix);
 }
 
@@ -162,21 +178,27 @@ fn own_is_the_diagonal_alone_by_hand() {
 #[test]
 fn relative_is_the_change_itself_by_hand() {
     // Δk is 0.001 for each, also for one that no mode feels.
-    assert_close(&factors_by_hand(0.5, 0.8, StepRule::Relative), [0.2, 1.4, 1.0]);
+    assert_close(
+        &factors_by_hand(0.5, 0.8, StepRule::Relative),
+        [0.2, 1.4, 1.0],
+    );
 }
 
 #[test]
 fn gage_is_in_hundredths_of_an_inch_by_hand() {
     let (mut model, errors) = by_hand();
     model.sizes = vec![0.02, 0.005, 0.01];
-    let changes = stiffness_changes(&model, &[1.0; 3], &[1.5, 1.0, 1.0], &errors, StepRule::Gage).unwrap();
+    let changes =
+        stiffness_changes(&model, &[1.0; 3], &[1.5, 1.0, 1.0], &errors, StepRule::Gage).unwrap();
     assert_close(&changes, [0.003, 0.0005, 0.001]);
 }
 
 #[test]
 fn changes_of_stiffness_follow_the_shares_and_changes_of_gage_the_gages() {
     let (model, errors) = by_hand();
-    let by = |rule| stiffness_changes(&model, &[2.0, 0.5, 1.0], &[3.0, 3.0, 3.0], &errors, rule).unwrap();
+    let by = |rule| {
+        stiffness_changes(&model, &[2.0, 0.5, 1.0], &[3.0, 3.0, 3.0], &errors, rule).unwrap()
+    };
     assert_close(&by(StepRule::Own), [0.010, 0.005, 0.0]);
     assert_close(&by(StepRule::Gage), [0.003, 0.003, 0.003]);
     assert_close(&by(StepRule::Relative), [0.001, 0.001, 0.001]);
@@ -191,13 +213,19 @@ fn a_sum_over_modes_by_hand() {
 #[test]
 fn steepest_descent_by_hand() {
     // The slopes are 2, -1 and 0, and the sum of their squares 5: 1 - 0.5 · 2/5 and 1 + 0.5 · 1/5.
-    assert_close(&factors_by_hand(0.5, 1.0, StepRule::SteepestDescent), [0.8, 1.1, 1.0]);
+    assert_close(
+        &factors_by_hand(0.5, 1.0, StepRule::SteepestDescent),
+        [0.8, 1.1, 1.0],
+    );
 }
 
 #[test]
 fn a_parameter_without_stiffness_keeps_one() {
     // Also when round-off gives it a derivative.
-    assert_eq!(unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0), [1.0, 1.0]);
+    assert_eq!(
+        unlimited_factors(&[1e-18, 0.0], &[0.0, 0.0], 0.5, 1.0),
+        [1.0, 1.0]
+    );
     let model = bare(2);
     let flat = at_start(&model, &[0.0, 0.0], StepRule::SteepestDescent);
     assert_eq!(unlimited_factors(&[0.0, 0.0], &flat, 0.5, 1.0), [1.0, 1.0]);
@@ -205,8 +233,14 @@ fn a_parameter_without_stiffness_keeps_one() {
 
 #[test]
 fn limits_by_hand() {
-    let factor_range = Range { lower: 0.5, upper: 1.5 };
-    let total_range = Some(Range { lower: 0.7, upper: 1.3 });
+    let factor_range = Range {
+        lower: 0.5,
+        upper: 1.5,
+    };
+    let total_range = Some(Range {
+        lower: 0.7,
+        upper: 1.3,
+    });
     for ((total, base, step, range), expected) in [
         // Nothing in the way, also at the very ends.
         ((1.2, 2.0, 1.25, None), (1.5, Limit::None)),
@@ -226,7 +260,10 @@ fn limits_by_hand() {
         ((1.0, 1.0, 9.0, total_range), (1.3, Limit::Total)),
         ((1.0, 1.0, 0.1, total_range), (0.7, Limit::Total)),
         // The iteration's alone where the total's leaves room.
-        ((0.8, 1.0, 9.0, total_range), (1.2000000000000002, Limit::Factor)),
+        (
+            (0.8, 1.0, 9.0, total_range),
+            (1.2000000000000002, Limit::Factor),
+        ),
     ] {
         let found = limited_factor(step, 1.0, total, base, factor_range, range);
         assert_eq!(found, expected, "{total} {base} {step} {range:?}");
@@ -236,7 +273,10 @@ fn limits_by_hand() {
 #[test]
 fn a_halving_shortens_the_limited_step() {
     // However far beyond the bound the unlimited factor lies: half of the step to 1.5, then a quarter.
-    let factor_range = Range { lower: 0.5, upper: 1.5 };
+    let factor_range = Range {
+        lower: 0.5,
+        upper: 1.5,
+    };
     for unlimited in [1.6, 103.0, 1e9] {
         let by = |fraction| limited_factor(unlimited, fraction, 2.0, 1.0, factor_range, None);
         assert_eq!(by(1.0), (3.0, Limit::Factor));
@@ -251,22 +291,33 @@ fn changes_add_on_the_shares_or_multiply_with_the_gages() {
     let (mut share, mut gage) = (1.0, 1.0);
     for _ in 0..3 {
         let next = 1.5 * gage;
-        assert_eq!(Accumulation::Product.next_share_factor(share, gage, next), next);
+        assert_eq!(
+            Accumulation::Product.next_share_factor(share, gage, next),
+            next
+        );
         share = Accumulation::Sum.next_share_factor(share, gage, next);
         gage = next;
     }
     assert_eq!((share, gage), (2.5, 3.375));
     // Steps of 0.45 less would leave nothing after the third.
-    let down = (0..3).fold(1.0, |share, _| Accumulation::Sum.next_share_factor(share, 1.0, 0.55));
+    let down = (0..3).fold(1.0, |share, _| {
+        Accumulation::Sum.next_share_factor(share, 1.0, 0.55)
+    });
     assert_eq!(down, LEAST_SHARE);
     // What is left of a share may not be less than that, even where it is more than nothing.
-    assert_eq!(Accumulation::Sum.next_share_factor(0.4504, 1.0, 0.55), LEAST_SHARE);
+    assert_eq!(
+        Accumulation::Sum.next_share_factor(0.4504, 1.0, 0.55),
+        LEAST_SHARE
+    );
     assert_eq!(Accumulation::default(), Accumulation::Sum);
 }
 
 #[test]
 fn crossed_ranges_do_not_panic() {
-    let crossed = Range { lower: 2.0, upper: 1.0 };
+    let crossed = Range {
+        lower: 2.0,
+        upper: 1.0,
+    };
     let (next, _) = limited_factor(1.5, 1.0, 1.0, 1.0, crossed, Some(crossed));
     assert!(next.is_finite());
 }
@@ -275,7 +326,13 @@ fn crossed_ranges_do_not_panic() {
 fn ranges_are_of_positive_finite_numbers_in_order() {
     let range = Range::positive("gage", 0.007, 0.013).unwrap();
     assert_eq!((range.lower, range.upper), (0.007, 0.013));
-    for (low, high) in [(0.0, 1.0), (-1.0, 1.0), (1.0, 1.0), (2.0, 1.0), (1.0, f64::INFINITY)] {
+    for (low, high) in [
+        (0.0, 1.0),
+        (-1.0, 1.0),
+        (1.0, 1.0),
+        (2.0, 1.0),
+        (1.0, f64::INFINITY),
+    ] {
         match Range::positive("gage", low, high) {
             Err(Error::Limits { what, lower, upper }) => {
                 assert_eq!((what.as_str(), lower, upper), ("gage", low, high));

@@ -26,16 +26,24 @@ struct RankOne {
 
 impl RankOne {
     fn matrix(&self, factors: &[f64]) -> DMatrix<f64> {
-        let share = |e: usize| factors[e] * self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose();
+        let share = |e: usize| {
+            factors[e] * self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose()
+        };
         (0..self.vectors.len()).map(share).sum()
     }
 
     fn model(&self) -> (ModalModel, DMatrix<f64>) {
         let ones = vec![1.0; self.vectors.len()];
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&self.mass));
-        let share = |e: usize| Share::Stiffness(self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose());
+        let share = |e: usize| {
+            Share::Stiffness(self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose())
+        };
         let shares = (0..ones.len()).map(share).collect();
-        let model = DynamicModel { stiffness: self.matrix(&ones), mass: mass.clone(), shares };
+        let model = DynamicModel {
+            stiffness: self.matrix(&ones),
+            mass: mass.clone(),
+            shares,
+        };
         let test_stiffness = self.matrix(&self.truth);
         let test = solve(&test_stiffness, &mass, self.mass.len()).expect("test modes");
         (model.analyze(&test, None).expect("a model"), test_stiffness)
@@ -47,13 +55,25 @@ fn rank_one(more: usize) -> impl Strategy<Value = RankOne> {
     (2..=4_usize).prop_flat_map(move |dof| {
         let count = dof + more;
         let numbers = |low: f64, high: f64, count: usize| prop::collection::vec(low..high, count);
-        (numbers(-1.0, 1.0, dof * count), numbers(50.0, 150.0, count), numbers(0.6, 1.6, count), numbers(0.5, 2.0, dof))
+        (
+            numbers(-1.0, 1.0, dof * count),
+            numbers(50.0, 150.0, count),
+            numbers(0.6, 1.6, count),
+            numbers(0.5, 2.0, dof),
+        )
             .prop_map(move |(entries, stiffness, truth, mass)| {
                 // Unit vectors on the diagonal keep the elements independent.
                 let vector = |e: usize| {
-                    DVector::from_fn(dof, |i, _| 0.3 * entries[e * dof + i] + f64::from(u8::from(i == e % dof)))
+                    DVector::from_fn(dof, |i, _| {
+                        0.3 * entries[e * dof + i] + f64::from(u8::from(i == e % dof))
+                    })
                 };
-                RankOne { vectors: (0..count).map(vector).collect(), stiffness, truth, mass }
+                RankOne {
+                    vectors: (0..count).map(vector).collect(),
+                    stiffness,
+                    truth,
+                    mass,
+                }
             })
     })
 }

@@ -16,10 +16,18 @@ use nalgebra::DMatrix;
 fn first_step_over_newtons(modes: usize, measure: ErrorMeasure) -> f64 {
     let chain = Chain::uniform(modes);
     let whole = chain.model(&vec![1.0; modes]);
-    let model = DynamicModel { shares: vec![Share::Stiffness(whole.stiffness.clone())], ..whole };
+    let model = DynamicModel {
+        shares: vec![Share::Stiffness(whole.stiffness.clone())],
+        ..whole
+    };
     let test = solve(&(1.1 * &model.stiffness), &model.mass, modes).expect("modes");
     let problem = model.analyze(&test, None).expect("a model");
-    let settings = InnerSettings { measure, first_relaxation: 1.0, iterations: 1, ..InnerSettings::default() };
+    let settings = InnerSettings {
+        measure,
+        first_relaxation: 1.0,
+        iterations: 1,
+        ..InnerSettings::default()
+    };
     let run = run(&problem, &[1.0], &[None], &settings).expect("a step");
     (run.first_unlimited_factors[0] - 1.0) / 0.1
 }
@@ -28,7 +36,12 @@ fn first_step_over_newtons(modes: usize, measure: ErrorMeasure) -> f64 {
 fn the_first_step_does_not_depend_on_how_many_modes_are_compared() {
     let of = |modes| first_step_over_newtons(modes, ErrorMeasure::NineModes);
     for modes in [1, 4, 16, 36, 64] {
-        assert!((of(modes) / of(9) - 1.0).abs() < 1e3 * ROUND_OFF, "{modes}: {} for {}", of(modes), of(9));
+        assert!(
+            (of(modes) / of(9) - 1.0).abs() < 1e3 * ROUND_OFF,
+            "{modes}: {} for {}",
+            of(modes),
+            of(9)
+        );
     }
     // As a sum it grows with the square root of their number, and is the same for nine.
     let sum = |modes| first_step_over_newtons(modes, ErrorMeasure::Sum);
@@ -46,7 +59,11 @@ fn doubled(model: &DynamicModel) -> DynamicModel {
         twice
     };
     let shares = model.shares.iter().map(|share| share.map(twice)).collect();
-    DynamicModel { stiffness: twice(&model.stiffness), mass: twice(&model.mass), shares }
+    DynamicModel {
+        stiffness: twice(&model.stiffness),
+        mass: twice(&model.mass),
+        shares,
+    }
 }
 
 #[test]
@@ -54,15 +71,27 @@ fn doubling_every_test_mode_changes_neither_factors_nor_stop() {
     // Shapes are right here: each of the doubled ones has zeros at half of the DOF, which would halve their mean square.
     let chain = Chain::uniform(3);
     let one = chain.model(&[1.0; 3]);
-    let one = DynamicModel { shares: vec![Share::Stiffness(one.stiffness.clone())], ..one };
+    let one = DynamicModel {
+        shares: vec![Share::Stiffness(one.stiffness.clone())],
+        ..one
+    };
     let by = |model: &DynamicModel| {
-        let test = both_copies(&solve(&(1.2 * &one.stiffness), &one.mass, 3).expect("modes"), model.mass.nrows() / 3);
+        let test = both_copies(
+            &solve(&(1.2 * &one.stiffness), &one.mass, 3).expect("modes"),
+            model.mass.nrows() / 3,
+        );
         let problem = model.analyze(&test, None).expect("a model");
-        let settings = InnerSettings { step: StepRule::Own, ..InnerSettings::default() };
+        let settings = InnerSettings {
+            step: StepRule::Own,
+            ..InnerSettings::default()
+        };
         run(&problem, &[1.0], &[None], &settings).expect("it runs")
     };
     let (once, twice) = (by(&one), by(&doubled(&one)));
-    assert_eq!((once.stop, once.iterations.len()), (twice.stop, twice.iterations.len()));
+    assert_eq!(
+        (once.stop, once.iterations.len()),
+        (twice.stop, twice.iterations.len())
+    );
     assert_eq!(once.stop, Stop::Tolerance);
     assert!((once.factors[0] / twice.factors[0] - 1.0).abs() < 1e4 * ROUND_OFF);
 }
@@ -73,7 +102,9 @@ fn both_copies(modes: &ModeSet, copies: usize) -> ModeSet {
     let mut shapes = DMatrix::zeros(copies * dof, copies * count);
     let mut frequencies = Vec::new();
     for copy in 0..copies {
-        shapes.view_mut((copy * dof, copy * count), (dof, count)).copy_from(&modes.shapes);
+        shapes
+            .view_mut((copy * dof, copy * count), (dof, count))
+            .copy_from(&modes.shapes);
         frequencies.extend(modes.frequencies_hz());
     }
     ModeSet::from_measured(&frequencies, &shapes).expect("modes")
@@ -82,17 +113,32 @@ fn both_copies(modes: &ModeSet, copies: usize) -> ModeSet {
 #[test]
 fn a_test_in_other_units_still_descends() {
     // Frequencies three times and 2π times the right ones: every element asks for far more than its bound.
-    for (times, stated, below) in [(3.0, "1.82", 1.75), (2.0 * std::f64::consts::PI, "2.45", 2.40)] {
+    for (times, stated, below) in [
+        (3.0, "1.82", 1.75),
+        (2.0 * std::f64::consts::PI, "2.45", 2.40),
+    ] {
         let case = Case::new(2).expect("a case");
         let model = case.model().expect("a model");
         let test = case.test_modes().expect("modes");
         let hz: Vec<f64> = test.frequencies_hz().iter().map(|hz| times * hz).collect();
         let test = ModeSet::from_measured(&hz, &test.shapes).expect("modes");
-        let settings = Settings { most_passes: 2, ..case.settings.clone() };
-        let found = correlate(|factors| model.analyze(factors, &test, None), &[None; 15], &settings, |_, _| {})
-            .expect("it runs");
+        let settings = Settings {
+            most_passes: 2,
+            ..case.settings.clone()
+        };
+        let found = correlate(
+            |factors| model.analyze(factors, &test, None),
+            &[None; 15],
+            &settings,
+            |_, _| {},
+        )
+        .expect("it runs");
         let start = found.initial.errors.sum();
-        let sums: Vec<f64> = found.passes.iter().map(|pass| pass.inner.last.errors.sum()).collect();
+        let sums: Vec<f64> = found
+            .passes
+            .iter()
+            .map(|pass| pass.inner.last.errors.sum())
+            .collect();
         assert_eq!(format!("{start:.2}"), stated);
         assert!(sums[0] < below && sums[0] < start, "{start} {sums:?}");
         assert!(found.passes[0].inner.iterations.len() > 1 && sums[1] <= sums[0]);
@@ -104,11 +150,20 @@ fn a_test_in_other_units_still_descends() {
 fn masses_a_thousand_times_too_large_still_descend() {
     let case = Case::new(1).expect("a case");
     let mut heavy = case.clone();
-    heavy.reconstruction.masses.iter_mut().for_each(|mass| *mass *= 1000.0);
+    heavy
+        .reconstruction
+        .masses
+        .iter_mut()
+        .for_each(|mass| *mass *= 1000.0);
     let model = heavy.model().expect("a model");
     let test = case.test_modes().expect("modes");
-    let found = correlate(|factors| model.analyze(factors, &test, None), &[None; 15], &Settings::default(), |_, _| {})
-        .expect("it runs");
+    let found = correlate(
+        |factors| model.analyze(factors, &test, None),
+        &[None; 15],
+        &Settings::default(),
+        |_, _| {},
+    )
+    .expect("it runs");
     let start = found.initial.errors.sum();
     let first = &found.passes[0].inner;
     assert!(first.last.errors.sum() < start && !first.iterations.is_empty());
@@ -118,7 +173,11 @@ fn masses_a_thousand_times_too_large_still_descend() {
 fn halvings_shorten_the_step_that_is_taken() {
     // However far the factor lies beyond its bound, each trial is half as long as the one before.
     let problem = first_problem(4);
-    let settings = InnerSettings { step: StepRule::Own, iterations: 1, ..InnerSettings::default() };
+    let settings = InnerSettings {
+        step: StepRule::Own,
+        iterations: 1,
+        ..InnerSettings::default()
+    };
     let run = run(&problem, &[1.0; 15], &[None; 15], &settings).expect("a step");
     let record = &run.iterations[0];
     assert!(record.unlimited_factors[7] > 50.0);

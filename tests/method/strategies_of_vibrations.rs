@@ -5,7 +5,9 @@ use crate::common::log_log_slope;
 use crate::common::loops::given;
 use crate::common::pairings::{counts, cross, noisy_pairs, rearrangement};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{any_change, chain, chain_and_truth, full_change, modes_by_nalgebra, pencil};
+use crate::common::vibrations::{
+    any_change, chain, chain_and_truth, full_change, modes_by_nalgebra, pencil,
+};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
@@ -124,7 +126,10 @@ proptest! {
 
 #[test]
 fn rearranged_columns_by_hand() {
-    let change = crate::common::pairings::Rearrangement { order: vec![2, 0], sign: vec![-1.0, 1.0] };
+    let change = crate::common::pairings::Rearrangement {
+        order: vec![2, 0],
+        sign: vec![-1.0, 1.0],
+    };
     let found = change.columns(&dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0]);
     assert_eq!(found, dmatrix![-3.0, 1.0; -6.0, 4.0]);
 }

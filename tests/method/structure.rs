@@ -2,7 +2,9 @@
 
 use crate::common::tolerances::ROUND_OFF;
 use corfem::method::error::Error;
-use corfem::method::structure::{DIRECTIONS, Element, ElementKind, Grid, Material, StructuralDof, Structure};
+use corfem::method::structure::{
+    DIRECTIONS, Element, ElementKind, Grid, Material, StructuralDof, Structure,
+};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -11,11 +13,21 @@ fn aluminum() -> Material {
 }
 
 fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
-    Grid { label, position: position.into(), constrained }
+    Grid {
+        label,
+        position: position.into(),
+        constrained,
+    }
 }
 
 fn element(label: usize, kind: ElementKind, grids: &[usize]) -> Element {
-    Element { label, kind, grids: grids.to_vec(), size: 0.5, material: aluminum() }
+    Element {
+        label,
+        kind,
+        grids: grids.to_vec(),
+        size: 0.5,
+        material: aluminum(),
+    }
 }
 
 /// A square of four grids out of numerical order, its base constrained in part, with one element of each kind.
@@ -45,14 +57,27 @@ fn refusal(change: impl Fn(&mut Vec<Grid>, &mut Vec<Element>)) -> Error {
 fn free_dof_run_grid_by_grid_as_given_x_before_y_before_z() {
     let (grids, elements) = square();
     let structure = Structure::new(grids.clone(), elements.clone()).unwrap();
-    let expected =
-        [(3, 0), (3, 2), (5, 0), (5, 1), (5, 2), (2, 1)].map(|(grid, direction)| StructuralDof { grid, direction });
+    let expected = [(3, 0), (3, 2), (5, 0), (5, 1), (5, 2), (2, 1)]
+        .map(|(grid, direction)| StructuralDof { grid, direction });
     assert_eq!(structure.free_dof(), expected);
     for (row, dof) in expected.iter().enumerate() {
         assert_eq!(structure.free_dof_index(dof.grid, dof.direction), Some(row));
     }
-    for (grid, direction) in [(7, 0), (7, 1), (7, 2), (3, 1), (2, 0), (2, 2), (5, 3), (8, 0)] {
-        assert_eq!(structure.free_dof_index(grid, direction), None, "{grid} {direction}");
+    for (grid, direction) in [
+        (7, 0),
+        (7, 1),
+        (7, 2),
+        (3, 1),
+        (2, 0),
+        (2, 2),
+        (5, 3),
+        (8, 0),
+    ] {
+        assert_eq!(
+            structure.free_dof_index(grid, direction),
+            None,
+            "{grid} {direction}"
+        );
     }
     assert_eq!(structure.grids(), grids);
     assert_eq!(structure.elements(), elements);
@@ -63,28 +88,69 @@ fn free_dof_run_grid_by_grid_as_given_x_before_y_before_z() {
 fn corners_are_the_positions_of_an_elements_grids_in_its_order() {
     let (grids, elements) = square();
     let structure = Structure::new(grids, elements.clone()).unwrap();
-    assert_eq!(structure.corners(&elements[0]), [Vector3::zeros(), Vector3::new(1.0, 1.0, 0.0)]);
-    let membrane: Vec<[f64; 3]> = structure.corners(&elements[2]).iter().map(|c| (*c).into()).collect();
-    assert_eq!(membrane, [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    assert_eq!(
+        structure.corners(&elements[0]),
+        [Vector3::zeros(), Vector3::new(1.0, 1.0, 0.0)]
+    );
+    let membrane: Vec<[f64; 3]> = structure
+        .corners(&elements[2])
+        .iter()
+        .map(|c| (*c).into())
+        .collect();
+    assert_eq!(
+        membrane,
+        [
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0]
+        ]
+    );
 }
 
 #[test]
 fn kinds_know_their_corners() {
-    let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
+    let kinds = [
+        ElementKind::Rod,
+        ElementKind::Triangle,
+        ElementKind::ShearPanel,
+        ElementKind::Membrane,
+    ];
     assert_eq!(kinds.map(ElementKind::corner_count), [2, 3, 4, 4]);
 }
 
 #[test]
 fn a_structure_without_elements_is_refused() {
-    assert!(matches!(refusal(|_, elements| elements.clear()), Error::Empty { what: "elements" }));
+    assert!(matches!(
+        refusal(|_, elements| elements.clear()),
+        Error::Empty { what: "elements" }
+    ));
 }
 
 #[test]
 fn repeated_numbers_are_refused_by_name() {
     let refused = refusal(|grids, _| grids[3].label = 3);
-    assert!(matches!(refused, Error::Duplicate { what: "grid", label: 3 }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::Duplicate {
+                what: "grid",
+                label: 3
+            }
+        ),
+        "{refused:?}"
+    );
     let refused = refusal(|_, elements| elements[2].label = 9);
-    assert!(matches!(refused, Error::Duplicate { what: "element", label: 9 }), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Error::Duplicate {
+                what: "element",
+                label: 9
+            }
+        ),
+        "{refused:?}"
+    );
 }
 
 #[test]
@@ -94,27 +160,56 @@ fn an_unknown_grid_is_refused_with_the_element_that_asks_for_it() {
         matches!(&refused, Error::Unknown { owner, what: "grid", label: 8 } if owner == "element 4"),
         "{refused:?}"
     );
-    assert_eq!(refused.to_string(), "element 4: expected an existing grid, found grid 8, which is not defined");
+    assert_eq!(
+        refused.to_string(),
+        "element 4: expected an existing grid, found grid 8, which is not defined"
+    );
 }
 
 #[test]
 fn the_wrong_number_of_grids_is_refused_within_its_element() {
     let refused = refusal(|_, elements| elements[2].grids.truncate(3));
-    let Error::InElement { element: 6, source } = refused else { panic!("{refused:?}") };
-    assert!(matches!(*source, Error::WrongCornerCount { expected: 4, found: 3 }), "{source:?}");
+    let Error::InElement { element: 6, source } = refused else {
+        panic!("{refused:?}")
+    };
+    assert!(
+        matches!(
+            *source,
+            Error::WrongCornerCount {
+                expected: 4,
+                found: 3
+            }
+        ),
+        "{source:?}"
+    );
 }
 
 #[test]
 fn a_coordinate_that_is_not_finite_is_refused_by_its_place() {
     for value in [f64::NAN, f64::INFINITY] {
         let refused = refusal(|grids, _| grids[2].position.y = value);
-        assert!(matches!(refused, Error::NotFinite { what: "grid coordinates", row: 2, column: 1, .. }), "{refused:?}");
+        assert!(
+            matches!(
+                refused,
+                Error::NotFinite {
+                    what: "grid coordinates",
+                    row: 2,
+                    column: 1,
+                    ..
+                }
+            ),
+            "{refused:?}"
+        );
     }
 }
 
 #[test]
 fn a_gage_or_area_that_is_not_positive_is_refused_by_its_element() {
-    for (row, what, owner) in [(0, "area", "element 9"), (1, "gage", "element 4"), (2, "gage", "element 6")] {
+    for (row, what, owner) in [
+        (0, "area", "element 9"),
+        (1, "gage", "element 4"),
+        (2, "gage", "element 6"),
+    ] {
         for value in [0.0, -0.01, f64::NAN, f64::INFINITY] {
             let refused = refusal(|_, elements| elements[row].size = value);
             let named = matches!(&refused, Error::NotPositive { what: w, owner: o, value: v }
@@ -132,14 +227,19 @@ fn a_gage_or_area_that_is_not_positive_is_refused_by_its_element() {
 fn a_material_that_cannot_be_is_refused_by_its_element() {
     let with = |change: fn(&mut Material)| {
         let refused = refusal(|_, elements| change(&mut elements[1].material));
-        assert!(matches!(refused, Error::InElement { element: 4, .. }), "{refused:?}");
+        assert!(
+            matches!(refused, Error::InElement { element: 4, .. }),
+            "{refused:?}"
+        );
         refused.to_string()
     };
-    let message = "element 4: Young's modulus of the material: expected a positive finite number, found NaN";
+    let message =
+        "element 4: Young's modulus of the material: expected a positive finite number, found NaN";
     assert_eq!(with(|material| material.youngs_modulus = f64::NAN), message);
     let message = "element 4: shear modulus of the material: expected a positive finite number, found -4000000";
     assert_eq!(with(|material| material.shear_modulus = -4e6), message);
-    let message = "element 4: density of the material: expected a positive finite number, found -0.5";
+    let message =
+        "element 4: density of the material: expected a positive finite number, found -0.5";
     assert_eq!(with(|material| material.density = -0.5), message);
     let message = "element 4: Poisson's ratio: expected more than -1 and at most 0.5, found 0.6";
     assert_eq!(with(|material| material.poissons_ratio = 0.6), message);
@@ -156,7 +256,14 @@ fn an_isotropic_material_needs_a_positive_modulus_and_a_stable_poissons_ratio() 
     }
     for value in [-1.0, -2.0, 0.5 + 1e-12, f64::NAN] {
         let refused = Material::isotropic(1e7, value);
-        let Err(Error::Setting { name: "Poisson's ratio", found, .. }) = refused else { panic!("{refused:?}") };
+        let Err(Error::Setting {
+            name: "Poisson's ratio",
+            found,
+            ..
+        }) = refused
+        else {
+            panic!("{refused:?}")
+        };
         assert_eq!(found.to_bits(), value.to_bits());
     }
     assert!(Material::isotropic(1e7, 0.5).is_ok());

@@ -50,11 +50,18 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         size,
         material,
     };
-    let mut elements: Vec<Element> =
-        areas.iter().enumerate().map(|(k, &area)| rod(k + 1, [k + 1, k + 2], area)).collect();
+    let mut elements: Vec<Element> = areas
+        .iter()
+        .enumerate()
+        .map(|(k, &area)| rod(k + 1, [k + 1, k + 2], area))
+        .collect();
     if support == Support::SoftSuspension {
         for (label, joint, x) in [(101, 1, 0.0), (102, 6, 70.0)] {
-            grids.push(Grid { label, position: Vector3::new(x, 0.0, 0.0), constrained: [true; 3] });
+            grids.push(Grid {
+                label,
+                position: Vector3::new(x, 0.0, 0.0),
+                constrained: [true; 3],
+            });
             elements.push(rod(label, [joint, label], SOFT_AREA));
         }
     }
@@ -65,13 +72,18 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         structure,
         DMatrix::identity(free.len(), free.len()),
         DMatrix::from_diagonal(&DVector::from_vec(masses)),
-        (1..=5).map(|label| Parameter::element(label, None)).collect(),
+        (1..=5)
+            .map(|label| Parameter::element(label, None))
+            .collect(),
     )
 }
 
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
 fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
-    let truth = chain(TRUE_AREAS, support).expect("a chain").matrices(&[1.0; 5]).expect("held");
+    let truth = chain(TRUE_AREAS, support)
+        .expect("a chain")
+        .matrices(&[1.0; 5])
+        .expect("held");
     let count = truth.mass.nrows();
     let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
     let test = ModeSet {
@@ -79,13 +91,21 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
         shapes: all.shapes.columns(rigid, count - rigid).into_owned(),
     };
     let model = chain(MODEL_AREAS, support).expect("a chain");
-    let mut settings = Settings { least_passes: 3, ..Settings::default() };
+    let mut settings = Settings {
+        least_passes: 3,
+        ..Settings::default()
+    };
     // Exact test modes of a small chain: ask for more than the paper did.
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
     let ranges = model.factor_ranges().expect("no bounds");
-    let result =
-        correlate(|factors| model.analyze(factors, &test, None), &ranges, &settings, |_, _| {}).expect("it runs");
+    let result = correlate(
+        |factors| model.analyze(factors, &test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )
+    .expect("it runs");
     (result, all.into())
 }
 
@@ -94,7 +114,10 @@ fn assert_areas_found(result: &Correlation) {
     let last = result.passes.last().expect("a pass");
     for ((factor, model), truth) in last.factors.iter().zip(MODEL_AREAS).zip(TRUE_AREAS) {
         let area = factor * model;
-        assert!((area / truth - 1.0).abs() < RECOVERED_AREA, "{area} for {truth}");
+        assert!(
+            (area / truth - 1.0).abs() < RECOVERED_AREA,
+            "{area} for {truth}"
+        );
     }
 }
 
@@ -124,17 +147,31 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
     // The test has five modes and the model six: the lowest, rigid one answers none of them.
     assert_eq!(result.initial.modes.len(), 6);
     let last = result.passes.last().expect("a pass");
-    assert!(last.check.pairing.analysis_mode.iter().all(|&mode| mode != 0));
+    assert!(
+        last.check
+            .pairing
+            .analysis_mode
+            .iter()
+            .all(|&mode| mode != 0)
+    );
 }
 
 #[test]
 fn chain_that_nothing_holds_is_refused() {
     let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
-    let grids = model.structure().grids().iter().map(|grid| Grid { constrained: [false, true, true], ..grid.clone() });
-    let free = Structure::new(grids.collect(), model.structure().elements().to_vec()).expect("a structure");
+    let grids = model.structure().grids().iter().map(|grid| Grid {
+        constrained: [false, true, true],
+        ..grid.clone()
+    });
+    let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
+        .expect("a structure");
     let mass = DMatrix::from_diagonal(&DVector::from_row_slice(&MASSES));
     let parameters = vec![Parameter::element(1, None)];
-    let model = FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
+    let model =
+        FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
     let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
-    assert!(matches!(error, Error::SingularStiffness { direction: 'x', .. }), "{error}");
+    assert!(
+        matches!(error, Error::SingularStiffness { direction: 'x', .. }),
+        "{error}"
+    );
 }

@@ -20,51 +20,110 @@ fn chain_with(change: impl Fn(&mut Settings)) -> Correlation {
 #[test]
 fn every_outcome_is_said_as_what_it_is() {
     let within = chain_with(|_| {}).verdict;
-    assert_eq!((within.outcome, within.is_within), (Outcome::Tolerance, true));
-    assert!(within.to_string().starts_with("Within tolerance: error sum "));
+    assert_eq!(
+        (within.outcome, within.is_within),
+        (Outcome::Tolerance, true)
+    );
+    assert!(
+        within
+            .to_string()
+            .starts_with("Within tolerance: error sum ")
+    );
     let capped = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
     });
-    assert_eq!((capped.verdict.outcome, capped.verdict.is_within), (Outcome::Cap, false));
-    assert!(capped.verdict.to_string().contains("Try more iterations or passes."));
+    assert_eq!(
+        (capped.verdict.outcome, capped.verdict.is_within),
+        (Outcome::Cap, false)
+    );
+    assert!(
+        capped
+            .verdict
+            .to_string()
+            .contains("Try more iterations or passes.")
+    );
     let none = chain_with(|settings| settings.most_passes = 0);
-    assert_eq!((none.verdict.outcome, none.verdict.is_within), (Outcome::Nothing, false));
-    assert!(none.verdict.to_string().starts_with("Nothing could be done"));
+    assert_eq!(
+        (none.verdict.outcome, none.verdict.is_within),
+        (Outcome::Nothing, false)
+    );
+    assert!(
+        none.verdict
+            .to_string()
+            .starts_with("Nothing could be done")
+    );
     // Bounds that hold the truth out end in a local minimum at the bound.
-    let (chain, ranges) = (Chain::uniform(3), [Some(Range { lower: 0.9, upper: 1.1 }), None, None]);
+    let (chain, ranges) = (
+        Chain::uniform(3),
+        [
+            Some(Range {
+                lower: 0.9,
+                upper: 1.1,
+            }),
+            None,
+            None,
+        ],
+    );
     let test = chain.modes(&TRUTH);
-    let settings = Settings { error_sum_tolerance: 1e-3, ..Settings::default() };
-    let held = correlate(|factors| chain.model(factors).analyze(&test, None), &ranges, &settings, |_, _| {}).unwrap();
-    assert_eq!((held.verdict.outcome, held.verdict.is_within), (Outcome::LocalMinimum, false));
+    let settings = Settings {
+        error_sum_tolerance: 1e-3,
+        ..Settings::default()
+    };
+    let held = correlate(
+        |factors| chain.model(factors).analyze(&test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )
+    .unwrap();
+    assert_eq!(
+        (held.verdict.outcome, held.verdict.is_within),
+        (Outcome::LocalMinimum, false)
+    );
     assert_eq!(held.verdict.at_bound, [0]);
-    let words = held.verdict.in_words(&["wall".to_owned(), "b".to_owned(), "c".to_owned()]);
-    assert!(words.starts_with("Stopped at a local minimum, outside tolerance") && words.contains("At a bound: wall."));
+    let words = held
+        .verdict
+        .in_words(&["wall".to_owned(), "b".to_owned(), "c".to_owned()]);
+    assert!(
+        words.starts_with("Stopped at a local minimum, outside tolerance")
+            && words.contains("At a bound: wall.")
+    );
 }
 
 #[test]
 fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
-    let settings = Settings { least_passes: 1, ..Settings::default() };
+    let settings = Settings {
+        least_passes: 1,
+        ..Settings::default()
+    };
     let found = correlate_chain(&Chain::uniform(3), &[1.0; 3], &settings).verdict;
-    assert_eq!((found.outcome, found.is_within), (Outcome::LocalMinimum, true));
+    assert_eq!(
+        (found.outcome, found.is_within),
+        (Outcome::LocalMinimum, true)
+    );
 }
 
 #[test]
 fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
     let found = chain_with(|settings| settings.inner.iterations = 2);
-    let best = found.best.map_or(&found.initial, |pass| &found.passes[pass].check);
+    let best = found
+        .best
+        .map_or(&found.initial, |pass| &found.passes[pass].check);
     let test = Chain::uniform(3).modes(&TRUTH);
     let each = mode_errors(&best.modes, &best.pairing, &test).unwrap();
     let whole = errors(&best.modes, &best.pairing, &test).unwrap();
-    let sum =
-        |of: fn(&corfem::method::error_sum::ModeError) -> f64| each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt();
+    let sum = |of: fn(&corfem::method::error_sum::ModeError) -> f64| {
+        each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt()
+    };
     assert!((sum(|e| e.frequency) - whole.frequency).abs() <= ROUND_OFF);
     assert!((sum(|e| e.shape) - whole.shape).abs() <= ROUND_OFF);
     let size = |mode: usize| each[mode].frequency.powi(2) + each[mode].shape.powi(2);
     assert!((0..3).all(|mode| size(mode) <= size(found.verdict.worst_mode)));
     let (worst, expected) = (found.verdict.worst, each[found.verdict.worst_mode]);
     assert!(
-        (worst.frequency - expected.frequency).abs() <= ROUND_OFF && (worst.shape - expected.shape).abs() <= ROUND_OFF
+        (worst.frequency - expected.frequency).abs() <= ROUND_OFF
+            && (worst.shape - expected.shape).abs() <= ROUND_OFF
     );
 }
 
@@ -82,31 +141,68 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
     };
     let found = correlate(analyze, &[None; 4], &Settings::default(), |_, _| {}).unwrap();
     assert_eq!(found.verdict.unseen, [3]);
-    assert!(found.verdict.to_string().contains("Hardly seen by the test modes, and so not to be trusted: 4."));
+    assert!(
+        found
+            .verdict
+            .to_string()
+            .contains("Hardly seen by the test modes, and so not to be trusted: 4.")
+    );
 }
 
 #[test]
 fn case_4_is_never_called_within_tolerance() {
     let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
-    assert_eq!((result.correlation.verdict.outcome, result.correlation.converged), (Outcome::Cap, false));
+    assert_eq!(
+        (
+            result.correlation.verdict.outcome,
+            result.correlation.converged
+        ),
+        (Outcome::Cap, false)
+    );
 }
 
 /// What to try next goes by why the correlation ended, and nothing is to be tried once the model is within tolerance.
 #[test]
 fn advice_goes_by_the_outcome() {
     let says = |outcome, is_within, at_bound: &[usize]| {
-        let worst = ModeError { frequency: 0.01, shape: 0.02 };
+        let worst = ModeError {
+            frequency: 0.01,
+            shape: 0.02,
+        };
         let at_bound = at_bound.to_vec();
-        Verdict { outcome, is_within, error_sum: 0.03, worst_mode: 0, worst, at_bound, unseen: Vec::new() }.to_string()
+        Verdict {
+            outcome,
+            is_within,
+            error_sum: 0.03,
+            worst_mode: 0,
+            worst,
+            at_bound,
+            unseen: Vec::new(),
+        }
+        .to_string()
     };
     for (outcome, at_bound, advice) in [
         (Outcome::Cap, vec![0], "Try more iterations or passes."),
-        (Outcome::Nothing, vec![0], "Look for a mistake in the test's units"),
+        (
+            Outcome::Nothing,
+            vec![0],
+            "Look for a mistake in the test's units",
+        ),
         (Outcome::LocalMinimum, vec![0], "Try wider bounds"),
-        (Outcome::LocalMinimum, vec![], "Try other parameters or groups"),
+        (
+            Outcome::LocalMinimum,
+            vec![],
+            "Try other parameters or groups",
+        ),
     ] {
-        let (outside, within) = (says(outcome, false, &at_bound), says(outcome, true, &at_bound));
+        let (outside, within) = (
+            says(outcome, false, &at_bound),
+            says(outcome, true, &at_bound),
+        );
         assert!(outside.contains(advice), "{outside}");
-        assert!(!within.contains(advice) && !within.contains("Try"), "{within}");
+        assert!(
+            !within.contains(advice) && !within.contains("Try"),
+            "{within}"
+        );
     }
 }

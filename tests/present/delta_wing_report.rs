@@ -9,12 +9,15 @@ use corfem::method::model::Check;
 use corfem::present::render::{csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::delta_wing::delta_wing_tables;
-use corfem::studies::delta_wing::correlation::{GROUPS, TEST_MODES, WingCorrelation, correlate_wing};
+use corfem::studies::delta_wing::correlation::{
+    GROUPS, TEST_MODES, WingCorrelation, correlate_wing,
+};
 use corfem::studies::delta_wing::{DeltaWing, TipLoad};
 use serde_json::Value;
 use std::sync::LazyLock;
 
-static RUN: LazyLock<WingCorrelation> = LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+static RUN: LazyLock<WingCorrelation> =
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")
@@ -27,8 +30,10 @@ fn tables() -> Vec<Table> {
 #[test]
 fn wing_as_tables() {
     let tables = tables();
-    let names: Vec<(&str, usize, usize)> =
-        tables.iter().map(|table| (table.name.as_str(), table.rows.len(), table.columns.len())).collect();
+    let names: Vec<(&str, usize, usize)> = tables
+        .iter()
+        .map(|table| (table.name.as_str(), table.rows.len(), table.columns.len()))
+        .collect();
     assert_eq!(
         names,
         [
@@ -40,7 +45,11 @@ fn wing_as_tables() {
             ("delta_wing_passes", 3, 4),
         ]
     );
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
     let rounded = Numbers::AS_WRITTEN;
     assert_golden("delta_wing", &csv(&tables), numbers);
     assert_golden("delta_wing_text", &text(&tables), rounded);
@@ -62,7 +71,10 @@ fn corfem(arguments: &[&str]) -> Vec<u8> {
 fn command_writes_every_format() {
     let expect = |text: String| text.into_bytes();
     assert_eq!(corfem(&[]), expect(text(&tables())));
-    assert_eq!(corfem(&["--format", "markdown"]), expect(markdown(&tables())));
+    assert_eq!(
+        corfem(&["--format", "markdown"]),
+        expect(markdown(&tables()))
+    );
     let numbers = csv(&tables());
     assert_eq!(corfem(&["--format", "csv"]), expect(numbers.clone()));
     assert!(numbers.lines().all(|line| line.split(',').count() == 6));
@@ -70,11 +82,20 @@ fn command_writes_every_format() {
     let file = folder.path().join("wing.json");
     let name = file.to_str().expect("a name");
     assert!(corfem(&["--format", "json", "--output", name]).is_empty());
-    let json: Value = serde_json::from_slice(&std::fs::read(&file).expect("written")).expect("JSON");
+    let json: Value =
+        serde_json::from_slice(&std::fs::read(&file).expect("written")).expect("JSON");
     let correlation = &json["correlation"];
     assert_eq!(
-        (&json["program"], &json["version"], &correlation["converged"]),
-        (&"corfem".into(), &env!("CARGO_PKG_VERSION").into(), &true.into())
+        (
+            &json["program"],
+            &json["version"],
+            &correlation["converged"]
+        ),
+        (
+            &"corfem".into(),
+            &env!("CARGO_PKG_VERSION").into(),
+            &true.into()
+        )
     );
     for (key, count) in [
         ("measured_grids", 9),
@@ -86,8 +107,16 @@ fn command_writes_every_format() {
     ] {
         assert_eq!(json[key].as_array().map(Vec::len), Some(count), "{key}");
     }
-    for (key, count) in [("parameters", 21), ("test_frequencies_hz", 10), ("passes", 3)] {
-        assert_eq!(correlation[key].as_array().map(Vec::len), Some(count), "{key}");
+    for (key, count) in [
+        ("parameters", 21),
+        ("test_frequencies_hz", 10),
+        ("passes", 3),
+    ] {
+        assert_eq!(
+            correlation[key].as_array().map(Vec::len),
+            Some(count),
+            "{key}"
+        );
     }
     for (key, load) in [
         ("trailing_edge_load_deflections_in", TipLoad::TrailingEdge),
@@ -98,14 +127,23 @@ fn command_writes_every_format() {
     let run = &*RUN;
     let whole = wing().modes().expect("modes").modes;
     assert_numbers(&json["frequencies_hz"], &whole.frequencies_hz());
-    assert_numbers(&correlation["test_frequencies_hz"], &run.test.frequencies_hz());
+    assert_numbers(
+        &correlation["test_frequencies_hz"],
+        &run.test.frequencies_hz(),
+    );
     assert_eq!(json["test_modes"], Value::from(TEST_MODES.to_vec()));
     let documents = json["groups"].as_array().expect("a list");
     let factors = &run.correlation.best_factors;
-    for (((document, group), factor), share) in documents.iter().zip(GROUPS).zip(factors).zip(&run.shares) {
+    for (((document, group), factor), share) in
+        documents.iter().zip(GROUPS).zip(factors).zip(&run.shares)
+    {
         assert_eq!(document["name"], group.name);
         assert_eq!(document["elements"], Value::from(group.elements.to_vec()));
-        for (key, value) in [("true_factor", group.true_factor()), ("factor", *factor), ("largest_share", *share)] {
+        for (key, value) in [
+            ("true_factor", group.true_factor()),
+            ("factor", *factor),
+            ("largest_share", *share),
+        ] {
             assert_numbers(&Value::from(vec![document[key].clone()]), &[value]);
         }
     }
@@ -148,7 +186,19 @@ fn why_a_pass_stopped_is_said_in_words() {
     run.correlation.passes[1].inner.stop = Stop::Iterations;
     let tables = delta_wing_tables(&wing(), &run).expect("tables");
     let passes = tables.iter().find(|table| table.name.contains("passes"));
-    let said: Vec<&Cell> = passes.expect("a table of passes").rows.iter().map(|row| &row.cells[1]).collect();
+    let said: Vec<&Cell> = passes
+        .expect("a table of passes")
+        .rows
+        .iter()
+        .map(|row| &row.cells[1])
+        .collect();
     let word = |word: &str| Cell::Text(word.to_owned());
-    assert_eq!(said, [&word("local minimum"), &word("iterations"), &word("tolerance")]);
+    assert_eq!(
+        said,
+        [
+            &word("local minimum"),
+            &word("iterations"),
+            &word("tolerance")
+        ]
+    );
 }

@@ -13,14 +13,17 @@ use corfem::present::subject::Subject;
 use corfem::present::table::{Cell, Column, Table};
 use corfem::present::tables::cases::{frequency_table, iteration_table};
 use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
-use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+use corfem::studies::matrix_comparison::{
+    MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
+};
 use std::sync::OnceLock;
 
 /// The four cases, run once for all tests of figures.
 pub fn results() -> &'static [CaseResult] {
     static RESULTS: OnceLock<Vec<CaseResult>> = OnceLock::new();
     RESULTS.get_or_init(|| {
-        let run = |number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
+        let run =
+            |number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
         CASES.into_iter().map(run).collect()
     })
 }
@@ -51,7 +54,11 @@ pub fn draw_all() -> Vec<Figure> {
     let mut figures = case_figures(results()).expect("drawn");
     let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
     figures.extend(compared.expect("drawn"));
-    figures.extend(wings().iter().flat_map(|wing| subject_figures(wing).expect("drawn")));
+    figures.extend(
+        wings()
+            .iter()
+            .flat_map(|wing| subject_figures(wing).expect("drawn")),
+    );
     figures
 }
 
@@ -66,7 +73,11 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
     let at = table.columns.iter().position(named).expect("the column");
     let row = table.rows.iter().find(|r| r.label == row).expect("the row");
     match row.cells[at] {
-        Cell::Number { computed, published, .. } => (computed, published),
+        Cell::Number {
+            computed,
+            published,
+            ..
+        } => (computed, published),
         _ => panic!("no number in row {}, column {column}", row.label),
     }
 }
@@ -82,8 +93,16 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
         let root = (9.0_f64).sqrt();
         let same = |errors: &corfem::method::error_sum::Errors, column: &str| {
             let percent = |row| cell(&table, row, column, "%").0;
-            assert_relative_eq!(100.0 * errors.frequency, root * percent("frequency RMS"), max_relative = ROUND_OFF);
-            assert_relative_eq!(100.0 * errors.shape, root * percent("shape RMS"), max_relative = ROUND_OFF);
+            assert_relative_eq!(
+                100.0 * errors.frequency,
+                root * percent("frequency RMS"),
+                max_relative = ROUND_OFF
+            );
+            assert_relative_eq!(
+                100.0 * errors.shape,
+                root * percent("shape RMS"),
+                max_relative = ROUND_OFF
+            );
         };
         let mut iterations = 0;
         for (row, pass) in data.iter().enumerate() {
@@ -99,7 +118,10 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
             iterations += count as usize;
             assert_eq!(pass.inner.len(), count as usize + 1);
             assert_eq!(pass.to(), iterations);
-            assert_eq!(pass.tolerance, Some(if number == 1 { 0.025 } else { 0.015 }));
+            assert_eq!(
+                pass.tolerance,
+                Some(if number == 1 { 0.025 } else { 0.015 })
+            );
             let steps = &result.correlation.passes[row].inner.iterations;
             for (errors, step) in pass.inner[1..].iter().zip(steps) {
                 assert_eq!(*errors, step.errors);
@@ -120,18 +142,32 @@ fn drawn_modes_are_those_of_the_tables() {
         for mode in &modes.modes {
             let row = mode.number.to_string();
             for (hertz, column) in mode.hertz.iter().zip(["GVT", "Initial", &last]) {
-                assert_relative_eq!(*hertz, cell(&table, &row, column, "Hz").0, max_relative = ROUND_OFF);
+                assert_relative_eq!(
+                    *hertz,
+                    cell(&table, &row, column, "Hz").0,
+                    max_relative = ROUND_OFF
+                );
             }
-            let up = |state: usize| mode.moved[state].iter().map(|motion| motion.z).collect::<Vec<_>>();
+            let up = |state: usize| {
+                mode.moved[state]
+                    .iter()
+                    .map(|motion| motion.z)
+                    .collect::<Vec<_>>()
+            };
             for state in 0..3 {
-                let largest = up(state).into_iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+                let largest = up(state)
+                    .into_iter()
+                    .fold(0.0, |most: f64, w| most.max(w.abs()));
                 assert_eq!(largest, 1.0);
                 // Analysis shapes are signed like their test mode.
                 assert!(up(state).iter().zip(up(0)).map(|(a, b)| a * b).sum::<f64>() > 0.0);
             }
         }
         assert!(
-            modes.frame.node_lines(&normal, &modes.modes[0].moved[0]).is_empty(),
+            modes
+                .frame
+                .node_lines(&normal, &modes.modes[0].moved[0])
+                .is_empty(),
             "the first bending mode has none"
         );
     }
@@ -144,7 +180,10 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
         let subject = Subject::of_case(result).expect("a subject");
         let checks = [&result.correlation.initial, subject.corrected()];
         let maps = mode_agreement(&subject).expect("shapes fit");
-        let values: Vec<_> = maps.iter().map(|map| map.values.map(|value| value.expect("a cell"))).collect();
+        let values: Vec<_> = maps
+            .iter()
+            .map(|map| map.values.map(|value| value.expect("a cell")))
+            .collect();
         for (at, check) in checks.into_iter().enumerate() {
             let (cross, assurance) = (&values[at], &values[at + 2]);
             assert_eq!((cross.shape(), assurance.shape()), ((9, 9), (9, 9)));
@@ -155,8 +194,12 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                 assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
                 for i in 0..9 {
                     let (v, w) = (check.modes.shapes.column(i), result.test.shapes.column(j));
-                    let partner =
-                        check.pairing.analysis_mode.iter().position(|&mode| mode == i).expect("all are paired");
+                    let partner = check
+                        .pairing
+                        .analysis_mode
+                        .iter()
+                        .position(|&mode| mode == i)
+                        .expect("all are paired");
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
                     let weighted = check.pairing.sign[partner] * weighted;
                     assert!((cross[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
@@ -173,8 +216,11 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
 #[test]
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
-        let maps = derivatives(&Subject::of_case(result).expect("a subject")).expect("they were taken");
-        let values = maps.each_ref().map(|map| map.values.map(|value| value.expect("a cell")));
+        let maps =
+            derivatives(&Subject::of_case(result).expect("a subject")).expect("they were taken");
+        let values = maps
+            .each_ref()
+            .map(|map| map.values.map(|value| value.expect("a cell")));
         let [frequency, error_sum] = &values;
         assert_eq!((frequency.shape(), error_sum.shape()), ((15, 9), (15, 1)));
         let model = result.case.model().expect("a model");
@@ -185,12 +231,19 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
                 let mut factors = [1.0; 15];
                 factors[e] += step;
                 let dynamic = model.matrices(&factors).expect("analyzed");
-                corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("solved").frequencies_hz()
+                corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9)
+                    .expect("solved")
+                    .frequencies_hz()
             };
             // Fourth-order central difference: the eigenvalues' rounding asks for a step that second order cannot afford.
             const STEP: f64 = 2e-3;
-            let stencil = [(8.0, STEP), (-8.0, -STEP), (-1.0, 2.0 * STEP), (1.0, -2.0 * STEP)]
-                .map(|(weight, step)| (weight, frequencies(step)));
+            let stencil = [
+                (8.0, STEP),
+                (-8.0, -STEP),
+                (-1.0, 2.0 * STEP),
+                (1.0, -2.0 * STEP),
+            ]
+            .map(|(weight, step)| (weight, frequencies(step)));
             for j in 0..9 {
                 let i = start.pairing.analysis_mode[j];
                 let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();
@@ -235,9 +288,17 @@ fn unlimited_factors_are_those_of_the_table_with_the_published_one() {
         let is_faulty = factor.name == "8";
         assert_eq!(factor.published, is_faulty.then_some(60.0));
         assert_eq!(factor.remark, is_faulty.then_some(ANOMALY));
-        let row = table.rows.iter().find(|row| row.label == factor.name).expect("the row");
+        let row = table
+            .rows
+            .iter()
+            .find(|row| row.label == factor.name)
+            .expect("the row");
         let is_within = (0.55..=1.50).contains(&computed);
-        let verdict = if is_within { "within bounds" } else { factor.remark.unwrap_or("limited") };
+        let verdict = if is_within {
+            "within bounds"
+        } else {
+            factor.remark.unwrap_or("limited")
+        };
         assert_eq!(row.cells[1], Cell::text(verdict));
     }
 }

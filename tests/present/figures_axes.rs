@@ -10,7 +10,9 @@ use corfem::present::subject::Subject;
 
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {
-    let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
     let said = words(&draw(&cases).expect("drawn"));
     // Element 8 of Case 4 is a hundred times too thin; the others have 0.010 in.
     assert_eq!(said.iter().filter(|word| *word == "0.0001").count(), 1);
@@ -19,7 +21,11 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
     let mut case = cases[0].clone();
     case.panels.iter_mut().for_each(|panel| panel.gage = 0.001);
     let thin = words(&draw(&[case]).expect("drawn"));
-    assert_eq!(thin.iter().filter(|word| *word == "0.001").count(), 6, "three decimals are enough");
+    assert_eq!(
+        thin.iter().filter(|word| *word == "0.001").count(),
+        6,
+        "three decimals are enough"
+    );
 }
 
 #[test]
@@ -30,7 +36,9 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
         let said = words(&error_history::draw("errors", "errors", history).expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.
         let numbers = said.iter().filter_map(|word| word.parse::<f64>().ok());
-        numbers.filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number)).collect()
+        numbers
+            .filter(|number| [0.1, 0.2, 0.5, 10.0, 20.0, 50.0, 100.0].contains(number))
+            .collect()
     };
     let moments = |history: &[PassHistory]| -> Vec<f64> {
         let passes = history.iter();
@@ -56,13 +64,29 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
     let limits = results()[3].case.settings.inner.factor_range;
-    let factor = |value: f64| Factor { name: "web".to_owned(), value, ..Factor::default() };
-    for (values, lowest) in [([-9.9, 50.0], -20.0), ([-5.0, 50.0], -10.0), ([-0.99, 5.0], -2.0)] {
+    let factor = |value: f64| Factor {
+        name: "web".to_owned(),
+        value,
+        ..Factor::default()
+    };
+    for (values, lowest) in [
+        ([-9.9, 50.0], -20.0),
+        ([-5.0, 50.0], -10.0),
+        ([-0.99, 5.0], -2.0),
+    ] {
         let rows = values.map(factor).to_vec();
         let across = "factor".to_owned();
-        let drawn = Factors { rows, limits: Some(limits), across, decimals: 3, published: "" };
+        let drawn = Factors {
+            rows,
+            limits: Some(limits),
+            across,
+            decimals: 3,
+            published: "",
+        };
         let said = words(&drawn.draw("factors", "factors").expect("drawn"));
-        let labels = said.iter().filter(|word| !word.contains('.') || word.len() < 5);
+        let labels = said
+            .iter()
+            .filter(|word| !word.contains('.') || word.len() < 5);
         let labels = labels.filter_map(|word| word.replace('−', "-").parse::<f64>().ok());
         assert_eq!(labels.fold(0.0, f64::min), lowest, "{said:?}");
     }
@@ -71,7 +95,9 @@ fn factor_axis_leaves_room_for_the_numbers() {
 /// What the legend shows is the color of the panels it speaks of.
 #[test]
 fn legend_of_the_gages_has_the_panels_colors() {
-    let cases: Vec<Case> = (1..=4).map(|case| Case::new(case).expect("a case")).collect();
+    let cases: Vec<Case> = (1..=4)
+        .map(|case| Case::new(case).expect("a case"))
+        .collect();
     let svg = draw(&cases).expect("drawn");
     // The fill of the last polygon before a word.
     let fill = |word: &str| {

@@ -14,7 +14,9 @@ use nalgebra::DVector;
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let case = &results()[0].case;
     let model = case.model().expect("a model");
-    let subject = Subject::of_case(&results()[0]).expect("a subject").on(model.structure());
+    let subject = Subject::of_case(&results()[0])
+        .expect("a subject")
+        .on(model.structure());
     let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
     assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
     for (label, at) in &subject.grids {
@@ -34,7 +36,10 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
             let point = sensor.place.expect("a place");
             assert_eq!((point.z, sensor.direction), (0.0, nalgebra::Vector3::z()));
             let plane = a * point.y - b * point.x + c;
-            assert!((moved - plane).abs() < MATRIX_ROUND_OFF * 40.0, "{moved} for {plane}");
+            assert!(
+                (moved - plane).abs() < MATRIX_ROUND_OFF * 40.0,
+                "{moved} for {plane}"
+            );
         }
     }
 }
@@ -46,7 +51,10 @@ fn box_elements_are_the_models_in_three_layers() {
     let structure = model.structure();
     assert_eq!(structure.elements().len(), 39);
     let on = |layer| {
-        let here = structure.elements().iter().filter(|element| Layer::of(&structure.corners(element)) == layer);
+        let here = structure
+            .elements()
+            .iter()
+            .filter(|element| Layer::of(&structure.corners(element)) == layer);
         here.map(|element| element.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
@@ -64,21 +72,42 @@ fn cover_gages_are_those_of_table_2() {
     let table = PublishedTable::number(2).expect("it reads");
     let names = ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"];
     for (number, name) in names.into_iter().enumerate() {
-        let row = said.iter().position(|word| word.text == name).expect("its row");
+        let row = said
+            .iter()
+            .position(|word| word.text == name)
+            .expect("its row");
         // In every cover its number and kind, and below them its gage.
-        for (pair, label) in said[row + 1..row + 13].chunks_exact(2).zip([2, 4, 8, 9, 11, 15]) {
-            let [above, below] = pair else { panic!("a pair") };
-            assert_eq!(above.bounds[2] < 410.0, [4, 9, 15].contains(&label), "upper covers at the left: {above:?}");
+        for (pair, label) in said[row + 1..row + 13]
+            .chunks_exact(2)
+            .zip([2, 4, 8, 9, 11, 15])
+        {
+            let [above, below] = pair else {
+                panic!("a pair")
+            };
+            assert_eq!(
+                above.bounds[2] < 410.0,
+                [4, 9, 15].contains(&label),
+                "upper covers at the left: {above:?}"
+            );
             assert!(above.bounds[3] <= below.bounds[1]);
-            let (element, gage) = (label.to_string(), below.text.parse::<f64>().expect("a gage"));
+            let (element, gage) = (
+                label.to_string(),
+                below.text.parse::<f64>().expect("a gage"),
+            );
             if number == 0 {
                 assert_eq!((&above.text, gage), (&element, 0.010));
                 continue;
             }
             assert_eq!(Some(gage), table.value(&element, &format!("gage_{number}")));
-            let kind = table.text(&element, &format!("type_{number}")).expect("printed");
+            let kind = table
+                .text(&element, &format!("type_{number}"))
+                .expect("printed");
             assert_eq!(above.text, format!("{element} {kind}"));
         }
     }
-    assert!(!words(&draw(&[]).expect("drawn")).iter().any(|word| word == "GVT"));
+    assert!(
+        !words(&draw(&[]).expect("drawn"))
+            .iter()
+            .any(|word| word == "GVT")
+    );
 }

@@ -12,7 +12,10 @@ use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES};
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {
-    tables.iter().find(|table| table.name == name).expect("the table")
+    tables
+        .iter()
+        .find(|table| table.name == name)
+        .expect("the table")
 }
 
 /// A table's number; nothing for a blank cell.
@@ -28,7 +31,10 @@ fn number(cell: &Cell) -> Option<f64> {
 fn stiffness_changes_are_those_of_the_tables() {
     let maps = stiffness_changes(comparison());
     let names: Vec<&str> = maps.iter().map(|map| map.title.as_str()).collect();
-    assert_eq!(names, ["Truth", "Element factors", "Baruch", "Berman and Nagy"]);
+    assert_eq!(
+        names,
+        ["Truth", "Element factors", "Baruch", "Berman and Nagy"]
+    );
     let tables = matrix_tables(&Case::new(USUAL_CASE).expect("a case"), comparison());
     for map in &maps {
         let name = map.title.to_lowercase().replace(' ', "_");
@@ -56,12 +62,20 @@ fn stiffness_changes_are_those_of_the_tables() {
 fn predictions_are_the_frequency_errors_of_the_tables() {
     let figure = predictions(comparison());
     let tables = matrix_tables(&Case::new(USUAL_CASE).expect("a case"), comparison());
-    for (chart, name) in figure.charts.iter().zip(["matrix_frequencies_as_tested", "matrix_frequencies_after_a_change"])
-    {
+    for (chart, name) in figure.charts.iter().zip([
+        "matrix_frequencies_as_tested",
+        "matrix_frequencies_after_a_change",
+    ]) {
         let table = named(&tables, name);
         let names: Vec<&str> = chart.series.iter().map(|s| s.name.as_str()).collect();
-        assert_eq!(names, ["Initial", "Element factors", "Baruch", "Berman and Nagy"]);
-        assert_eq!((chart.groups.len(), chart.divided.map(|d| d.0)), (9, Some(USUAL_TEST_MODES)));
+        assert_eq!(
+            names,
+            ["Initial", "Element factors", "Baruch", "Berman and Nagy"]
+        );
+        assert_eq!(
+            (chart.groups.len(), chart.divided.map(|d| d.0)),
+            (9, Some(USUAL_TEST_MODES))
+        );
         for series in &chart.series {
             let at = table.columns.iter().position(|c| c.name == series.name);
             let at = at.expect("the model's column");
@@ -89,7 +103,9 @@ fn predictions_are_drawn_for_errors_of_any_size_and_for_no_others() {
     let ticks = |svg: &str| -> Vec<f64> {
         let written = crate::common::drawings::written(svg).into_iter();
         let left = written.filter(|word| word.bounds[2] < 66.0);
-        let numbers: Vec<f64> = left.filter_map(|word| word.text.replace('−', "-").parse().ok()).collect();
+        let numbers: Vec<f64> = left
+            .filter_map(|word| word.text.replace('−', "-").parse().ok())
+            .collect();
         let (one, other) = numbers.split_at(numbers.len() / 2);
         assert_eq!(one, other);
         one.to_vec()
@@ -105,8 +121,16 @@ fn predictions_are_drawn_for_errors_of_any_size_and_for_no_others() {
     let found = ticks(&svg);
     assert!((3..=8).contains(&found.len()), "{found:?}");
     assert!(found.iter().all(|tick| (-0.4..2.2).contains(tick)) && found.contains(&0.0));
-    assert!(!words(&svg).iter().any(|word| word == "not shown to any model"));
-    assert!(words(&drawn(comparison())).iter().any(|word| word == "not shown to any model"));
+    assert!(
+        !words(&svg)
+            .iter()
+            .any(|word| word == "not shown to any model")
+    );
+    assert!(
+        words(&drawn(comparison()))
+            .iter()
+            .any(|word| word == "not shown to any model")
+    );
     // As far down as up.
     for prediction in &mut small.predictions {
         prediction.as_tested.fill(-0.02);
@@ -141,8 +165,11 @@ fn truncation_costs_are_those_of_the_tables() {
         }
     }
     // A pair that was not run has no cell.
-    let runs: Vec<FewerModesRun> =
-        fewer_modes_runs().iter().filter(|run| (run.test_modes, run.analysis_modes) != (2, 3)).cloned().collect();
+    let runs: Vec<FewerModesRun> = fewer_modes_runs()
+        .iter()
+        .filter(|run| (run.test_modes, run.analysis_modes) != (2, 3))
+        .cloned()
+        .collect();
     assert_eq!(truncation(&runs)[0].values[(1, 2)], None);
     assert!(truncation(&[])[0].values.is_empty());
 }

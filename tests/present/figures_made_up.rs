@@ -15,32 +15,68 @@ use nalgebra::DMatrix;
 
 /// A spread between two ends; what the figure does not draw is left at zero.
 pub fn spread(ends: [f64; 2], quantiles: [f64; 3], bars: &[usize]) -> Spread {
-    Spread { mean: 0.0, deviation: 0.0, quantiles, ends, bars: bars.to_vec() }
+    Spread {
+        mean: 0.0,
+        deviation: 0.0,
+        quantiles,
+        ends,
+        bars: bars.to_vec(),
+    }
 }
 
 pub fn summary(spreads: Vec<(&str, Option<Spread>)>) -> Summary {
-    let spreads = spreads.into_iter().map(|(name, spread)| (name.to_owned(), spread)).collect();
-    Summary { spreads, within: 0, outside: 0, failed: Vec::new() }
+    let spreads = spreads
+        .into_iter()
+        .map(|(name, spread)| (name.to_owned(), spread))
+        .collect();
+    Summary {
+        spreads,
+        within: 0,
+        outside: 0,
+        failed: Vec::new(),
+    }
 }
 
 #[test]
 fn histograms_of_few_samples() {
     let summary = summary(vec![
-        ("spar web", Some(spread([0.8, 1.3], [0.82, 1.01, 1.29], &[1, 0, 4, 2, 3]))),
+        (
+            "spar web",
+            Some(spread([0.8, 1.3], [0.82, 1.01, 1.29], &[1, 0, 4, 2, 3])),
+        ),
         ("all alike", Some(spread([1.25, 1.25], [1.25; 3], &[7]))),
         ("every sample failed", None),
-        ("far apart", Some(spread([-12.0, 30.0], [-11.0, 2.0, 29.0], &[9, 3, 1]))),
-        ("close", Some(spread([0.999, 1.0], [0.9991, 0.9995, 0.9999], &[2, 2]))),
+        (
+            "far apart",
+            Some(spread([-12.0, 30.0], [-11.0, 2.0, 29.0], &[9, 3, 1])),
+        ),
+        (
+            "close",
+            Some(spread([0.999, 1.0], [0.9991, 0.9995, 0.9999], &[2, 2])),
+        ),
     ]);
     let drawn = histogram::draw("histogram", "Samples", &summary).expect("drawn");
     // As many decimals as tell the ends apart: of a thousandth four, of forty none.
-    assert!(words(&drawn).iter().any(|word| word.starts_with("0.999") && word.len() == 6), "{:?}", words(&drawn));
-    assert!(words(&drawn).iter().any(|word| word == "20") && !words(&drawn).iter().any(|word| word == "20.0"));
+    assert!(
+        words(&drawn)
+            .iter()
+            .any(|word| word.starts_with("0.999") && word.len() == 6),
+        "{:?}",
+        words(&drawn)
+    );
+    assert!(
+        words(&drawn).iter().any(|word| word == "20")
+            && !words(&drawn).iter().any(|word| word == "20.0")
+    );
     assert_golden("drawing_histogram", &drawn, Numbers::AS_WRITTEN);
 }
 
 fn factor(name: &str, value: f64) -> Factor {
-    Factor { name: name.to_owned(), value, ..Factor::default() }
+    Factor {
+        name: name.to_owned(),
+        value,
+        ..Factor::default()
+    }
 }
 
 #[test]
@@ -48,24 +84,69 @@ fn factors_with_bounds_deviations_and_remarks() {
     let range = |lower, upper| Some(Range { lower, upper });
     let long = "a name that has fifty letters is cut off after forty";
     let rows = vec![
-        Factor { deviation: Some(0.05), published: Some(0.5), bounds: range(0.5, 2.0), ..factor("below", 0.62) },
-        Factor { deviation: Some(0.9), published: Some(1.2), bounds: range(0.5, 50.0), ..factor("above", 1.9) },
-        Factor { deviation: Some(f64::NAN), remark: Some("at bound"), ..factor(&long[..41], 1.5) },
-        Factor { published: Some(0.7), ..factor(&long[..40], f64::NAN) },
-        Factor { deviation: Some(0.3), published: Some(0.5), ..factor("as it was", 1.0) },
-        Factor { deviation: Some(0.01), published: Some(0.3), remark: Some("at bound"), ..factor(long, 0.9) },
-        Factor { deviation: Some(0.75), published: Some(0.9), ..factor("unsure", 0.8) },
+        Factor {
+            deviation: Some(0.05),
+            published: Some(0.5),
+            bounds: range(0.5, 2.0),
+            ..factor("below", 0.62)
+        },
+        Factor {
+            deviation: Some(0.9),
+            published: Some(1.2),
+            bounds: range(0.5, 50.0),
+            ..factor("above", 1.9)
+        },
+        Factor {
+            deviation: Some(f64::NAN),
+            remark: Some("at bound"),
+            ..factor(&long[..41], 1.5)
+        },
+        Factor {
+            published: Some(0.7),
+            ..factor(&long[..40], f64::NAN)
+        },
+        Factor {
+            deviation: Some(0.3),
+            published: Some(0.5),
+            ..factor("as it was", 1.0)
+        },
+        Factor {
+            deviation: Some(0.01),
+            published: Some(0.3),
+            remark: Some("at bound"),
+            ..factor(long, 0.9)
+        },
+        Factor {
+            deviation: Some(0.75),
+            published: Some(0.9),
+            ..factor("unsure", 0.8)
+        },
     ];
-    let figure = |rows, limits| Factors { rows, limits, across: "factor".into(), decimals: 2, published: "right" };
+    let figure = |rows, limits| Factors {
+        rows,
+        limits,
+        across: "factor".into(),
+        decimals: 2,
+        published: "right",
+    };
     assert_golden(
         "drawing_factors",
-        &figure(rows.clone(), None).draw("factors", "Factors").expect("drawn"),
+        &figure(rows.clone(), None)
+            .draw("factors", "Factors")
+            .expect("drawn"),
         Numbers::AS_WRITTEN,
     );
-    let drawn = figure(rows[..6].to_vec(), range(0.6, 1.4)).draw("factors", "Factors").expect("drawn");
+    let drawn = figure(rows[..6].to_vec(), range(0.6, 1.4))
+        .draw("factors", "Factors")
+        .expect("drawn");
     assert_golden("drawing_factors_limited", &drawn, Numbers::AS_WRITTEN);
-    let alike = figure(vec![factor("one", 1.0), factor("other", 1.004)], None).draw("factors", "Factors");
-    assert_golden("drawing_factors_alike", &alike.expect("drawn"), Numbers::AS_WRITTEN);
+    let alike =
+        figure(vec![factor("one", 1.0), factor("other", 1.004)], None).draw("factors", "Factors");
+    assert_golden(
+        "drawing_factors_alike",
+        &alike.expect("drawn"),
+        Numbers::AS_WRITTEN,
+    );
 }
 
 /// A pass of as many iterations, its errors falling from one to another.
@@ -79,10 +160,22 @@ fn pass(
     let share = |row: usize| row as f64 / iterations.max(1) as f64;
     let errors = |row: usize| {
         let sum = first * (last / first).powf(share(row));
-        Errors { frequency: 0.25 * sum, shape: 0.75 * sum, mode_count: 9 }
+        Errors {
+            frequency: 0.25 * sum,
+            shape: 0.75 * sum,
+            mode_count: 9,
+        }
     };
-    let inner = (0..if is_inner { iterations + 1 } else { 1 }).map(errors).collect();
-    PassHistory { from, inner, check: errors(iterations), tolerance, is_inner }
+    let inner = (0..if is_inner { iterations + 1 } else { 1 })
+        .map(errors)
+        .collect();
+    PassHistory {
+        from,
+        inner,
+        check: errors(iterations),
+        tolerance,
+        is_inner,
+    }
 }
 
 #[test]
@@ -94,21 +187,39 @@ fn histories_with_long_and_short_passes() {
         pass(18, 12, [0.04, 0.01], None, true),
         pass(30, 1, [0.01, 0.008], None, false),
     ];
-    let draw = |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).expect("drawn");
+    let draw =
+        |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).expect("drawn");
     assert_golden("drawing_errors", &draw(&passes), Numbers::AS_WRITTEN);
     let said = words(&draw(&passes));
     for name in ["pass 1 (tolerance 12.0 %)", "pass 2", "3", "pass 4"] {
         assert!(said.iter().any(|word| word == name), "{name}: {said:?}");
     }
     // From beyond one end of the axis to beyond the other; and no iterations at all.
-    let far = [pass(0, 4, [200.0, 1e-3], Some(1e-12), true), pass(4, 2, [1e-3, 1e-12], Some(1e-6), true)];
+    let far = [
+        pass(0, 4, [200.0, 1e-3], Some(1e-12), true),
+        pass(4, 2, [1e-3, 1e-12], Some(1e-6), true),
+    ];
     assert_golden("drawing_errors_far", &draw(&far), Numbers::AS_WRITTEN);
-    assert_golden("drawing_errors_short", &draw(&[pass(0, 1, [0.2, 0.1], None, true)]), Numbers::AS_WRITTEN);
+    assert_golden(
+        "drawing_errors_short",
+        &draw(&[pass(0, 1, [0.2, 0.1], None, true)]),
+        Numbers::AS_WRITTEN,
+    );
     assert!(draw(&[]).contains("SRSS error"));
 }
 
-fn map(title: &str, (rows, columns): (usize, usize), written: (f64, usize), value: fn(usize, usize) -> f64) -> HeatMap {
-    let labels = |what: &str, count: usize| (what.to_owned(), (1..=count).map(|row| format!("{what} {row}")).collect());
+fn map(
+    title: &str,
+    (rows, columns): (usize, usize),
+    written: (f64, usize),
+    value: fn(usize, usize) -> f64,
+) -> HeatMap {
+    let labels = |what: &str, count: usize| {
+        (
+            what.to_owned(),
+            (1..=count).map(|row| format!("{what} {row}")).collect(),
+        )
+    };
     HeatMap {
         title: title.to_owned(),
         rows: labels("a row", rows),
@@ -123,10 +234,22 @@ fn map(title: &str, (rows, columns): (usize, usize), written: (f64, usize), valu
 fn matrices_with_cells_too_small_for_their_numbers() {
     let wave = |i: usize, j: usize| ((3 * i + 5 * j) % 21) as f64 / 10.0 - 1.0;
     let maps = [
-        map("Two digits fit, and this title is longer than its matrix", (9, 20), (10.0, 0), wave),
-        map("Three do not", (9, 20), (100.0, 0), |i, j| ((3 * i + 5 * j) % 11) as f64 / 10.0),
+        map(
+            "Two digits fit, and this title is longer than its matrix",
+            (9, 20),
+            (10.0, 0),
+            wave,
+        ),
+        map("Three do not", (9, 20), (100.0, 0), |i, j| {
+            ((3 * i + 5 * j) % 11) as f64 / 10.0
+        }),
         map("Rows are too low", (30, 9), (1.0, 0), wave),
-        map("A title much longer than the one column below it, which it does not leave", (2, 1), (10.0, 1), wave),
+        map(
+            "A title much longer than the one column below it, which it does not leave",
+            (2, 1),
+            (10.0, 1),
+            wave,
+        ),
         map("An odd one", (3, 3), (1.0, 1), wave),
     ];
     let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."]).expect("drawn");
@@ -135,25 +258,40 @@ fn matrices_with_cells_too_small_for_their_numbers() {
 
 #[test]
 fn two_series_of_small_bars_side_by_side() {
-    let series = |name: &str, values: &[(f64, Option<f64>)]| Series { name: name.into(), values: values.to_vec() };
+    let series = |name: &str, values: &[(f64, Option<f64>)]| Series {
+        name: name.into(),
+        values: values.to_vec(),
+    };
     let chart = |heading: &str, shown: [f64; 3]| Bars {
         heading: heading.into(),
         groups: ["a", "b", "c"].map(String::from).to_vec(),
         series: vec![
             series("before", &shown.map(|value| (value, None))),
-            series("after", &shown.map(|value| (-0.25 * value, Some(0.3 * value)))),
+            series(
+                "after",
+                &shown.map(|value| (-0.25 * value, Some(0.3 * value))),
+            ),
         ],
         divided: Some((2, ["shown", "not shown"])),
     };
     let figure = BarFigure {
-        charts: vec![chart("First", [0.02, -0.01, 0.004]), chart("Second", [0.01, 0.0, 0.03])],
+        charts: vec![
+            chart("First", [0.02, -0.01, 0.004]),
+            chart("Second", [0.01, 0.0, 0.03]),
+        ],
         across: "panel".into(),
         up: "error".into(),
         marked: "printed".into(),
     };
     let drawn = figure.draw("bars", "Bars").expect("drawn");
-    let steps = written(&drawn).into_iter().filter(|word| word.bounds[2] < 66.0 && word.text.starts_with("0."));
+    let steps = written(&drawn)
+        .into_iter()
+        .filter(|word| word.bounds[2] < 66.0 && word.text.starts_with("0."));
     let steps: Vec<String> = steps.map(|word| word.text).collect();
-    assert_eq!(steps[..4], ["0.000", "0.010", "0.020", "0.030"], "as many decimals as they need");
+    assert_eq!(
+        steps[..4],
+        ["0.000", "0.010", "0.020", "0.030"],
+        "as many decimals as they need"
+    );
     assert_golden("drawing_bars", &drawn, Numbers::AS_WRITTEN);
 }

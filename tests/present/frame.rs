@@ -58,20 +58,38 @@ proptest! {
 
 /// A frame of these places, of which the first ones have sensors along an axis.
 fn of_places(nodes: Vec<Vector3<f64>>, sensors: &[Vector3<f64>], panels: Vec<Vec<usize>>) -> Frame {
-    let known = sensors.iter().enumerate().map(|(row, &along)| (row, vec![(row, along)])).collect();
-    Frame { grids: vec![None; nodes.len()], lines: Vec::new(), nodes, panels, known }
+    let known = sensors
+        .iter()
+        .enumerate()
+        .map(|(row, &along)| (row, vec![(row, along)]))
+        .collect();
+    Frame {
+        grids: vec![None; nodes.len()],
+        lines: Vec::new(),
+        nodes,
+        panels,
+        known,
+    }
 }
 
 #[test]
 fn a_place_near_a_sensor_moves_as_it_does_and_one_twice_as_far_has_a_sixteenth_of_its_weight() {
     let at = |x: f64| Vector3::new(x, 0.0, 0.0);
-    let frame = of_places(vec![at(3.0), at(6.0), at(4.0), at(3.0 + 1e-6)], &[Vector3::z(), Vector3::z()], Vec::new());
+    let frame = of_places(
+        vec![at(3.0), at(6.0), at(4.0), at(3.0 + 1e-6)],
+        &[Vector3::z(), Vector3::z()],
+        Vec::new(),
+    );
     let moved = frame.moved(&[2.0, -1.0], None);
     // At one and at two lengths from one and minus one half: 16 to 1.
     assert!((moved[2].z - (16.0 - 0.5) / 17.0).abs() < NODE_LINE);
     assert!((moved[3].z - 1.0).abs() < NODE_LINE);
     // The farthest that a place can be, too.
-    let far = of_places(vec![at(1.0), at(3.0), at(0.0)], &[Vector3::z(), Vector3::z()], Vec::new());
+    let far = of_places(
+        vec![at(1.0), at(3.0), at(0.0)],
+        &[Vector3::z(), Vector3::z()],
+        Vec::new(),
+    );
     assert!((far.moved(&[2.0, -1.0], None)[2].z - (81.0 - 0.5) / 82.0).abs() < NODE_LINE);
     let unknown = of_places(vec![at(0.0), at(1.0)], &[], Vec::new());
     assert_eq!(unknown.moved(&[1.0], None), [Vector3::zeros(); 2]);
@@ -86,13 +104,21 @@ fn a_grid_moves_as_the_whole_model_says_but_along_its_sensor_as_measured() {
     let moved = frame.moved(&[-4.0], Some(&grids));
     assert_eq!(moved[0], Vector3::new(1.0, 1.5, -1.0));
     assert_eq!(moved[1], Vector3::new(0.25, 0.5, 0.75));
-    assert_eq!(moved[2], -Vector3::z(), "as the sensor, which is the only one");
+    assert_eq!(
+        moved[2],
+        -Vector3::z(),
+        "as the sensor, which is the only one"
+    );
 }
 
 /// However the corners are numbered, and on either side.
 #[test]
 fn a_node_line_runs_from_a_corner_at_rest_to_the_edge_across() {
-    let corners = [Vector3::new(0.0, 0.0, 0.0), Vector3::new(2.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0)];
+    let corners = [
+        Vector3::new(0.0, 0.0, 0.0),
+        Vector3::new(2.0, 0.0, 0.0),
+        Vector3::new(0.0, 2.0, 0.0),
+    ];
     for first in 0..3 {
         for sign in [1.0, -1.0] {
             // Zero at the origin; the edge across from it has its zero at a third of its length.
@@ -103,7 +129,13 @@ fn a_node_line_runs_from_a_corner_at_rest_to_the_edge_across() {
             let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
             let zero: Vector3<f64> = Vector3::new(4.0, 2.0, 0.0) / 3.0;
             assert!((long - zero.norm()).abs() < NODE_LINE, "{lines:?}");
-            assert!(lines.as_flattened().iter().all(|end| end.cross(&zero).norm() < NODE_LINE), "{lines:?}");
+            assert!(
+                lines
+                    .as_flattened()
+                    .iter()
+                    .all(|end| end.cross(&zero).norm() < NODE_LINE),
+                "{lines:?}"
+            );
         }
     }
 }
@@ -113,12 +145,23 @@ fn a_line_that_measures_along_itself_is_drawn_across_and_zero_has_one_sign() {
     for (axis, across) in [(0, Vector3::z()), (1, Vector3::z()), (2, Vector3::x())] {
         let line = Vector3::ith(axis, 1.0);
         let along = chain("rod", &[1.0; 3], |row| (row as f64 * line, line));
-        let directions = |frame: &Frame| frame.known.values().flatten().map(|sensor| sensor.1).collect::<Vec<_>>();
+        let directions = |frame: &Frame| {
+            frame
+                .known
+                .values()
+                .flatten()
+                .map(|sensor| sensor.1)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(directions(&Frame::of(&along)), [across; 3]);
         let mut subject = along.clone();
         subject.sensors[1].direction = Vector3::ith((axis + 1) % 3, 1.0);
         let directions = directions(&Frame::of(&subject));
-        assert_eq!(directions, [line, subject.sensors[1].direction, line], "one of them measures across already");
+        assert_eq!(
+            directions,
+            [line, subject.sensors[1].direction, line],
+            "one of them measures across already"
+        );
         subject.sensors[0].place = Some(Vector3::repeat(-0.0));
         assert_eq!(Frame::of(&subject).nodes.len(), 3);
     }

@@ -9,13 +9,27 @@ use proptest::prelude::*;
 /// Left, top, width and height of every bar, in the units of the drawing: what is filled, without the page itself.
 fn bars(svg: &str) -> Vec<[f64; 4]> {
     let filled = svg.split("<rect").skip(2);
-    filled.map(|tag| ["x", "y", "width", "height"].map(|name| attribute(tag, name))).collect()
+    filled
+        .map(|tag| ["x", "y", "width", "height"].map(|name| attribute(tag, name)))
+        .collect()
 }
 
 /// Places across of the lines at the quantiles, by their color.
 fn lines(svg: &str) -> Vec<f64> {
-    let blue = svg.split("<polyline").chain(svg.split("<line")).filter(|tag| tag.contains("#0072B2"));
-    blue.filter_map(|tag| tag.split_once("points=\"")?.1.split(',').next()?.trim().parse().ok()).collect()
+    let blue = svg
+        .split("<polyline")
+        .chain(svg.split("<line"))
+        .filter(|tag| tag.contains("#0072B2"));
+    blue.filter_map(|tag| {
+        tag.split_once("points=\"")?
+            .1
+            .split(',')
+            .next()?
+            .trim()
+            .parse()
+            .ok()
+    })
+    .collect()
 }
 
 proptest! {

@@ -10,7 +10,11 @@ use corfem::studies::matrix_comparison::compare_matrices;
 
 #[test]
 fn comparison_as_numbers() {
-    let numbers = Numbers { relative: GOLDEN_RELATIVE, absolute: GOLDEN_ABSOLUTE_PERCENT, last_digit: false };
+    let numbers = Numbers {
+        relative: GOLDEN_RELATIVE,
+        absolute: GOLDEN_ABSOLUTE_PERCENT,
+        last_digit: false,
+    };
     let rounded = Numbers::AS_WRITTEN;
     for case in 1..=3 {
         let tables = matrix_tables(&Case::new(case).unwrap(), &compared(case));
@@ -36,6 +40,16 @@ fn comparison_as_numbers() {
     }
     let all = compare_matrices(&Case::new(2).unwrap(), 9).unwrap();
     let tables = matrix_tables(&Case::new(2).unwrap(), &all);
-    let labels = |table: usize| tables[table].rows.iter().map(|row| row.label.as_str()).collect::<Vec<_>>();
-    assert_eq!(labels(0).last(), Some(&"RMS test modes"), "there are no others");
+    let labels = |table: usize| {
+        tables[table]
+            .rows
+            .iter()
+            .map(|row| row.label.as_str())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        labels(0).last(),
+        Some(&"RMS test modes"),
+        "there are no others"
+    );
 }

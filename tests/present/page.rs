@@ -17,7 +17,15 @@ const COMMAND: &str = "corfem report --out <somewhere>";
 
 fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) -> Contents<'a> {
     let (fewer_modes, matrices) = (fewer_modes_runs(), comparison());
-    Contents { results, fit, fewer_modes, matrices, wings: wings(), figures, command: COMMAND }
+    Contents {
+        results,
+        fit,
+        fewer_modes,
+        matrices,
+        wings: wings(),
+        figures,
+        command: COMMAND,
+    }
 }
 
 /// A text as it stands in HTML.
@@ -67,35 +75,60 @@ fn page_holds_every_table_number_by_number() {
     tables.extend(comparison_tables());
     for table in tables {
         assert_eq!(
-            html.matches(&format!("<caption>{}</caption>", escaped(&table.title))).count(),
+            html.matches(&format!("<caption>{}</caption>", escaped(&table.title)))
+                .count(),
             1,
             "{}",
             table.title
         );
-        let start = html.find(&format!("<table id=\"{}\">", table.name)).expect("the table");
+        let start = html
+            .find(&format!("<table id=\"{}\">", table.name))
+            .expect("the table");
         let text = &html[start..start + html[start..].find("</table>").expect("its end")];
         assert_eq!(text.matches("<tr>").count(), table.rows.len() + 1);
         for row in &table.rows {
             let head = format!("<tr><th scope=\"row\">{}</th>", row.label);
-            let mut cells =
-                text.split(&head).nth(1).expect("the row").split("</tr>").next().expect("cells").split("</td>");
+            let mut cells = text
+                .split(&head)
+                .nth(1)
+                .expect("the row")
+                .split("</tr>")
+                .next()
+                .expect("cells")
+                .split("</td>");
             for cell in &row.cells {
                 let expected = match cell {
                     Cell::Blank => "<td>".to_owned(),
                     Cell::Text(text) | Cell::Printed(text) => format!("<td>{text}"),
-                    Cell::Number { computed, published, digits } => {
+                    Cell::Number {
+                        computed,
+                        published,
+                        digits,
+                    } => {
                         let mut text = format!("<td>{}", digits.write(*computed));
                         if let Some(paper) = published {
-                            text += &format!(" <span class=\"published\">({})</span>", digits.write(*paper));
+                            text += &format!(
+                                " <span class=\"published\">({})</span>",
+                                digits.write(*paper)
+                            );
                         }
                         text
                     }
                 };
-                assert_eq!(cells.next(), Some(expected.as_str()), "{}, row {}", table.name, row.label);
+                assert_eq!(
+                    cells.next(),
+                    Some(expected.as_str()),
+                    "{}, row {}",
+                    table.name,
+                    row.label
+                );
             }
         }
         for note in &table.notes {
-            assert!(html.contains(&format!("<p class=\"note\">{}</p>", escaped(note))), "{note}");
+            assert!(
+                html.contains(&format!("<p class=\"note\">{}</p>", escaped(note))),
+                "{note}"
+            );
         }
     }
 }
@@ -109,7 +142,11 @@ fn summary_repeats_the_first_and_last_errors() {
         assert_eq!(row.label, result.case.number.to_string());
         let last = full.columns.len() - 1;
         for (at, label) in [(0, "frequency RMS"), (2, "shape RMS")] {
-            let errors = full.rows.iter().find(|r| r.label == label).expect("the row");
+            let errors = full
+                .rows
+                .iter()
+                .find(|r| r.label == label)
+                .expect("the row");
             assert_eq!(row.cells[at], errors.cells[2]);
             assert_eq!(row.cells[at + 1], errors.cells[last]);
         }
@@ -118,8 +155,16 @@ fn summary_repeats_the_first_and_last_errors() {
     let text = |text: &str| Cell::Text(text.to_owned());
     assert_eq!(words(0), [text("12, 6"), text("correlated")]);
     assert_eq!(words(2), [text("30, 30, 30"), text("correlated")]);
-    assert_eq!(words(3), [text("1"), text("modeling error detected in element 8")]);
-    assert!(table.rows.iter().all(|row| row.cells.len() == table.columns.len()));
+    assert_eq!(
+        words(3),
+        [text("1"), text("modeling error detected in element 8")]
+    );
+    assert!(
+        table
+            .rows
+            .iter()
+            .all(|row| row.cells.len() == table.columns.len())
+    );
 }
 
 #[test]
@@ -128,7 +173,10 @@ fn summary_says_so_when_a_case_does_not_converge() {
     case.settings.inner.iterations = 1;
     let result = corfem::cases::run_case(&case, |_, _| {}).expect("it runs");
     let table = summary(std::slice::from_ref(&result)).expect("it reads");
-    assert_eq!(table.rows[0].cells[5], Cell::Text("not converged".to_owned()));
+    assert_eq!(
+        table.rows[0].cells[5],
+        Cell::Text("not converged".to_owned())
+    );
     let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
     let html = page(&contents(&[result], &fit, &[])).expect("a page");
     assert!(html.contains("did not converge within its limits"));
@@ -138,14 +186,27 @@ fn summary_says_so_when_a_case_does_not_converge() {
 #[test]
 fn page_needs_nothing_beside_it() {
     let html = html().replace("http://www.w3.org/2000/svg", "");
-    for outside in ["http:", "https:", "src=", "<link", "<script", "@import", "url("] {
+    for outside in [
+        "http:", "https:", "src=", "<link", "<script", "@import", "url(",
+    ] {
         assert!(!html.contains(outside), "{outside}");
     }
     for figure in figures() {
-        assert_eq!(html.matches(&format!("<figure id=\"{}\">", figure.name)).count(), 1);
-        assert!(html.contains(&figure.svg.replace("http://www.w3.org/2000/svg", "")), "{}", figure.name);
+        assert_eq!(
+            html.matches(&format!("<figure id=\"{}\">", figure.name))
+                .count(),
+            1
+        );
+        assert!(
+            html.contains(&figure.svg.replace("http://www.w3.org/2000/svg", "")),
+            "{}",
+            figure.name
+        );
         let caption = escaped(&figure.caption);
-        assert!(html.contains(&format!("{caption}</figcaption>")), "{caption}");
+        assert!(
+            html.contains(&format!("{caption}</figcaption>")),
+            "{caption}"
+        );
     }
     assert!(html.contains("name=\"viewport\"") && html.contains("@media print"));
 }
@@ -154,7 +215,10 @@ fn page_needs_nothing_beside_it() {
 fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
     let html = html();
     assert!(html.contains("<code>corfem report --out &lt;somewhere&gt;</code>"));
-    assert!(html.contains(&format!("corfem {}, by the command", env!("CARGO_PKG_VERSION"))));
+    assert!(html.contains(&format!(
+        "corfem {}, by the command",
+        env!("CARGO_PKG_VERSION")
+    )));
     assert!(html.contains("1.106 % RMS, 5.20 % at worst"));
     assert!(html.contains("Case 4: element 8 asks for 58.4 times its stiffness"));
     assert!(html.contains("Every case did what was asked of it"));
@@ -164,16 +228,31 @@ fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
         )
     );
     // The texts of paper/, as HTML: the table of assumptions, the list of differences, its headings a level lower.
-    assert!(html.contains("<td>rods 16 to 39</td>") && html.contains("<strong>Initial errors.</strong>"));
+    assert!(
+        html.contains("<td>rods 16 to 39</td>")
+            && html.contains("<strong>Initial errors.</strong>")
+    );
     assert!(html.contains("<h3>Passes and tolerances</h3>"));
     assert!(!html.contains("Where the results differ from the published ones, and why</h1>"));
-    assert!(!html.contains("How it was found"), "of the box's story only the assumptions");
-    assert!(!html.contains("<h3>Where the results differ"), "its title is the section's");
+    assert!(
+        !html.contains("How it was found"),
+        "of the box's story only the assumptions"
+    );
+    assert!(
+        !html.contains("<h3>Where the results differ"),
+        "its title is the section's"
+    );
     // What looks wrong before the first step, of every case.
-    let preflight = html.split("<table id=\"preflight_findings\">").nth(1).expect("the table");
+    let preflight = html
+        .split("<table id=\"preflight_findings\">")
+        .nth(1)
+        .expect("the table");
     let rows = preflight.split("</table>").next().expect("its end");
     for case in 1..=4 {
-        assert!(rows.contains(&format!("<th scope=\"row\">Case {case}")), "{rows}");
+        assert!(
+            rows.contains(&format!("<th scope=\"row\">Case {case}")),
+            "{rows}"
+        );
     }
 }
 
@@ -206,6 +285,10 @@ fn every_case_is_introduced_by_what_is_wrong_with_it() {
         "Case 3: membrane covers, gages alternating 30 percent above and below",
         "Case 4: one cover a hundred times too thin by mistake",
     ] {
-        assert_eq!(html.matches(&format!("<h2>{heading}</h2>")).count(), 1, "{heading}");
+        assert_eq!(
+            html.matches(&format!("<h2>{heading}</h2>")).count(),
+            1,
+            "{heading}"
+        );
     }
 }

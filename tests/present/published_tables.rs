@@ -11,36 +11,73 @@ use std::path::Path;
 #[test]
 fn every_printed_cell_is_one_line_as_printed() {
     for number in 2..=13 {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/tables/table_{number}.csv"));
+        let file =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/tables/table_{number}.csv"));
         let file = fs::read_to_string(file).expect("it reads");
         let rows = file.lines().filter(|line| !line.starts_with('#')).skip(1);
-        let printed: Vec<&str> = rows.flat_map(|row| row.split(',').skip(1)).filter(|cell| !cell.is_empty()).collect();
+        let printed: Vec<&str> = rows
+            .flat_map(|row| row.split(',').skip(1))
+            .filter(|cell| !cell.is_empty())
+            .collect();
         let table = published_table(number).expect("it reads");
         let written = csv(std::slice::from_ref(&table));
-        let written: Vec<&str> =
-            written.lines().skip(1).map(|line| line.rsplit_once(',').expect("a field").1).collect();
+        let written: Vec<&str> = written
+            .lines()
+            .skip(1)
+            .map(|line| line.rsplit_once(',').expect("a field").1)
+            .collect();
         assert_eq!(written, printed, "Table {number}");
-        assert!(table.title.starts_with(&format!("Table {number}. ")), "{}", table.title);
-        let names: BTreeSet<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        assert!(
+            table.title.starts_with(&format!("Table {number}. ")),
+            "{}",
+            table.title
+        );
+        let names: BTreeSet<&str> = table
+            .columns
+            .iter()
+            .map(|column| column.name.as_str())
+            .collect();
         assert_eq!(names.len(), table.columns.len(), "Table {number}");
-        assert!(!text(&[table]).contains('_'), "Table {number} has words for a reader");
+        assert!(
+            !text(&[table]).contains('_'),
+            "Table {number} has words for a reader"
+        );
     }
 }
 
 #[test]
 fn table_13_has_the_cpu_seconds() {
     let table = published_table(13).expect("it reads");
-    let at = table.columns.iter().position(|column| column.name == "Pass 1 time").expect("the column");
+    let at = table
+        .columns
+        .iter()
+        .position(|column| column.name == "Pass 1 time")
+        .expect("the column");
     assert_eq!(table.columns[at].unit, "s");
     let cells: Vec<&Cell> = table.rows.iter().map(|row| &row.cells[at]).collect();
     let printed = ["1.9", "2.6", "4.8", "1.3"].map(|text| Cell::Printed(text.to_owned()));
     assert_eq!(cells, printed.iter().collect::<Vec<_>>());
-    assert_eq!(table.rows[3].cells.last(), Some(&Cell::Blank), "no check in Case 4");
+    assert_eq!(
+        table.rows[3].cells.last(),
+        Some(&Cell::Blank),
+        "no check in Case 4"
+    );
     assert!(published_table(1).is_err() && published_table(14).is_err());
 }
 
 #[test]
 fn tables_of_the_paper_are_named_in_order() {
-    let names = ["table_13", "fit", "table_5", "table_9_exact", "table_3", "table_4", "table_1", "table_12"];
-    assert!(paper_tables(names).starts_with("Of the paper's tables, here are 1, 3, 4, 5, 12, 13; "));
+    let names = [
+        "table_13",
+        "fit",
+        "table_5",
+        "table_9_exact",
+        "table_3",
+        "table_4",
+        "table_1",
+        "table_12",
+    ];
+    assert!(
+        paper_tables(names).starts_with("Of the paper's tables, here are 1, 3, 4, 5, 12, 13; ")
+    );
 }

@@ -9,24 +9,24 @@ fn table() -> impl Strategy<Value = Table> {
     let cell = prop_oneof![
         Just(Cell::Blank),
         "[a-z]{1,8}".prop_map(Cell::text),
-        (-1e4..1e4_f64, prop::option::of(-1e4..1e4_f64)).prop_map(|(value, published)| Cell::beside(
-            value,
-            Digits::Fixed(2),
-            published
-        )),
+        (-1e4..1e4_f64, prop::option::of(-1e4..1e4_f64))
+            .prop_map(|(value, published)| Cell::beside(value, Digits::Fixed(2), published)),
     ];
     let columns = prop::collection::vec("[A-Z][a-z]{1,9}( [a-z]{1,9}){0,2}", 1..30);
-    (columns, "[a-z]{1,20}", "([a-z]{1,12} ){1,40}[a-z]{1,12}").prop_flat_map(move |(columns, label, note)| {
-        let row = prop::collection::vec(cell.clone(), columns.len());
-        prop::collection::vec(row, 1..6).prop_map(move |rows| {
-            let mut table =
-                Table::new("name", note.clone(), "Row").headings(columns.iter().cloned(), "%").notes([note.clone()]);
-            for cells in rows {
-                table.row(&label, cells);
-            }
-            table
-        })
-    })
+    (columns, "[a-z]{1,20}", "([a-z]{1,12} ){1,40}[a-z]{1,12}").prop_flat_map(
+        move |(columns, label, note)| {
+            let row = prop::collection::vec(cell.clone(), columns.len());
+            prop::collection::vec(row, 1..6).prop_map(move |rows| {
+                let mut table = Table::new("name", note.clone(), "Row")
+                    .headings(columns.iter().cloned(), "%")
+                    .notes([note.clone()]);
+                for cells in rows {
+                    table.row(&label, cells);
+                }
+                table
+            })
+        },
+    )
 }
 
 proptest! {
@@ -64,7 +64,11 @@ fn small() -> Table {
     let beside = Cell::beside(-4.0, Digits::Fixed(1), Some(-4.5));
     Table::new("t", "A title", "Mode")
         .labels(["1", "2, \"both\""])
-        .column("Initial", "Hz", [Cell::number(10.5, Digits::Significant(4))])
+        .column(
+            "Initial",
+            "Hz",
+            [Cell::number(10.5, Digits::Significant(4))],
+        )
         .column("Initial error", "%", [beside, Cell::text("words")])
         .notes(["A note."])
 }

@@ -12,7 +12,9 @@ use corfem::present::page::subject_page;
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::subject::{Derivatives, SensorPoint, Subject};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::subject::{derivative_table, factor_table, history_table, paired_table};
+use corfem::present::tables::subject::{
+    derivative_table, factor_table, history_table, paired_table,
+};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use nalgebra::{DMatrix, Vector3};
@@ -20,28 +22,65 @@ use proptest::prelude::*;
 use std::sync::LazyLock;
 
 /// A chain of masses whose springs are wrong by these factors, correlated: sensors along it, or anywhere else.
-pub fn chain(name: &str, wrong: &[f64], places: impl Fn(usize) -> (Vector3<f64>, Vector3<f64>)) -> Subject {
+pub fn chain(
+    name: &str,
+    wrong: &[f64],
+    places: impl Fn(usize) -> (Vector3<f64>, Vector3<f64>),
+) -> Subject {
     let count = wrong.len();
-    let shares: Vec<DMatrix<f64>> =
-        (0..count).map(|spring| spring_stiffness(count, spring, 4e4 * wrong[spring])).collect();
-    let right = (0..count).fold(DMatrix::zeros(count, count), |sum, spring| sum + spring_stiffness(count, spring, 4e4));
+    let shares: Vec<DMatrix<f64>> = (0..count)
+        .map(|spring| spring_stiffness(count, spring, 4e4 * wrong[spring]))
+        .collect();
+    let right = (0..count).fold(DMatrix::zeros(count, count), |sum, spring| {
+        sum + spring_stiffness(count, spring, 4e4)
+    });
     let mass = DMatrix::from_diagonal_element(count, count, 0.5);
-    let test: ModeSet = corfem::method::modes::solve(&right, &mass, count.min(3)).expect("solved").into();
+    let test: ModeSet = corfem::method::modes::solve(&right, &mass, count.min(3))
+        .expect("solved")
+        .into();
     let model = |factors: &[f64]| {
-        let shares: Vec<Share> = shares.iter().zip(factors).map(|(share, f)| Share::Stiffness(share * *f)).collect();
-        let stiffness = shares.iter().fold(DMatrix::zeros(count, count), |sum, share| sum + share.matrix());
-        DynamicModel { stiffness, mass: mass.clone(), shares }.analyze(&test, None)
+        let shares: Vec<Share> = shares
+            .iter()
+            .zip(factors)
+            .map(|(share, f)| Share::Stiffness(share * *f))
+            .collect();
+        let stiffness = shares
+            .iter()
+            .fold(DMatrix::zeros(count, count), |sum, share| {
+                sum + share.matrix()
+            });
+        DynamicModel {
+            stiffness,
+            mass: mass.clone(),
+            shares,
+        }
+        .analyze(&test, None)
     };
-    let ranges = vec![Some(Range { lower: 0.8, upper: 1.4 }); count];
-    let (names, run_settings): (Vec<String>, _) =
-        ((0..count).map(|e| format!("{name} {e}")).collect(), Settings::default());
+    let ranges = vec![
+        Some(Range {
+            lower: 0.8,
+            upper: 1.4
+        });
+        count
+    ];
+    let (names, run_settings): (Vec<String>, _) = (
+        (0..count).map(|e| format!("{name} {e}")).collect(),
+        Settings::default(),
+    );
     let run = correlate::<Error>(&model, &ranges, &run_settings, |_, _| {}).expect("it runs");
     let sensor = |row: usize| {
         let (place, direction) = places(row);
-        SensorPoint { name: format!("{name} s{row}"), place: Some(place), direction }
+        SensorPoint {
+            name: format!("{name} s{row}"),
+            place: Some(place),
+            direction,
+        }
     };
     let sensors: Vec<SensorPoint> = (0..count).map(sensor).collect();
-    let frame = sensors.windows(2).map(|pair| pair.iter().filter_map(|sensor| sensor.place).collect()).collect();
+    let frame = sensors
+        .windows(2)
+        .map(|pair| pair.iter().filter_map(|sensor| sensor.place).collect())
+        .collect();
     Subject {
         title: name.to_owned(),
         ranges,
@@ -49,7 +88,9 @@ pub fn chain(name: &str, wrong: &[f64], places: impl Fn(usize) -> (Vector3<f64>,
         sensors,
         frame,
         mass: Some(mass.clone()),
-        derivatives: Some(Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken")),
+        derivatives: Some(
+            Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken"),
+        ),
         ..Subject::of("chain", &names, &test, &run.initial, Some(&run))
     }
 }
@@ -65,15 +106,24 @@ static WING: LazyLock<Subject> = LazyLock::new(|| {
 });
 
 fn subject_tables(subject: &Subject) -> Vec<Table> {
-    vec![paired_table(subject).expect("a table"), factor_table(subject), history_table(subject)]
+    vec![
+        paired_table(subject).expect("a table"),
+        factor_table(subject),
+        history_table(subject),
+    ]
 }
 
 /// Whether every tag of a document is closed in its order and every `&` begins an entity.
 fn is_well_formed(xml: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();
     for tag in xml.split('<').skip(1) {
-        let Some((tag, words)) = tag.split_once('>') else { return false };
-        let name = tag.split([' ', '\n', '/']).find(|part| !part.is_empty()).unwrap_or_default();
+        let Some((tag, words)) = tag.split_once('>') else {
+            return false;
+        };
+        let name = tag
+            .split([' ', '\n', '/'])
+            .find(|part| !part.is_empty())
+            .unwrap_or_default();
         if tag.starts_with('/') {
             if open.pop() != Some(name) {
                 return false;
@@ -91,7 +141,10 @@ fn is_well_formed(xml: &str) -> bool {
 }
 
 fn escaped(name: &str) -> String {
-    let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let name = name
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;");
     name.replace('"', "&quot;").replace('\'', "&apos;")
 }
 
@@ -100,8 +153,16 @@ fn check_figures(subject: &Subject, figures: &[Figure]) {
     let all: String = figures.iter().map(|figure| figure.svg.as_str()).collect();
     for figure in figures {
         assert!(is_well_formed(&figure.svg), "{}", figure.name);
-        assert!(!figure.svg.contains("NaN") && !figure.svg.contains("inf"), "{}", figure.name);
-        assert!(figure.svg.contains("<title>") && figure.caption.starts_with(&subject.title), "{}", figure.name);
+        assert!(
+            !figure.svg.contains("NaN") && !figure.svg.contains("inf"),
+            "{}",
+            figure.name
+        );
+        assert!(
+            figure.svg.contains("<title>") && figure.caption.starts_with(&subject.title),
+            "{}",
+            figure.name
+        );
         let (width, height) = size(&figure.svg);
         for word in written(&figure.svg) {
             let [left, top, right, bottom] = word.bounds;
@@ -109,7 +170,11 @@ fn check_figures(subject: &Subject, figures: &[Figure]) {
             assert!(is_on, "{}: {word:?}", figure.name);
         }
     }
-    for name in subject.parameters.iter().chain(subject.sensors.iter().map(|sensor| &sensor.name)) {
+    for name in subject
+        .parameters
+        .iter()
+        .chain(subject.sensors.iter().map(|sensor| &sensor.name))
+    {
         assert!(all.contains(&escaped(name)), "{name}");
     }
 }
@@ -125,23 +190,44 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
     check_figures(&subject, &figures);
     assert_eq!(
         names(&figures),
-        ["structure", "mode_shapes", "errors", "factors", "agreement", "derivatives"]
-            .map(|what| format!("chain_{what}"))
+        [
+            "structure",
+            "mode_shapes",
+            "errors",
+            "factors",
+            "agreement",
+            "derivatives"
+        ]
+        .map(|what| format!("chain_{what}"))
     );
     let page = subject_page(&subject, &[], "corfem correlate <job>").expect("a page");
     assert!(is_well_formed(&page));
     for parameter in &subject.parameters {
-        assert!(page.contains(&escaped(parameter).replace("&apos;", "'")), "{parameter}");
+        assert!(
+            page.contains(&escaped(parameter).replace("&apos;", "'")),
+            "{parameter}"
+        );
     }
-    assert!(page.contains("<code>corfem correlate &lt;job&gt;</code>") && page.contains("<h1>rod &lt;&quot;&amp;"));
+    assert!(
+        page.contains("<code>corfem correlate &lt;job&gt;</code>")
+            && page.contains("<h1>rod &lt;&quot;&amp;")
+    );
 }
 
 #[test]
 fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
     let figures = subject_figures(&WING).expect("drawn");
     check_figures(&WING, &figures);
-    assert!(!names(&figures).iter().any(|name| name.contains("node_lines")), "it lies in no plane");
-    let words: Vec<String> = written(&figures[0].svg).into_iter().map(|word| word.text).collect();
+    assert!(
+        !names(&figures)
+            .iter()
+            .any(|name| name.contains("node_lines")),
+        "it lies in no plane"
+    );
+    let words: Vec<String> = written(&figures[0].svg)
+        .into_iter()
+        .map(|word| word.text)
+        .collect();
     for (label, _) in &WING.grids {
         assert!(words.contains(&label.to_string()), "{label}");
     }
@@ -162,11 +248,21 @@ fn tables_hold_every_mode_and_factor_and_fit_a_page() {
         assert_eq!(tables[0].rows.len(), subject.test.len() + 2);
         assert_eq!(tables[1].rows.len(), subject.parameters.len());
         assert_eq!(tables[2].rows.len(), subject.stages.len());
-        assert!(tables.iter().all(|table| table.rows.iter().all(|row| row.cells.len() == table.columns.len())));
+        assert!(tables.iter().all(|table| {
+            table
+                .rows
+                .iter()
+                .all(|row| row.cells.len() == table.columns.len())
+        }));
         let json = json::subject(subject).expect("a value");
-        assert_eq!(json["factors"].as_array().map(Vec::len), Some(subject.parameters.len()));
         assert_eq!(
-            json["initial"]["agreement"]["modal_assurance"][0].as_array().map(Vec::len),
+            json["factors"].as_array().map(Vec::len),
+            Some(subject.parameters.len())
+        );
+        assert_eq!(
+            json["initial"]["agreement"]["modal_assurance"][0]
+                .as_array()
+                .map(Vec::len),
             Some(subject.test.len())
         );
         assert!(csv(&tables).lines().count() > subject.parameters.len());
@@ -176,21 +272,39 @@ fn tables_hold_every_mode_and_factor_and_fit_a_page() {
 /// The mark of every row of the paired table.
 fn marks(subject: &Subject) -> Vec<String> {
     let table = paired_table(subject).expect("a table");
-    table.rows.iter().filter_map(|row| row.cells.last()).map(Cell::computed).take(subject.test.len()).collect()
+    table
+        .rows
+        .iter()
+        .filter_map(|row| row.cells.last())
+        .map(Cell::computed)
+        .take(subject.test.len())
+        .collect()
 }
 
 #[test]
 fn pairs_are_marked_by_the_usual_limits_of_cross_orthogonality() {
     let mut subject = chain("rod", &[1.0, 1.0, 1.0, 1.0], along);
     assert_eq!(marks(&subject), ["good"; 3]);
-    let (first, second) = (subject.test.shapes.column(0).clone_owned(), subject.test.shapes.column(1).clone_owned());
+    let (first, second) = (
+        subject.test.shapes.column(0).clone_owned(),
+        subject.test.shapes.column(1).clone_owned(),
+    );
     // A mode turned by an angle toward the next has its cosine as cross-orthogonality, and its sine as another.
     for (sine, mark) in [(0.04_f64, "good"), (0.09, "acceptable"), (0.2, "poor")] {
-        subject.test.shapes.set_column(0, &((1.0 - sine * sine).sqrt() * &first + sine * &second));
+        subject
+            .test
+            .shapes
+            .set_column(0, &((1.0 - sine * sine).sqrt() * &first + sine * &second));
         assert_eq!(marks(&subject)[0], mark, "{sine}");
     }
     subject.mass = None;
-    assert!(paired_table(&subject).expect("a table").columns.iter().all(|column| !column.name.contains("cross")));
+    assert!(
+        paired_table(&subject)
+            .expect("a table")
+            .columns
+            .iter()
+            .all(|column| !column.name.contains("cross"))
+    );
 }
 
 #[test]
@@ -198,43 +312,84 @@ fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
     let subject = chain("rod", &[0.5, 1.0, 1.0, 1.0], along);
     let table = factor_table(&subject);
     let remark = |row: usize| table.rows[row].cells[4].computed();
-    assert_eq!((remark(0).as_str(), subject.factors()[0]), ("at bound", 1.4));
+    assert_eq!(
+        (remark(0).as_str(), subject.factors()[0]),
+        ("at bound", 1.4)
+    );
     for (e, factor) in subject.factors().into_iter().enumerate().skip(1) {
-        assert_eq!(remark(e).contains("at bound"), subject.is_at_bound(e, factor));
+        assert_eq!(
+            remark(e).contains("at bound"),
+            subject.is_at_bound(e, factor)
+        );
     }
     assert_eq!(table.rows[2].cells[1].computed(), "0.020");
     assert_eq!(table.columns.len(), 5);
-    let without = Subject { deviations: None, ..subject };
+    let without = Subject {
+        deviations: None,
+        ..subject
+    };
     assert_eq!(factor_table(&without).columns.len(), 4);
 }
 
 #[test]
 fn stages_without_an_inner_loop_are_one_iteration_each() {
     let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
-    subject.stages.iter_mut().for_each(|stage| stage.inner = None);
+    subject
+        .stages
+        .iter_mut()
+        .for_each(|stage| stage.inner = None);
     let table = history_table(&subject);
-    assert!(table.rows.iter().all(|row| row.cells[0] == Cell::count(1) && row.cells[2] == Cell::Blank));
+    assert!(
+        table
+            .rows
+            .iter()
+            .all(|row| row.cells[0] == Cell::count(1) && row.cells[2] == Cell::Blank)
+    );
     let figures = subject_figures(&subject).expect("drawn");
     check_figures(&subject, &figures);
-    let errors = figures.iter().find(|figure| figure.name == "chain_errors").expect("drawn");
+    let errors = figures
+        .iter()
+        .find(|figure| figure.name == "chain_errors")
+        .expect("drawn");
     assert!(!errors.svg.contains("tolerance of the pass"));
 }
 
 #[test]
 fn more_than_twelve_modes_are_drawn_in_several_figures() {
-    let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| (Vector3::new(row as f64, 0.0, 0.0), Vector3::z()));
+    let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
+        (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
+    });
     let places: Vec<usize> = (0..14).map(|mode| mode % 3).collect();
     subject.test = ModeSet {
         omega_squared: subject.test.omega_squared.select_rows(&places),
         shapes: subject.test.shapes.select_columns(&places),
     };
-    for check in [&mut subject.initial].into_iter().chain(subject.stages.iter_mut().map(|stage| &mut stage.check)) {
-        check.pairing.analysis_mode = places.iter().map(|&mode| check.pairing.analysis_mode[mode]).collect();
-        check.pairing.sign = places.iter().map(|&mode| check.pairing.sign[mode]).collect();
-        check.frequencies_hz = places.iter().map(|&mode| check.frequencies_hz[mode]).collect();
+    for check in [&mut subject.initial]
+        .into_iter()
+        .chain(subject.stages.iter_mut().map(|stage| &mut stage.check))
+    {
+        check.pairing.analysis_mode = places
+            .iter()
+            .map(|&mode| check.pairing.analysis_mode[mode])
+            .collect();
+        check.pairing.sign = places
+            .iter()
+            .map(|&mode| check.pairing.sign[mode])
+            .collect();
+        check.frequencies_hz = places
+            .iter()
+            .map(|&mode| check.frequencies_hz[mode])
+            .collect();
     }
-    let figures = subject_figures(&Subject { derivatives: None, ..subject }).expect("drawn");
-    assert!(names(&figures).contains(&"chain_mode_shapes_1") && names(&figures).contains(&"chain_mode_shapes_2"));
+    let figures = subject_figures(&Subject {
+        derivatives: None,
+        ..subject
+    })
+    .expect("drawn");
+    assert!(
+        names(&figures).contains(&"chain_mode_shapes_1")
+            && names(&figures).contains(&"chain_mode_shapes_2")
+    );
 }
 
 proptest! {

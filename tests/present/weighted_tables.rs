@@ -15,23 +15,42 @@ use std::path::Path;
 
 fn fits(tables: &[Table]) {
     let text = text(tables);
-    assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
-    let whole = |table: &Table| table.rows.iter().all(|row| row.cells.len() == table.columns.len());
+    assert!(
+        text.lines().all(|line| line.chars().count() <= WIDTH),
+        "{text}"
+    );
+    let whole = |table: &Table| {
+        table
+            .rows
+            .iter()
+            .all(|row| row.cells.len() == table.columns.len())
+    };
     assert!(tables.iter().all(whole));
 }
 
 fn written(table: &Table, row: &str) -> Vec<String> {
-    let row = table.rows.iter().find(|found| found.label == row).expect("the row");
+    let row = table
+        .rows
+        .iter()
+        .find(|found| found.label == row)
+        .expect("the row");
     row.cells.iter().map(Cell::computed).collect()
 }
 
 #[test]
 fn two_rules_as_numbers() {
     let table = rules_table(&compare_all(&WeightedSettings::default()).expect("they run"));
-    let numbers = Numbers { relative: JOB_RESULTS, absolute: JOB_RESULTS, last_digit: false };
+    let numbers = Numbers {
+        relative: JOB_RESULTS,
+        absolute: JOB_RESULTS,
+        last_digit: false,
+    };
     fits(std::slice::from_ref(&table));
     assert!(table.title.starts_with("The paper's rule"));
-    assert!(markdown(std::slice::from_ref(&table)).contains("| Structure | Steps | Analyses | Factor RMS, % |"));
+    assert!(
+        markdown(std::slice::from_ref(&table))
+            .contains("| Structure | Steps | Analyses | Factor RMS, % |")
+    );
     assert_golden("rules", &csv(&[table]), numbers);
 }
 
@@ -42,8 +61,15 @@ fn culprits_without_noise_are_those_of_the_golden() {
     let goldens = goldens();
     for table in &tables {
         assert_eq!(table.rows.len(), 16);
-        for (row, column) in table.rows.iter().flat_map(|row| [0, 3].map(|column| (row, column))) {
-            let place = format!("{{localization|{}|{}|{}|0}}", table.name, row.label, table.columns[column].name);
+        for (row, column) in table
+            .rows
+            .iter()
+            .flat_map(|row| [0, 3].map(|column| (row, column)))
+        {
+            let place = format!(
+                "{{localization|{}|{}|{}|0}}",
+                table.name, row.label, table.columns[column].name
+            );
             assert_eq!(Ok(row.cells[column].computed()), filled(&place, &goldens));
         }
     }
@@ -52,23 +78,42 @@ fn culprits_without_noise_are_those_of_the_golden() {
     assert!(csv(&tables).contains("\nlocalization_0.5,all,Fit first,,15,\n"));
     assert!(markdown(&tables).contains("| Panel | Factor, no noise | Factor first |"));
     assert!(
-        tables[0].title.starts_with("One panel 0.01 times as thick") && tables[0].title.ends_with("of 1 noisy tests")
+        tables[0].title.starts_with("One panel 0.01 times as thick")
+            && tables[0].title.ends_with("of 1 noisy tests")
     );
 }
 
 #[test]
 fn intervals_are_counted_by_what_the_test_says_of_a_parameter() {
-    let held = |parameter: &str, tests, learned| Held { parameter: parameter.to_owned(), tests, learned };
+    let held = |parameter: &str, tests, learned| Held {
+        parameter: parameter.to_owned(),
+        tests,
+        learned,
+    };
     let parameters = vec![held("a", 9, 0.99), held("b", 8, 0.95), held("c", 1, 0.5)];
-    let tables = coverage_tables(&[Coverage { name: "A box".to_owned(), tests: 10, parameters }]);
+    let tables = coverage_tables(&[Coverage {
+        name: "A box".to_owned(),
+        tests: 10,
+        parameters,
+    }]);
     fits(&tables);
-    assert_eq!(written(&tables[0], "A box"), ["3", "2", "85.0", "80.0", "60.0"]);
+    assert_eq!(
+        written(&tables[0], "A box"),
+        ["3", "2", "85.0", "80.0", "60.0"]
+    );
     assert_eq!(
         (tables[1].name.as_str(), written(&tables[1], "c")),
         ("coverage_a_box", vec!["10.0".into(), "50.0".into()])
     );
-    let blind = Coverage { name: "Blind".to_owned(), tests: 10, parameters: vec![held("c", 10, 0.1)] };
-    assert_eq!(written(&coverage_tables(&[blind])[0], "Blind"), ["1", "0", "", "", "100.0"]);
+    let blind = Coverage {
+        name: "Blind".to_owned(),
+        tests: 10,
+        parameters: vec![held("c", 10, 0.1)],
+    };
+    assert_eq!(
+        written(&coverage_tables(&[blind])[0], "Blind"),
+        ["1", "0", "", "", "100.0"]
+    );
 }
 
 #[test]
@@ -79,16 +124,29 @@ fn a_few_tests_see_the_parameters_that_a_thousand_see() {
     assert!(csv(&tables).contains("\ncoverage,Delta wing,Parameters,,21,\n"));
     let goldens = goldens();
     for structure in &tables[0].rows {
-        let place = |column: &str| filled(&format!("{{coverage|coverage|{}|{column}|0}}", structure.label), &goldens);
+        let place = |column: &str| {
+            filled(
+                &format!("{{coverage|coverage|{}|{column}|0}}", structure.label),
+                &goldens,
+            )
+        };
         assert_eq!(Ok(structure.cells[0].computed()), place("Parameters"));
-        assert_eq!(Ok(structure.cells[1].computed()), place("Seen"), "{}", structure.label);
+        assert_eq!(
+            Ok(structure.cells[1].computed()),
+            place("Seen"),
+            "{}",
+            structure.label
+        );
     }
 }
 
 #[test]
 fn a_job_names_its_suspects() {
     let job = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs").join(name).join("job.toml");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("tests/jobs")
+            .join(name)
+            .join("job.toml");
         let mut prepared = Prepared::new(&path).expect("a job");
         // The test as it would be were the fifth parameter alone wrong: a third of what it is in the model.
         let mut factors = vec![1.0; prepared.source.whole.parameters().len()];
@@ -108,10 +166,26 @@ fn a_job_names_its_suspects() {
         let (prepared, table) = job(name);
         let parameters = prepared.source.whole.parameters();
         assert_eq!(table.rows.len(), parameters.len().min(MOST_SUSPECTS));
-        assert_eq!(table.notes.len(), if parameters.len() > MOST_SUSPECTS { 2 } else { 1 });
+        assert_eq!(
+            table.notes.len(),
+            if parameters.len() > MOST_SUSPECTS {
+                2
+            } else {
+                1
+            }
+        );
         assert_eq!(table.rows[0].label, parameters[4].name);
-        let Cell::Number { computed, .. } = table.rows[0].cells[0] else { panic!("a number") };
+        let Cell::Number { computed, .. } = table.rows[0].cells[0] else {
+            panic!("a number")
+        };
         let off = (computed / 0.3 - 1.0).abs();
-        assert!(if has_all_modes { off < SINGLE_FIT_FACTOR } else { computed < 1.0 }, "{name}: {computed}");
+        assert!(
+            if has_all_modes {
+                off < SINGLE_FIT_FACTOR
+            } else {
+                computed < 1.0
+            },
+            "{name}: {computed}"
+        );
     }
 }

@@ -4,7 +4,11 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 pub fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
+    Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts")
 }
 
 pub fn text(bytes: &[u8]) -> String {
@@ -50,7 +54,10 @@ fn json_has_the_promised_keys() {
         let passes = run["passes"].as_array().expect("a list");
         assert_eq!(length(&case["pass_gages_in"]), Some(passes.len()));
         assert_eq!(length(&case["published_iterations"]), Some(passes.len()));
-        for (pass, gages) in passes.iter().zip(case["pass_gages_in"].as_array().expect("lists")) {
+        for (pass, gages) in passes
+            .iter()
+            .zip(case["pass_gages_in"].as_array().expect("lists"))
+        {
             let iterations = pass["iterations"].as_u64().expect("a count") as usize;
             assert_eq!(length(&pass["history"]), Some(iterations));
             assert_eq!(length(gages), Some(15));
@@ -60,11 +67,19 @@ fn json_has_the_promised_keys() {
             assert!(rms(&pass["exact"]));
         }
     }
-    assert_eq!(cases[2]["correlation"]["passes"].as_array().map(Vec::len), Some(3));
+    assert_eq!(
+        cases[2]["correlation"]["passes"].as_array().map(Vec::len),
+        Some(3)
+    );
     assert_eq!(cases[3]["anomaly"]["parameter"], "8");
     // Gages at the bound of 0.013 in were held there by the total limit in Case 3's history.
-    let history = cases[2]["correlation"]["passes"][0]["history"].as_array().expect("a list");
-    let held = history.iter().flat_map(|i| i["limits"].as_array().expect("a list")).any(|l| l == "total");
+    let history = cases[2]["correlation"]["passes"][0]["history"]
+        .as_array()
+        .expect("a list");
+    let held = history
+        .iter()
+        .flat_map(|i| i["limits"].as_array().expect("a list"))
+        .any(|l| l == "total");
     assert!(held);
 }
 
@@ -72,7 +87,10 @@ fn json_has_the_promised_keys() {
 fn csv_has_one_number_a_line_under_a_heading() {
     let output = text(&corfem(&["cases", "3", "--format", "csv"]).stdout);
     let mut lines = output.lines();
-    assert_eq!(lines.next(), Some("table,row,column,unit,computed,published"));
+    assert_eq!(
+        lines.next(),
+        Some("table,row,column,unit,computed,published")
+    );
     assert!(lines.all(|line| line.split(',').count() == 6));
     assert!(output.contains("table_8,membrane RMS,Pass 3 error,%,"));
 }
@@ -95,11 +113,23 @@ fn help_says_what_it_does_and_what_the_exit_status_means() {
     let help = text(&corfem(&["--help"]).stdout);
     // Lines are broken to the width of the terminal, wherever that falls.
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in ["ground vibration test", "Exit status", "inch, pound-force, second", "cases"] {
+    for words in [
+        "ground vibration test",
+        "Exit status",
+        "inch, pound-force, second",
+        "cases",
+    ] {
         assert!(help.contains(words), "{words}");
     }
     let cases = text(&corfem(&["cases", "--help"]).stdout);
-    for words in ["--format", "--output", "--box", "--iterations", "--quiet", "detects a modeling"] {
+    for words in [
+        "--format",
+        "--output",
+        "--box",
+        "--iterations",
+        "--quiet",
+        "detects a modeling",
+    ] {
         assert!(cases.contains(words), "{words}");
     }
     assert!(help.contains("Case 4 detected a modeling error"), "{help}");
@@ -109,7 +139,14 @@ fn help_says_what_it_does_and_what_the_exit_status_means() {
 fn output_file_is_written_whole_and_matches_standard_output() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("report.json");
-    let output = corfem(&["cases", "4", "-f", "json", "-o", path.to_str().expect("UTF-8")]);
+    let output = corfem(&[
+        "cases",
+        "4",
+        "-f",
+        "json",
+        "-o",
+        path.to_str().expect("UTF-8"),
+    ]);
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stdout.is_empty());
     let written = std::fs::read(&path).expect("written");
@@ -127,7 +164,10 @@ fn bad_input_is_exit_status_2_and_leaves_nothing_behind() {
     assert!(text(&unknown.stderr).contains("expected 1, 2, 3 or 4, found 7"));
     assert!(unknown.stdout.is_empty());
     assert_eq!(corfem(&["cases", "--format", "pdf"]).status.code(), Some(2));
-    assert_eq!(corfem(&["cases", "--iterations", "0"]).status.code(), Some(2));
+    assert_eq!(
+        corfem(&["cases", "--iterations", "0"]).status.code(),
+        Some(2)
+    );
     let missing = corfem(&["cases", "--box", &path("absent.toml")]);
     assert_eq!(missing.status.code(), Some(2));
     assert!(text(&missing.stderr).contains("absent.toml"));
@@ -136,7 +176,14 @@ fn bad_input_is_exit_status_2_and_leaves_nothing_behind() {
     assert_eq!(nowhere.status.code(), Some(2));
     assert!(text(&nowhere.stderr).contains("report.txt"));
     std::fs::write(path("bad.toml"), "youngs_modulus = \"soft\"").expect("written");
-    let bad = corfem(&["cases", "4", "--box", &path("bad.toml"), "-o", &path("report.txt")]);
+    let bad = corfem(&[
+        "cases",
+        "4",
+        "--box",
+        &path("bad.toml"),
+        "-o",
+        &path("report.txt"),
+    ]);
     assert_eq!(bad.status.code(), Some(2));
     assert!(text(&bad.stderr).contains("bad.toml") && text(&bad.stderr).contains("youngs_modulus"));
     assert!(!folder.path().join("report.txt").exists());
@@ -154,14 +201,29 @@ fn another_box_is_a_change_of_data_alone() {
         *mass = (0.5 * mass.as_float().expect("a number")).into();
     }
     std::fs::write(&path, table.to_string()).expect("written");
-    let other = parsed(&["cases", "2", "-f", "json", "--box", path.to_str().expect("UTF-8")]);
+    let other = parsed(&[
+        "cases",
+        "2",
+        "-f",
+        "json",
+        "--box",
+        path.to_str().expect("UTF-8"),
+    ]);
     let own = parsed(&["cases", "2", "-f", "json"]);
     let frequencies = |document: &Value| -> Vec<f64> {
-        let list = document["cases"][0]["correlation"]["test_frequencies_hz"].as_array().expect("a list");
-        list.iter().map(|value| value.as_f64().expect("a number")).collect()
+        let list = document["cases"][0]["correlation"]["test_frequencies_hz"]
+            .as_array()
+            .expect("a list");
+        list.iter()
+            .map(|value| value.as_f64().expect("a number"))
+            .collect()
     };
     for (a, b) in frequencies(&other).iter().zip(frequencies(&own)) {
-        approx::assert_relative_eq!(*a, b, max_relative = crate::common::tolerances::MATRIX_ROUND_OFF);
+        approx::assert_relative_eq!(
+            *a,
+            b,
+            max_relative = crate::common::tolerances::MATRIX_ROUND_OFF
+        );
     }
 }
 
@@ -181,9 +243,14 @@ fn substructures_are_groups_in_the_report() {
     let output = corfem(&["cases", "2", "--groups", "--quiet"]);
     assert_eq!(output.status.code(), Some(0));
     let run = parsed(&["cases", "2", "--groups", "--format", "json", "--quiet"]);
-    let passes = run["cases"][0]["correlation"]["passes"].as_array().expect("passes");
+    let passes = run["cases"][0]["correlation"]["passes"]
+        .as_array()
+        .expect("passes");
     let plain = parsed(&["cases", "2", "--format", "json", "--quiet"]);
-    assert_ne!(&plain["cases"][0]["correlation"], &run["cases"][0]["correlation"]);
+    assert_ne!(
+        &plain["cases"][0]["correlation"],
+        &run["cases"][0]["correlation"]
+    );
     assert!(!passes.is_empty());
 }
 

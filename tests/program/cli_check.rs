@@ -5,8 +5,15 @@ use serde_json::Value;
 use std::path::Path;
 
 fn corfem(arguments: &[&str]) -> String {
-    let done = Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts");
-    assert!(done.status.success() && done.stderr.is_empty(), "{arguments:?}");
+    let done = Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts");
+    assert!(
+        done.status.success() && done.stderr.is_empty(),
+        "{arguments:?}"
+    );
     String::from_utf8(done.stdout).expect("UTF-8")
 }
 
@@ -16,11 +23,19 @@ fn check_says_what_it_finds() {
     let report = corfem("text");
     let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(report.starts_with("Before the first step"), "{report:.200}");
-    assert!(words.contains("Test mode 7 and analysis mode 6 have a cross-orthogonality of 0.667 only."));
+    assert!(
+        words.contains("Test mode 7 and analysis mode 6 have a cross-orthogonality of 0.667 only.")
+    );
     let json: Value = serde_json::from_str(&corfem("json")).expect("JSON");
     let structures = json["structures"].as_array().expect("a list");
-    let names: Vec<&str> = structures.iter().map(|found| found["name"].as_str().expect("a name")).collect();
-    assert_eq!(names, ["Case 1", "Case 2", "Case 3", "Case 4", "Delta wing"]);
+    let names: Vec<&str> = structures
+        .iter()
+        .map(|found| found["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(
+        names,
+        ["Case 1", "Case 2", "Case 3", "Case 4", "Delta wing"]
+    );
     assert_eq!(structures[2]["findings"], Value::Array(Vec::new()));
     assert_eq!(structures[3]["findings"][1]["low_pair"]["test"], 6);
 }
@@ -31,10 +46,17 @@ fn a_check_of_a_job_ranks_its_parameters() {
     let job = job.to_str().expect("a name");
     let text = corfem(&["check", job]);
     let suspects = text.split("Suspects: ").nth(1).expect("the table");
-    assert!((1..=10).all(|story| suspects.contains(&format!("story {story} "))), "{suspects}");
-    let json: Value = serde_json::from_str(&corfem(&["check", job, "--format", "json"])).expect("JSON");
+    assert!(
+        (1..=10).all(|story| suspects.contains(&format!("story {story} "))),
+        "{suspects}"
+    );
+    let json: Value =
+        serde_json::from_str(&corfem(&["check", job, "--format", "json"])).expect("JSON");
     assert_eq!(
-        (&json["tables"][3]["name"], &json["tables"][3]["rows"][0]["label"]),
+        (
+            &json["tables"][3]["name"],
+            &json["tables"][3]["rows"][0]["label"]
+        ),
         (&"suspects".into(), &"story 6".into())
     );
 }

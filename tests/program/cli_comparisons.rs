@@ -4,7 +4,11 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
+    Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -19,22 +23,36 @@ fn fewer_modes_in_every_format() {
     let report = text(&plain.stdout);
     assert!(report.starts_with("Computed numbers, the published ones"));
     for table in [9, 10, 11, 12] {
-        assert!(report.contains(&format!("(Table {table})")), "Table {table}");
+        assert!(
+            report.contains(&format!("(Table {table})")),
+            "Table {table}"
+        );
     }
     let markdown = text(&corfem(&["fewer-modes", "--format", "markdown"]).stdout);
     assert!(markdown.contains("## Case 2, pass 1, 7 test modes: gages and errors (Table 10)"));
     let numbers = text(&corfem(&["fewer-modes", "--format", "csv"]).stdout);
     assert!(numbers.lines().all(|line| line.split(',').count() == 6));
     assert!(numbers.contains("table_11,shear RMS,FEM 7 error,%,"));
-    let json: Value = serde_json::from_slice(&corfem(&["fewer-modes", "--format", "json"]).stdout).expect("JSON");
-    assert_eq!((&json["program"], &json["version"]), (&"corfem".into(), &env!("CARGO_PKG_VERSION").into()));
+    let json: Value =
+        serde_json::from_slice(&corfem(&["fewer-modes", "--format", "json"]).stdout).expect("JSON");
+    assert_eq!(
+        (&json["program"], &json["version"]),
+        (&"corfem".into(), &env!("CARGO_PKG_VERSION").into())
+    );
     assert!(json["units"].as_str().expect("units").contains("inch"));
     let runs = json["runs"].as_array().expect("a list");
     assert_eq!(runs.len(), 45);
     for run in runs {
         let iterations = run["iterations"].as_u64().expect("a count") as usize;
-        assert_eq!(run["inner_error_sums"].as_array().map(Vec::len), Some(iterations));
-        assert!(["tolerance", "iterations", "local_minimum"].map(Value::from).contains(&run["stop"]));
+        assert_eq!(
+            run["inner_error_sums"].as_array().map(Vec::len),
+            Some(iterations)
+        );
+        assert!(
+            ["tolerance", "iterations", "local_minimum"]
+                .map(Value::from)
+                .contains(&run["stop"])
+        );
         assert_eq!(run["gages_in"].as_array().map(Vec::len), Some(15));
     }
 }
@@ -44,8 +62,14 @@ fn matrices_of_a_case_and_a_number_of_modes() {
     let plain = corfem(&["matrices"]);
     assert_eq!(plain.status.code(), Some(0));
     let report = text(&plain.stdout);
-    assert!(report.starts_with("Case 2, 5 test modes"), "nothing here is published");
-    assert_eq!(plain.stdout, corfem(&["matrices", "2", "--test-modes", "5"]).stdout);
+    assert!(
+        report.starts_with("Case 2, 5 test modes"),
+        "nothing here is published"
+    );
+    assert_eq!(
+        plain.stdout,
+        corfem(&["matrices", "2", "--test-modes", "5"]).stdout
+    );
     let csv = text(&corfem(&["matrices", "--format", "csv"]).stdout);
     assert!(csv.starts_with("table,"), "{csv:.80}");
     let markdown = text(&corfem(&["matrices", "--format", "markdown"]).stdout);
@@ -53,7 +77,10 @@ fn matrices_of_a_case_and_a_number_of_modes() {
     let json = corfem(&["matrices", "3", "--test-modes", "7", "--format", "json"]).stdout;
     let json: Value = serde_json::from_slice(&json).expect("JSON");
     let comparison = &json["comparison"];
-    assert_eq!((&comparison["case"], &comparison["test_modes"]), (&3.into(), &7.into()));
+    assert_eq!(
+        (&comparison["case"], &comparison["test_modes"]),
+        (&3.into(), &7.into())
+    );
     assert_eq!(comparison["predictions"].as_array().map(Vec::len), Some(5));
     assert_eq!(comparison["factors"].as_array().map(Vec::len), Some(15));
 }
@@ -73,13 +100,26 @@ fn comparisons_go_to_a_file_when_asked() {
 #[test]
 fn bad_input_ends_with_two() {
     for (arguments, message) in [
-        (&["matrices", "5"][..], "case: expected 1, 2, 3 or 4, found 5"),
-        (&["matrices", "1", "--test-modes", "10"], "modes: expected at most 9, found 10"),
-        (&["matrices", "1", "--test-modes", "0"], "modes: expected at least one"),
+        (
+            &["matrices", "5"][..],
+            "case: expected 1, 2, 3 or 4, found 5",
+        ),
+        (
+            &["matrices", "1", "--test-modes", "10"],
+            "modes: expected at most 9, found 10",
+        ),
+        (
+            &["matrices", "1", "--test-modes", "0"],
+            "modes: expected at least one",
+        ),
     ] {
         let done = corfem(arguments);
         assert_eq!(done.status.code(), Some(2));
         assert!(done.stdout.is_empty());
-        assert!(text(&done.stderr).contains(message), "{}", text(&done.stderr));
+        assert!(
+            text(&done.stderr).contains(message),
+            "{}",
+            text(&done.stderr)
+        );
     }
 }

@@ -14,15 +14,23 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     assert_eq!(written, corfem(&["init"]).stdout);
     let refused = corfem(&["init", words(&path)]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("job.toml: expected to write it"), "{}", text(&refused.stderr));
+    assert!(
+        text(&refused.stderr).contains("job.toml: expected to write it"),
+        "{}",
+        text(&refused.stderr)
+    );
     assert_eq!(fs::read(&path).expect("it reads"), written);
     let job = read(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(job.title.as_deref(), Some("my structure"));
     // Every example and default is one that the reader takes, but for those of a model of matrices.
     let examples = String::from_utf8(written.clone()).expect("UTF-8");
-    let examples: String =
-        examples.lines().skip_while(|line| !line.starts_with("title")).fold(String::new(), |all, line| {
-            let entry = line.strip_prefix("# ").filter(|entry| entry.split(' ').nth(1) == Some("="));
+    let examples: String = examples
+        .lines()
+        .skip_while(|line| !line.starts_with("title"))
+        .fold(String::new(), |all, line| {
+            let entry = line
+                .strip_prefix("# ")
+                .filter(|entry| entry.split(' ').nth(1) == Some("="));
             all + entry.unwrap_or(line) + "\n"
         });
     toml::from_str::<Job>(&examples).unwrap_or_else(|error| panic!("{error}"));
@@ -45,15 +53,32 @@ fn entries(table: &str) -> Vec<String> {
         "test" => format!("{base}stranger = 1\n"),
         table => format!("{base}{table}\nstranger = 1\n"),
     };
-    let error = toml::from_str::<Job>(&text).expect_err("a stranger").to_string();
-    let list = error.split("expected ").nth(1).unwrap_or_else(|| panic!("{table}: {error}"));
-    list.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    let error = toml::from_str::<Job>(&text)
+        .expect_err("a stranger")
+        .to_string();
+    let list = error
+        .split("expected ")
+        .nth(1)
+        .unwrap_or_else(|| panic!("{table}: {error}"));
+    list.split('`')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect()
 }
 
 #[test]
 fn init_explains_every_entry_that_a_job_may_have() {
     let template = text(&corfem(&["init"]).stdout);
-    let tables = ["", "model", "test", "[sensors]", "[[parameter]]", "[compare]", "[[sensors.place]]"];
+    let tables = [
+        "",
+        "model",
+        "test",
+        "[sensors]",
+        "[[parameter]]",
+        "[compare]",
+        "[[sensors.place]]",
+    ];
     let all: Vec<String> = tables.iter().flat_map(|table| entries(table)).collect();
     assert!(all.len() > 35, "{all:?}");
     let uses = |entry: &str| {
@@ -66,14 +91,21 @@ fn init_explains_every_entry_that_a_job_may_have() {
     for entry in all {
         assert!(uses(&entry), "{entry}");
     }
-    for entry in ["[correlation]", "[correlation.inner]"].into_iter().flat_map(entries) {
-        assert!(uses(&entry) || uses(&format!("correlation.{entry}")), "correlation: {entry}");
+    for entry in ["[correlation]", "[correlation.inner]"]
+        .into_iter()
+        .flat_map(entries)
+    {
+        assert!(
+            uses(&entry) || uses(&format!("correlation.{entry}")),
+            "correlation: {entry}"
+        );
     }
 }
 
 #[test]
 fn the_example_of_a_test_reads() {
     let output = corfem(&["init", "--test"]);
-    let data = corfem::files::test_data::read("test.csv", &output.stdout).unwrap_or_else(|error| panic!("{error}"));
+    let data = corfem::files::test_data::read("test.csv", &output.stdout)
+        .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
 }

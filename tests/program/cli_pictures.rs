@@ -5,13 +5,22 @@ use assert_cmd::Command;
 use std::path::Path;
 
 fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
+    Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts")
 }
 
 fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
-    let name =
-        |entry: std::io::Result<std::fs::DirEntry>| entry.expect("an entry").file_name().into_string().expect("UTF-8");
+    let name = |entry: std::io::Result<std::fs::DirEntry>| {
+        entry
+            .expect("an entry")
+            .file_name()
+            .into_string()
+            .expect("UTF-8")
+    };
     let mut names: Vec<String> = entries.map(name).collect();
     names.sort();
     names
@@ -27,7 +36,11 @@ fn report_command_writes_one_page_into_a_new_folder() {
     assert!(run.stdout.is_empty());
     assert_eq!(String::from_utf8_lossy(&run.stderr).lines().count(), 5);
     assert_eq!(names_in(&out), ["report.html"]);
-    assert_eq!(names_in(folder.path()), ["new"], "no scratch folder is left");
+    assert_eq!(
+        names_in(folder.path()),
+        ["new"],
+        "no scratch folder is left"
+    );
     let html = std::fs::read_to_string(out.join("report.html")).expect("it reads");
     assert!(html.contains(&format!("<code>corfem report --output {out_text}</code>")));
 }
@@ -42,14 +55,21 @@ fn figures_command_writes_svg_and_leaves_other_files_alone() {
     assert!(run.stdout.is_empty());
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
     let count = figures().len();
-    assert_eq!(said.lines().last(), Some(format!("{count} files in {out}").as_str()));
+    assert_eq!(
+        said.lines().last(),
+        Some(format!("{count} files in {out}").as_str())
+    );
     let names = names_in(folder.path());
     assert_eq!(names.len(), figures().len() + 1);
     for figure in figures() {
-        let svg = std::fs::read_to_string(folder.path().join(format!("{}.svg", figure.name))).expect("it reads");
+        let svg = std::fs::read_to_string(folder.path().join(format!("{}.svg", figure.name)))
+            .expect("it reads");
         assert_eq!(svg, figure.svg);
     }
-    assert_eq!(std::fs::read_to_string(folder.path().join("notes.txt")).expect("it reads"), "mine");
+    assert_eq!(
+        std::fs::read_to_string(folder.path().join("notes.txt")).expect("it reads"),
+        "mine"
+    );
 }
 
 #[test]
@@ -66,8 +86,14 @@ fn what_cannot_be_written_is_exit_status_2_and_leaves_nothing() {
     assert!(names_in(folder.path()).is_empty());
     failed(&["report", "-q"], "--output");
     std::fs::write(path("file"), "mine").expect("written");
-    failed(&["report", "-q", "--out", &path("file")], "file: expected to write it");
-    assert_eq!(std::fs::read_to_string(path("file")).expect("it reads"), "mine");
+    failed(
+        &["report", "-q", "--out", &path("file")],
+        "file: expected to write it",
+    );
+    assert_eq!(
+        std::fs::read_to_string(path("file")).expect("it reads"),
+        "mine"
+    );
     // A folder stands where a figure should: none of the others is written.
     std::fs::create_dir_all(path("out/cover_gages.svg")).expect("made");
     failed(&["figures", "-q", "--out", &path("out")], "cover_gages.svg");

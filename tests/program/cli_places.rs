@@ -31,7 +31,11 @@ impl Place {
         let root = tempfile::tempdir().expect("a folder");
         let held = root.path().join("held");
         let file = held.join("report.txt");
-        fs::copy(assert_cmd::cargo::cargo_bin("corfem"), root.path().join("corfem")).expect("copied");
+        fs::copy(
+            assert_cmd::cargo::cargo_bin("corfem"),
+            root.path().join("corfem"),
+        )
+        .expect("copied");
         fs::create_dir(&held).expect("made");
         fs::write(&file, "old ".repeat(10_000)).expect("written");
         set(root.path(), 0o755);
@@ -43,14 +47,19 @@ impl Place {
     /// The program's shortest report; as nobody where everything is allowed to root.
     fn run(&self, to: &Path) -> Output {
         let mut command = Command::new(self.root.path().join("corfem"));
-        command.args(["cases", "4", "-q", "-o"]).arg(to).current_dir("/");
+        command
+            .args(["cases", "4", "-q", "-o"])
+            .arg(to)
+            .current_dir("/");
         if geteuid().is_root() {
             command.uid(NOBODY).gid(NOBODY);
         }
         // Another test may start a program of its own while the copy is still open for writing, and hold it open for a moment.
         for _ in 0..200 {
             match command.output() {
-                Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => sleep(Duration::from_millis(50)),
+                Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => {
+                    sleep(Duration::from_millis(50))
+                }
                 done => return done.expect("it starts"),
             }
         }
@@ -86,10 +95,17 @@ fn a_file_in_a_folder_that_takes_none_is_written_over() {
         fs::write(&place.file, "old ".repeat(10_000)).expect("written");
         let output = place.run(to);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        assert_eq!(fs::read(&place.file).expect("it reads"), report(), "whole, and nothing of the old one");
+        assert_eq!(
+            fs::read(&place.file).expect("it reads"),
+            report(),
+            "whole, and nothing of the old one"
+        );
     }
     let after = fs::metadata(&place.file).expect("it is there");
-    assert_eq!((after.ino(), after.mode(), after.uid()), (before.ino(), before.mode(), before.uid()));
+    assert_eq!(
+        (after.ino(), after.mode(), after.uid()),
+        (before.ino(), before.mode(), before.uid())
+    );
     assert!(link.is_symlink());
     assert_eq!(names(&place.held), 1);
 }
@@ -101,7 +117,11 @@ fn a_new_file_in_such_a_folder_and_one_that_may_not_be_written_are_refused() {
     for to in [place.held.join("new.txt"), place.file.clone()] {
         let refused = place.run(&to);
         assert_eq!(refused.status.code(), Some(2), "{}", to.display());
-        assert!(text(&refused.stderr).contains("expected to write it"), "{}", text(&refused.stderr));
+        assert!(
+            text(&refused.stderr).contains("expected to write it"),
+            "{}",
+            text(&refused.stderr)
+        );
     }
     assert_eq!(fs::read(&place.file).expect("it reads"), old);
     assert_eq!(names(&place.held), 1);
@@ -119,7 +139,10 @@ fn anothers_file_stays_anothers() {
     let before = fs::metadata(&place.file).expect("it is there");
     assert_eq!(place.run(&place.file).status.code(), Some(0));
     let after = fs::metadata(&place.file).expect("it is there");
-    assert_eq!((after.ino(), after.uid(), after.mode()), (before.ino(), before.uid(), before.mode()));
+    assert_eq!(
+        (after.ino(), after.uid(), after.mode()),
+        (before.ino(), before.uid(), before.mode())
+    );
     assert_eq!(fs::read(&place.file).expect("it reads"), report());
     assert_eq!(names(&place.held), 1, "what was staged is gone");
 }
@@ -138,7 +161,11 @@ fn a_file_that_may_not_be_written_is_refused_where_it_could_be_replaced() {
     let place = Place::new(0o444);
     set(&place.held, 0o777);
     assert_eq!(place.run(&place.file).status.code(), Some(2));
-    assert!(fs::read_to_string(&place.file).expect("it reads").starts_with("old old"));
+    assert!(
+        fs::read_to_string(&place.file)
+            .expect("it reads")
+            .starts_with("old old")
+    );
     assert_eq!(names(&place.held), 1);
 }
 
@@ -153,7 +180,15 @@ fn a_file_that_is_mounted_is_written_over() {
     let words = [&place.file, &other, &place.root.path().join("corfem")];
     let run = |shell: &str| {
         Command::new("unshare")
-            .args(["--user", "--map-root-user", "--mount", "sh", "-c", shell, "sh"])
+            .args([
+                "--user",
+                "--map-root-user",
+                "--mount",
+                "sh",
+                "-c",
+                shell,
+                "sh",
+            ])
             .args(words)
             .output()
     };
@@ -164,35 +199,83 @@ fn a_file_that_is_mounted_is_written_over() {
     let done = run(shell).expect("it starts");
     assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
     assert_eq!(fs::read(&other).expect("it reads"), report());
-    assert!(fs::read_to_string(&place.file).expect("it reads").starts_with("old old"), "what lies under it stays");
+    assert!(
+        fs::read_to_string(&place.file)
+            .expect("it reads")
+            .starts_with("old old"),
+        "what lies under it stays"
+    );
 }
 
 /// The calls of a run that wait for the disk or change a name, in order.
 fn calls(arguments: &[&str], folder: &Path) -> Option<Vec<String>> {
     let log = folder.join("log");
     let mut command = Command::new("strace");
-    command.args(["-f", "-y", "-qq", "-e", "trace=fsync,?rename,?renameat,?renameat2", "-o"]).arg(&log);
-    command.arg(assert_cmd::cargo::cargo_bin("corfem")).args(arguments).current_dir(folder);
+    command
+        .args([
+            "-f",
+            "-y",
+            "-qq",
+            "-e",
+            "trace=fsync,?rename,?renameat,?renameat2",
+            "-o",
+        ])
+        .arg(&log);
+    command
+        .arg(assert_cmd::cargo::cargo_bin("corfem"))
+        .args(arguments)
+        .current_dir(folder);
     if !command.status().is_ok_and(|status| status.success()) {
         println!("NOT RUN: the order of system calls. It needs strace.");
         return None;
     }
-    Some(fs::read_to_string(log).expect("it reads").lines().map(str::to_owned).collect())
+    Some(
+        fs::read_to_string(log)
+            .expect("it reads")
+            .lines()
+            .map(str::to_owned)
+            .collect(),
+    )
 }
 
 #[test]
 fn new_files_are_on_the_disk_before_they_take_a_name() {
     let folder = tempfile::tempdir().expect("a folder");
-    let Some(calls) = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path()) else { return };
-    let kinds: Vec<&str> = calls.iter().map(|call| if call.contains("fsync(") { "sync" } else { "rename" }).collect();
+    let Some(calls) = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path()) else {
+        return;
+    };
+    let kinds: Vec<&str> = calls
+        .iter()
+        .map(|call| {
+            if call.contains("fsync(") {
+                "sync"
+            } else {
+                "rename"
+            }
+        })
+        .collect();
     assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
     let out = tempfile::tempdir().expect("a folder");
-    let Some(calls) = self::calls(&["figures", "-q", "-o", "figures"], out.path()) else { return };
-    let first = calls.iter().position(|call| call.contains("rename")).expect("names change");
+    let Some(calls) = self::calls(&["figures", "-q", "-o", "figures"], out.path()) else {
+        return;
+    };
+    let first = calls
+        .iter()
+        .position(|call| call.contains("rename"))
+        .expect("names change");
     let (before, after) = calls.split_at(first);
     let files = names(&out.path().join("figures"));
-    let synced = before.iter().filter(|call| call.contains("/new/") && call.contains("fsync(")).count();
+    let synced = before
+        .iter()
+        .filter(|call| call.contains("/new/") && call.contains("fsync("))
+        .count();
     assert_eq!(synced, files, "every file");
-    let turn = after.iter().position(|call| call.contains("current\"")).expect("the set is turned");
-    assert!(after[turn - 1].contains("fsync(") && after[turn + 1].contains("fsync("), "around the turn: {after:?}");
+    let turn = after
+        .iter()
+        .position(|call| call.contains("current\""))
+        .expect("the set is turned");
+    assert!(
+        after[turn - 1].contains("fsync(") && after[turn + 1].contains("fsync("),
+        "around the turn: {after:?}"
+    );
 }

@@ -4,7 +4,11 @@ use crate::program::cli::{corfem, parsed, text};
 use serde_json::{Value, json};
 
 fn settings(arguments: &[&str]) -> Value {
-    let arguments = [&["cases", "1", "--quiet", "--format", "json", "--passes", "1"], arguments].concat();
+    let arguments = [
+        &["cases", "1", "--quiet", "--format", "json", "--passes", "1"],
+        arguments,
+    ]
+    .concat();
     parsed(&arguments)["cases"][0]["settings"].clone()
 }
 
@@ -15,9 +19,21 @@ fn every_setting_reaches_the_loops() {
     assert_eq!(plain["inner"]["accumulation"], "sum");
     for (arguments, key, value) in [
         (["--rule", "matrix"], "step", json!("matrix")),
-        (["--rule", "steepest_descent"], "step", json!("steepest_descent")),
-        (["--accumulation", "product"], "accumulation", json!("product")),
-        (["--limits", "0.6,1.4"], "factor_range", json!({"lower": 0.6, "upper": 1.4})),
+        (
+            ["--rule", "steepest_descent"],
+            "step",
+            json!("steepest_descent"),
+        ),
+        (
+            ["--accumulation", "product"],
+            "accumulation",
+            json!("product"),
+        ),
+        (
+            ["--limits", "0.6,1.4"],
+            "factor_range",
+            json!({"lower": 0.6, "upper": 1.4}),
+        ),
         (["--iterations", "3"], "iterations", json!(3)),
     ] {
         let found = settings(&arguments);
@@ -29,25 +45,49 @@ fn every_setting_reaches_the_loops() {
     let found = settings(&["--relaxation", "0.5,0.9", "--tolerance", "0.03,0.02"]);
     assert_eq!(found["inner"]["first_relaxation"], 0.5);
     assert_eq!(found["inner"]["relaxation"], 0.9);
-    assert_eq!((&found["inner"]["tolerance"], &found["later_inner_tolerance"]), (&json!(0.03), &json!(0.02)));
+    assert_eq!(
+        (
+            &found["inner"]["tolerance"],
+            &found["later_inner_tolerance"]
+        ),
+        (&json!(0.03), &json!(0.02))
+    );
     assert_eq!(found["most_passes"], 1);
 }
 
 #[test]
 fn another_reading_gives_other_gages_and_the_report_says_which() {
-    let report = |rule: &str| text(&corfem(&["cases", "2", "--quiet", "--passes", "1", "--rule", rule]).stdout);
+    let report = |rule: &str| {
+        text(&corfem(&["cases", "2", "--quiet", "--passes", "1", "--rule", rule]).stdout)
+    };
     let (relative, matrix) = (report("relative"), report("matrix"));
     assert_ne!(relative, matrix);
-    let line = |report: &str, word: &str| report.lines().any(|line| line.starts_with("2 ") && line.contains(word));
+    let line = |report: &str, word: &str| {
+        report
+            .lines()
+            .any(|line| line.starts_with("2 ") && line.contains(word))
+    };
     assert!(line(&relative, "relative") && line(&matrix, "matrix"));
 }
 
 #[test]
 fn fewer_modes_and_the_delta_wing_take_them_too() {
     let runs = parsed(&["fewer-modes", "--format", "json", "--rule", "own"]);
-    let counts = runs["runs"].as_array().expect("runs").iter().map(|run| run["iterations"].as_u64());
+    let counts = runs["runs"]
+        .as_array()
+        .expect("runs")
+        .iter()
+        .map(|run| run["iterations"].as_u64());
     assert!(counts.max() < Some(Some(30)));
-    let wing = corfem(&["delta-wing", "--format", "json", "--iterations", "2", "--passes", "1"]);
+    let wing = corfem(&[
+        "delta-wing",
+        "--format",
+        "json",
+        "--iterations",
+        "2",
+        "--passes",
+        "1",
+    ]);
     assert_eq!(wing.status.code(), Some(3));
     assert!(text(&wing.stderr).contains("did not converge within its limits"));
     let wing: Value = serde_json::from_slice(&wing.stdout).expect("JSON");
@@ -60,13 +100,23 @@ fn settings_out_of_range_are_refused_by_their_names() {
         (["--rule", "best"], "unknown variant `best`"),
         (["--limits", "1.5,0.5"], "--limits"),
         (["--limits", "0.5"], "--limits: expected 2 x 1, found 1 x 1"),
-        (["--relaxation", "0,1"], "first_relaxation: expected a positive finite number, found 0"),
-        (["--tolerance", "nan,1"], "tolerance: expected a positive finite number, found NaN"),
+        (
+            ["--relaxation", "0,1"],
+            "first_relaxation: expected a positive finite number, found 0",
+        ),
+        (
+            ["--tolerance", "nan,1"],
+            "tolerance: expected a positive finite number, found NaN",
+        ),
         (["--iterations", "0"], "--iterations"),
     ] {
         let output = corfem(&[&["cases", "1", "--quiet"], &arguments[..]].concat());
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(text(&output.stderr).contains(said), "{}", text(&output.stderr));
+        assert!(
+            text(&output.stderr).contains(said),
+            "{}",
+            text(&output.stderr)
+        );
     }
 }
 
@@ -79,6 +129,7 @@ fn readings_are_printed_in_every_format() {
     assert_eq!(json["columns"].as_array().map(Vec::len), Some(4 * 15));
     assert_eq!(json["case_4"].as_array().map(Vec::len), Some(4));
     assert!(
-        text(&corfem(&["readings", "--format", "csv"]).stdout).contains("readings_agreement,Case 2 pass 1,r relative,")
+        text(&corfem(&["readings", "--format", "csv"]).stdout)
+            .contains("readings_agreement,Case 2 pass 1,r relative,")
     );
 }

@@ -4,7 +4,11 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 fn stdout(arguments: &[&str]) -> String {
-    let done = Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts");
+    let done = Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts");
     assert_eq!(done.status.code(), Some(0), "{arguments:?}");
     String::from_utf8(done.stdout).expect("UTF-8")
 }
@@ -17,25 +21,40 @@ fn all_thirteen_tables_or_those_asked_for() {
     let one = stdout(&["tables", "13"]);
     assert!(one.starts_with("Table 13. ") && one.contains("1.9") && !one.contains("Table 2. "));
     assert!(stdout(&["tables", "1", "-f", "csv"]).contains("\ntable_1,1,First order,%,"));
-    assert!(stdout(&["tables", "13", "-f", "csv"]).contains("\npublished_13,3,Pass 1 time,s,,4.8\n"));
+    assert!(
+        stdout(&["tables", "13", "-f", "csv"]).contains("\npublished_13,3,Pass 1 time,s,,4.8\n")
+    );
     assert!(stdout(&["tables", "13", "-f", "markdown"]).contains("| Pass 1 time, s |"));
-    let json: Value = serde_json::from_str(&stdout(&["tables", "1", "13", "-f", "json"])).expect("JSON");
+    let json: Value =
+        serde_json::from_str(&stdout(&["tables", "1", "13", "-f", "json"])).expect("JSON");
     let tables = json["tables"].as_array().expect("a list");
     assert_eq!(tables.len(), 2);
     for table in tables {
         let columns = table["columns"].as_array().expect("a list").len();
         let rows = table["rows"].as_array().expect("a list");
-        assert!(rows.iter().all(|row| row["cells"].as_array().map(Vec::len) == Some(columns)));
+        assert!(
+            rows.iter()
+                .all(|row| row["cells"].as_array().map(Vec::len) == Some(columns))
+        );
     }
     assert!(tables[0]["rows"][0]["cells"][0]["computed"].is_f64());
-    assert_eq!((&tables[1]["rows"][2]["label"], &tables[1]["rows"][2]["cells"][1]), (&"3".into(), &"4.8".into()));
+    assert_eq!(
+        (
+            &tables[1]["rows"][2]["label"],
+            &tables[1]["rows"][2]["cells"][1]
+        ),
+        (&"3".into(), &"4.8".into())
+    );
 }
 
 #[test]
 fn other_numbers_are_bad_input() {
     for number in ["0", "14"] {
         let mut command = Command::cargo_bin("corfem").expect("the program is built");
-        let done = command.args(["tables", number]).output().expect("it starts");
+        let done = command
+            .args(["tables", number])
+            .output()
+            .expect("it starts");
         assert_eq!((done.status.code(), done.stdout.len()), (Some(2), 0));
     }
 }
@@ -49,6 +68,9 @@ fn a_report_says_which_tables_it_holds() {
         (&["cases", "3", "-q", "-f", "markdown"], "7, 8, 13"),
     ] {
         let sentence = format!("Of the paper's tables, here are {numbers}; corfem tables prints");
-        assert!(words(stdout(arguments)).contains(&sentence), "{arguments:?}");
+        assert!(
+            words(stdout(arguments)).contains(&sentence),
+            "{arguments:?}"
+        );
     }
 }

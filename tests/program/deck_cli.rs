@@ -6,7 +6,11 @@ use corfem::cases::{Case, run_case};
 use serde_json::Value;
 
 fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem").expect("the program is built").args(arguments).output().expect("it starts")
+    Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -15,7 +19,9 @@ fn text(bytes: &[u8]) -> String {
 
 fn frequencies(document: &Value) -> Vec<f64> {
     let list = document["frequencies_hz"].as_array().expect("a list");
-    list.iter().map(|value| value.as_f64().expect("a number")).collect()
+    list.iter()
+        .map(|value| value.as_f64().expect("a number"))
+        .collect()
 }
 
 #[test]
@@ -25,7 +31,11 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
     let path = path.to_str().expect("UTF-8");
     let case = Case::new(2).expect("a case");
     let passes = run_case(&case, |_, _| ()).expect("a run").correlation;
-    let stages = [("0", &passes.initial), ("1", &passes.passes[0].check), ("2", &passes.passes[1].check)];
+    let stages = [
+        ("0", &passes.initial),
+        ("1", &passes.passes[0].check),
+        ("2", &passes.passes[1].check),
+    ];
     for (pass, check) in stages {
         let written = corfem(&["deck", "2", "--pass", pass, "-o", path]);
         assert_eq!(written.status.code(), Some(0), "{}", text(&written.stderr));
@@ -46,11 +56,19 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
             .iter()
             .zip(document["generalized_masses"].as_array().expect("a list"))
         {
-            let shape: Vec<f64> =
-                shape.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect();
+            let shape: Vec<f64> = shape
+                .as_array()
+                .expect("a list")
+                .iter()
+                .map(|x| x.as_f64().expect("a number"))
+                .collect();
             let largest = shape.iter().copied().fold(f64::MIN, f64::max);
             assert_eq!((shape.len(), largest), (9, 1.0));
-            let generalized: f64 = shape.iter().zip(&case.reconstruction.masses).map(|(x, m)| m * x * x).sum();
+            let generalized: f64 = shape
+                .iter()
+                .zip(&case.reconstruction.masses)
+                .map(|(x, m)| m * x * x)
+                .sum();
             approx::assert_relative_eq!(
                 mass.as_f64().expect("a number"),
                 generalized,
@@ -78,14 +96,22 @@ fn a_deck_is_a_whole_run_of_nastran() {
     }
     assert!(deck.contains("TITLE = CORFEM CASE 4, PASS 0\n"));
     assert!(deck.lines().all(|line| line.len() <= 80));
-    let count =
-        |name: &str| deck.lines().filter(|line| line[..8.min(line.len())].trim_end_matches([' ', '*']) == name).count();
-    let counts =
-        ["GRID", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "MAT1", "CMASS2", "MPC", "SPC1", "EIGR"]
-            .map(count);
+    let count = |name: &str| {
+        deck.lines()
+            .filter(|line| line[..8.min(line.len())].trim_end_matches([' ', '*']) == name)
+            .count()
+    };
+    let counts = [
+        "GRID", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "MAT1", "CMASS2", "MPC",
+        "SPC1", "EIGR",
+    ]
+    .map(count);
     assert_eq!(counts, [25, 24, 24, 9, 9, 6, 6, 1, 9, 9, 3, 1]);
     // Nine modes from below the lowest to above the highest of 7.56 to 878 Hz.
-    assert!(deck.contains("EIGR    1       INV     6.      966.    9       9"), "{deck}");
+    assert!(
+        deck.contains("EIGR    1       INV     6.      966.    9       9"),
+        "{deck}"
+    );
     assert!(
         deck.contains("GRID*   1                               10.107          32.564          *1\n*1      .2119\n")
     );
@@ -100,19 +126,34 @@ fn modes_are_tables_with_what_was_not_read() {
     let path = path.to_str().expect("UTF-8");
     let plain = corfem(&["modes", path]);
     assert_eq!(plain.status.code(), Some(0));
-    let sentence = "Not read: PARAM (line 1, 1 card), nothing of stiffness, mass, supports or coordinates.";
-    assert!(text(&plain.stderr).ends_with(&format!("{sentence}\n")), "{}", text(&plain.stderr));
+    let sentence =
+        "Not read: PARAM (line 1, 1 card), nothing of stiffness, mass, supports or coordinates.";
+    assert!(
+        text(&plain.stderr).ends_with(&format!("{sentence}\n")),
+        "{}",
+        text(&plain.stderr)
+    );
     let report = text(&plain.stdout);
-    assert!(report.starts_with("Natural frequencies at 1 degree of freedom with mass\n"), "{report}");
-    assert!(report.contains("1      7.957747     0.400000\n"), "{report}");
+    assert!(
+        report.starts_with("Natural frequencies at 1 degree of freedom with mass\n"),
+        "{report}"
+    );
+    assert!(
+        report.contains("1      7.957747     0.400000\n"),
+        "{report}"
+    );
     assert!(report.contains(sentence));
     assert!(report.contains("2 x   1.00000\n"), "{report}");
     let markdown = text(&corfem(&["modes", path, "-f", "markdown"]).stdout);
-    assert!(markdown.contains("## Shapes of modes 1 to 1, largest component one"), "{markdown}");
+    assert!(
+        markdown.contains("## Shapes of modes 1 to 1, largest component one"),
+        "{markdown}"
+    );
     let csv = text(&corfem(&["modes", path, "-f", "csv"]).stdout);
     assert!(csv.contains("frequencies,1,Frequency,Hz,7.957747"), "{csv}");
     assert!(csv.contains("shapes_1_to_1,2 x,Mode 1,,1,"), "{csv}");
-    let json: Value = serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
+    let json: Value =
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
     assert_eq!(json["not_read"][0], sentence);
 }
 
@@ -130,15 +171,25 @@ fn shapes_are_split_into_tables_of_nine_modes() {
     std::fs::write(&path, deck).expect("written");
     let path = path.to_str().expect("UTF-8");
     let report = text(&corfem(&["modes", path]).stdout);
-    assert!(report.contains("Shapes of modes 1 to 9,") && report.contains("Shapes of modes 10 to 11,"), "{report}");
+    assert!(
+        report.contains("Shapes of modes 1 to 9,") && report.contains("Shapes of modes 10 to 11,"),
+        "{report}"
+    );
     let lowest: Value =
-        serde_json::from_slice(&corfem(&["modes", path, "-f", "json", "--count", "2"]).stdout).expect("JSON");
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json", "--count", "2"]).stdout)
+            .expect("JSON");
     assert_eq!(frequencies(&lowest).len(), 2);
     assert_eq!(lowest["shapes"].as_array().map(Vec::len), Some(2));
-    assert_eq!(corfem(&["modes", path, "--count", "11"]).status.code(), Some(0));
+    assert_eq!(
+        corfem(&["modes", path, "--count", "11"]).status.code(),
+        Some(0)
+    );
     let more = corfem(&["modes", path, "--count", "12"]);
     assert_eq!(more.status.code(), Some(2));
-    assert_eq!(text(&more.stderr), "corfem: modes of finite frequency: expected at most 11, found 12\n");
+    assert_eq!(
+        text(&more.stderr),
+        "corfem: modes of finite frequency: expected at most 11, found 12\n"
+    );
 }
 
 #[test]
@@ -148,8 +199,14 @@ fn bad_input_is_exit_status_2() {
     std::fs::write(&path, "GRID,1,,x\n").expect("written");
     let path = path.to_str().expect("UTF-8");
     for (arguments, message) in [
-        (vec!["deck", "7"], "corfem: case: expected 1, 2, 3 or 4, found 7\n".to_owned()),
-        (vec!["deck", "4", "--pass", "2"], "corfem: pass: expected at most 1, found 2\n".to_owned()),
+        (
+            vec!["deck", "7"],
+            "corfem: case: expected 1, 2, 3 or 4, found 7\n".to_owned(),
+        ),
+        (
+            vec!["deck", "4", "--pass", "2"],
+            "corfem: pass: expected at most 1, found 2\n".to_owned(),
+        ),
         (
             vec!["modes", path],
             format!(
@@ -199,22 +256,48 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
     );
     let some = corfem(&["modes", path, "--ignore", "CBAR"]);
     assert_eq!(some.status.code(), Some(2));
-    assert!(text(&some.stderr).contains("found PBAR (line 8, 1 card);"), "{}", text(&some.stderr));
+    assert!(
+        text(&some.stderr).contains("found PBAR (line 8, 1 card);"),
+        "{}",
+        text(&some.stderr)
+    );
     let read = corfem(&["modes", path, "--ignore", "CROD"]);
     assert_eq!(read.status.code(), Some(2));
-    assert_eq!(text(&read.stderr), "corfem: --ignore: expected a card that is not read here, found CROD\n");
+    assert_eq!(
+        text(&read.stderr),
+        "corfem: --ignore: expected a card that is not read here, found CROD\n"
+    );
     let run = |format| corfem(&["modes", path, "--ignore", "cbar,PBAR", "--format", format]);
-    let sentence = "Not read: CBAR (line 7, 2 cards), left out by request; these modes lack what they say.";
+    let sentence =
+        "Not read: CBAR (line 7, 2 cards), left out by request; these modes lack what they say.";
     let report = run("text");
     assert_eq!(report.status.code(), Some(0));
-    assert!(text(&report.stderr).contains(sentence), "{}", text(&report.stderr));
+    assert!(
+        text(&report.stderr).contains(sentence),
+        "{}",
+        text(&report.stderr)
+    );
     let title = "Cards left out by request: these modes lack what they say";
-    assert!(text(&report.stdout).starts_with(title), "{}", text(&report.stdout));
-    assert!(text(&report.stdout).contains("1      7.957747     0.400000\n"), "{}", text(&report.stdout));
+    assert!(
+        text(&report.stdout).starts_with(title),
+        "{}",
+        text(&report.stdout)
+    );
+    assert!(
+        text(&report.stdout).contains("1      7.957747     0.400000\n"),
+        "{}",
+        text(&report.stdout)
+    );
     let markdown = text(&run("markdown").stdout);
-    assert!(markdown.contains(title) && markdown.contains("| CBAR | 2 | 7 |\n| PBAR | 1 | 8 |"), "{markdown}");
+    assert!(
+        markdown.contains(title) && markdown.contains("| CBAR | 2 | 7 |\n| PBAR | 1 | 8 |"),
+        "{markdown}"
+    );
     let csv = text(&run("csv").stdout);
-    assert!(csv.contains("ignored,CBAR,Cards,,2,\n") && csv.contains("ignored,PBAR,Cards,,1,\n"), "{csv}");
+    assert!(
+        csv.contains("ignored,CBAR,Cards,,2,\n") && csv.contains("ignored,PBAR,Cards,,1,\n"),
+        "{csv}"
+    );
     let json: Value = serde_json::from_slice(&run("json").stdout).expect("JSON");
     assert_eq!(json["not_read"][0], sentence);
     assert_eq!(json["not_read"].as_array().map(Vec::len), Some(2));
@@ -224,7 +307,11 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
 fn a_deck_in_latin_1_is_read() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("latin.dat");
-    let bytes = [b"$ Fl\xFCgel\n".as_slice(), BARS.split("CBAR").next().expect("a part").as_bytes()].concat();
+    let bytes = [
+        b"$ Fl\xFCgel\n".as_slice(),
+        BARS.split("CBAR").next().expect("a part").as_bytes(),
+    ]
+    .concat();
     std::fs::write(&path, bytes).expect("written");
     let report = corfem(&["modes", path.to_str().expect("UTF-8")]);
     assert_eq!(report.status.code(), Some(0), "{}", text(&report.stderr));
@@ -234,7 +321,12 @@ fn a_deck_in_latin_1_is_read() {
 #[test]
 fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
     let reason = corfem::files::deck::Reason::NotSelected;
-    let unread = corfem::files::deck::Unread { card: "MPC".into(), line: 7, count: 2, reason };
+    let unread = corfem::files::deck::Unread {
+        card: "MPC".into(),
+        line: 7,
+        count: 2,
+        reason,
+    };
     assert_eq!(
         corfem::present::tables::deck::not_read(&unread),
         "Not read: MPC (line 7, 2 cards), of a set that case control does not select."

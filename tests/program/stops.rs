@@ -20,7 +20,9 @@ const OLD: &str = "old";
 const FEW: u64 = 4;
 
 fn asked_for() -> Option<u64> {
-    std::env::var("CORFEM_STOPS").ok().map(|count| count.parse().expect("CORFEM_STOPS is a number"))
+    std::env::var("CORFEM_STOPS")
+        .ok()
+        .map(|count| count.parse().expect("CORFEM_STOPS is a number"))
 }
 
 /// What a reader finds in a folder.
@@ -42,7 +44,10 @@ fn found(folder: &Path) -> Set {
         }
     };
     let all: Vec<Set> = figures().iter().map(of).collect();
-    assert!(all.iter().all(|one| *one == all[0]), "old and new figures are mixed: {all:?}");
+    assert!(
+        all.iter().all(|one| *one == all[0]),
+        "old and new figures are mixed: {all:?}"
+    );
     all[0]
 }
 
@@ -57,10 +62,21 @@ fn old_set(folder: &Path) {
 /// The program writing figures into a folder, perhaps run by another one.
 fn start(run_by: &[&str], folder: &Path) -> Child {
     let program = assert_cmd::cargo::cargo_bin("corfem");
-    let words = run_by.iter().map(Path::new).chain([program.as_path()]).collect::<Vec<_>>();
+    let words = run_by
+        .iter()
+        .map(Path::new)
+        .chain([program.as_path()])
+        .collect::<Vec<_>>();
     let mut command = Command::new(words[0]);
-    command.args(&words[1..]).args(["figures", "-q", "-o"]).arg(folder);
-    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts")
+    command
+        .args(&words[1..])
+        .args(["figures", "-q", "-o"])
+        .arg(folder);
+    command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it starts")
 }
 
 /// Sends a signal some time after the program has begun to write.
@@ -82,11 +98,22 @@ fn next_run(folder: &Path) {
     assert!(start(&[], folder).wait().expect("an end").success());
     assert_eq!(found(folder), Set::New);
     let own = figures().len();
-    let names = std::fs::read_dir(folder).expect("a folder").flatten().map(|entry| entry.file_name());
-    let others: Vec<_> = names.filter(|name| !name.to_string_lossy().ends_with(".svg")).collect();
+    let names = std::fs::read_dir(folder)
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.file_name());
+    let others: Vec<_> = names
+        .filter(|name| !name.to_string_lossy().ends_with(".svg"))
+        .collect();
     assert!(!others.iter().any(|name| name == STAGE), "{others:?}");
-    let links = figures().iter().filter(|figure| folder.join(format!("{}.svg", figure.name)).is_symlink()).count();
-    assert_eq!((links, std::fs::read_dir(folder).expect("a folder").count()), (0, own + others.len()));
+    let links = figures()
+        .iter()
+        .filter(|figure| folder.join(format!("{}.svg", figure.name)).is_symlink())
+        .count();
+    assert_eq!(
+        (links, std::fs::read_dir(folder).expect("a folder").count()),
+        (0, own + others.len())
+    );
 }
 
 /// Random delays, the same ones every time; the machine adds its own.
@@ -112,13 +139,19 @@ fn a_kill_at_any_moment_leaves_the_old_set_or_the_new_one() {
         assert!(ended.signal() == Some(9) || set == Set::New);
         left[usize::from(set == Set::New)] += 1;
         if at % 2 == 0 {
-            assert_eq!(std::fs::read_to_string(out.join("notes.txt")).expect("it reads"), "mine");
+            assert_eq!(
+                std::fs::read_to_string(out.join("notes.txt")).expect("it reads"),
+                "mine"
+            );
         }
         if at % 10 == 0 {
             next_run(&out);
         }
     }
-    println!("kills: {} left the old set, {} the new one", left[0], left[1]);
+    println!(
+        "kills: {} left the old set, {} the new one",
+        left[0], left[1]
+    );
 }
 
 #[test]
@@ -127,10 +160,17 @@ fn a_signal_leaves_a_whole_set_and_nothing_beside_it() {
         let folder = tempfile::tempdir().expect("a folder");
         old_set(folder.path());
         let ended = stopped(signal, folder.path(), Duration::ZERO);
-        assert!(ended.signal() == Some(signal.as_raw()) || ended.success(), "{name}: {ended}");
+        assert!(
+            ended.signal() == Some(signal.as_raw()) || ended.success(),
+            "{name}: {ended}"
+        );
         assert_eq!(found(folder.path()), Set::New, "what was begun is ended");
         let count = std::fs::read_dir(folder.path()).expect("a folder").count();
-        assert_eq!(count, figures().len() + 2, "notes and drafts are there, and no other file");
+        assert_eq!(
+            count,
+            figures().len() + 2,
+            "notes and drafts are there, and no other file"
+        );
     }
 }
 
@@ -155,7 +195,8 @@ fn a_signal_that_it_was_started_to_ignore_does_not_end_it() {
 fn what_a_stopped_run_leaves_is_settled_by_the_next() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
-    let link = |target: &str, name: &str| std::os::unix::fs::symlink(target, at(name)).expect("linked");
+    let link =
+        |target: &str, name: &str| std::os::unix::fs::symlink(target, at(name)).expect("linked");
     let leave = || {
         std::fs::create_dir_all(at(".corfem-set/old")).expect("made");
         link("old", ".corfem-set/current");
@@ -166,32 +207,61 @@ fn what_a_stopped_run_leaves_is_settled_by_the_next() {
     leave();
     assert!(start(&[], folder.path()).wait().expect("an end").success());
     assert!(!at("new.svg").is_symlink() && !at("kept.svg").is_symlink() && !at(STAGE).exists());
-    assert_eq!(std::fs::read_to_string(at("kept.svg")).expect("it reads"), OLD);
+    assert_eq!(
+        std::fs::read_to_string(at("kept.svg")).expect("it reads"),
+        OLD
+    );
     // What cannot be put back is left as it is: no file can take a folder's place.
     std::fs::remove_file(at("kept.svg")).expect("removed");
     leave();
     std::fs::create_dir(at(".corfem-set/old/new.svg")).expect("made");
-    assert_eq!(start(&[], folder.path()).wait().expect("an end").code(), Some(2));
+    assert_eq!(
+        start(&[], folder.path()).wait().expect("an end").code(),
+        Some(2)
+    );
     assert!(at("new.svg").is_symlink() && at(".corfem-set/old/new.svg").is_dir());
 }
 
 #[test]
 fn a_kill_at_every_change_of_the_folder_leaves_the_old_set_or_the_new_one() {
-    let has_strace =
-        Command::new("strace").arg("-V").stdout(Stdio::null()).status().is_ok_and(|status| status.success());
+    let has_strace = Command::new("strace")
+        .arg("-V")
+        .stdout(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
     if asked_for().is_none() || !has_strace {
         println!("NOT RUN: kills at every system call. It needs CORFEM_STOPS and strace.");
         return;
     }
     let (mut kills, mut new) = (0, 0);
-    for call in ["rename", "renameat", "symlink", "symlinkat", "link", "linkat", "unlink", "unlinkat", "mkdir", "rmdir"]
-    {
+    for call in [
+        "rename",
+        "renameat",
+        "symlink",
+        "symlinkat",
+        "link",
+        "linkat",
+        "unlink",
+        "unlinkat",
+        "mkdir",
+        "rmdir",
+    ] {
         for at in 1.. {
             let folder = tempfile::tempdir().expect("a folder");
             old_set(folder.path());
             let inject = format!("inject=?{call}:signal=KILL:when={at}");
             let trace = format!("trace=?{call}");
-            let run_by = ["strace", "-f", "-qq", "-o", "/dev/null", "-e", &trace, "-e", &inject];
+            let run_by = [
+                "strace",
+                "-f",
+                "-qq",
+                "-o",
+                "/dev/null",
+                "-e",
+                &trace,
+                "-e",
+                &inject,
+            ];
             let ended = start(&run_by, folder.path()).wait().expect("an end");
             let set = found(folder.path());
             assert_ne!(set, Set::Nothing);

@@ -16,7 +16,9 @@ fn largest_total(closeness: &DMatrix<f64>, floor: f64, test: usize, taken: &mut 
     for analysis in 0..closeness.nrows() {
         if closeness[(analysis, test)] >= floor && !taken.contains(&analysis) {
             taken.push(analysis);
-            best = best.max(closeness[(analysis, test)] + largest_total(closeness, floor, test + 1, taken));
+            best = best.max(
+                closeness[(analysis, test)] + largest_total(closeness, floor, test + 1, taken),
+            );
             taken.pop();
         }
     }
@@ -24,14 +26,21 @@ fn largest_total(closeness: &DMatrix<f64>, floor: f64, test: usize, taken: &mut 
 }
 
 fn total(closeness: &DMatrix<f64>, pairs: &[Option<usize>]) -> f64 {
-    pairs.iter().enumerate().filter_map(|(test, mode)| Some(closeness[((*mode)?, test)])).sum()
+    pairs
+        .iter()
+        .enumerate()
+        .filter_map(|(test, mode)| Some(closeness[((*mode)?, test)]))
+        .sum()
 }
 
 /// Up to six modes on either side; half of the matrices have few different numbers, and so ties.
 fn closeness() -> impl Strategy<Value = DMatrix<f64>> {
     (0..=6_usize, 0..=6_usize, any::<bool>()).prop_flat_map(|(analysis, test, ties)| {
         prop::collection::vec(-0.2..1.0_f64, analysis * test).prop_map(move |mut values| {
-            values.iter_mut().filter(|_| ties).for_each(|value| *value = (3.0 * *value).round() / 3.0);
+            values
+                .iter_mut()
+                .filter(|_| ties)
+                .for_each(|value| *value = (3.0 * *value).round() / 3.0);
             DMatrix::from_vec(analysis, test, values)
         })
     })
@@ -76,32 +85,55 @@ fn two_test_modes_that_look_like_one_analysis_mode_are_both_paired() {
     let closeness = dmatrix![0.91, 0.90; 0.88, 0.05];
     let closest_first = pair_modes(&closeness).expect("pairs").analysis_mode;
     assert_eq!(closest_first, [0, 1]);
-    assert_eq!(pair_optimally(&closeness, 0.5).expect("pairs"), [Some(1), Some(0)]);
+    assert_eq!(
+        pair_optimally(&closeness, 0.5).expect("pairs"),
+        [Some(1), Some(0)]
+    );
 }
 
 #[test]
 fn modes_that_are_all_alike_are_paired_in_their_order_and_the_last_are_left_over() {
-    let alike = |analysis, test| pair_optimally(&DMatrix::from_element(analysis, test, 0.5), 0.1).expect("pairs");
+    let alike = |analysis, test| {
+        pair_optimally(&DMatrix::from_element(analysis, test, 0.5), 0.1).expect("pairs")
+    };
     assert_eq!(alike(4, 3), [Some(0), Some(1), Some(2)]);
     assert_eq!(alike(2, 4), [Some(0), Some(1), None, None]);
     assert_eq!(alike(0, 2), [None, None]);
     assert_eq!(alike(2, 0), [None; 0]);
     // A pair that counts nothing is still a pair.
-    assert_eq!(pair_optimally(&DMatrix::zeros(2, 2), 0.0).expect("pairs"), [Some(0), Some(1)]);
+    assert_eq!(
+        pair_optimally(&DMatrix::zeros(2, 2), 0.0).expect("pairs"),
+        [Some(0), Some(1)]
+    );
 }
 
 /// Two pairs of 0.6 have a larger total than one of 1.0 with nothing beside it, but not when the floor forbids them.
 #[test]
 fn the_floor_forbids_pairs_before_the_best_are_chosen() {
     let closeness = dmatrix![1.0, 0.6; 0.6, 0.0];
-    assert_eq!(pair_optimally(&closeness, 0.5).expect("pairs"), [Some(1), Some(0)]);
-    assert_eq!(pair_optimally(&closeness, 0.7).expect("pairs"), [Some(0), None]);
+    assert_eq!(
+        pair_optimally(&closeness, 0.5).expect("pairs"),
+        [Some(1), Some(0)]
+    );
+    assert_eq!(
+        pair_optimally(&closeness, 0.7).expect("pairs"),
+        [Some(0), None]
+    );
 }
 
 #[test]
 fn numbers_that_are_none_are_refused() {
-    assert!(matches!(pair_optimally(&dmatrix![f64::NAN], 0.5), Err(Error::NotFinite { .. })));
+    assert!(matches!(
+        pair_optimally(&dmatrix![f64::NAN], 0.5),
+        Err(Error::NotFinite { .. })
+    ));
     for floor in [-0.1, f64::NAN, f64::INFINITY] {
-        assert!(matches!(pair_optimally(&dmatrix![1.0], floor), Err(Error::Setting { .. })), "{floor}");
+        assert!(
+            matches!(
+                pair_optimally(&dmatrix![1.0], floor),
+                Err(Error::Setting { .. })
+            ),
+            "{floor}"
+        );
     }
 }

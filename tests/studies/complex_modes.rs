@@ -8,13 +8,22 @@ use proptest::prelude::*;
 
 fn shape(count: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
     prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), count)
-        .prop_filter("a shape that is not zero", |parts| parts.iter().any(|(re, im)| re.hypot(*im) > 0.1))
-        .prop_map(move |parts| DMatrix::from_iterator(count, 1, parts.into_iter().map(|(re, im)| Complex::new(re, im))))
+        .prop_filter("a shape that is not zero", |parts| {
+            parts.iter().any(|(re, im)| re.hypot(*im) > 0.1)
+        })
+        .prop_map(move |parts| {
+            DMatrix::from_iterator(
+                count,
+                1,
+                parts.into_iter().map(|(re, im)| Complex::new(re, im)),
+            )
+        })
 }
 
 /// A factor of any phase, up to a million in size and down to a millionth.
 fn factor() -> impl Strategy<Value = Complex<f64>> {
-    (-6.0..6.0_f64, -4.0..4.0_f64).prop_map(|(decade, angle)| Complex::from_polar(10_f64.powf(decade), angle))
+    (-6.0..6.0_f64, -4.0..4.0_f64)
+        .prop_map(|(decade, angle)| Complex::from_polar(10_f64.powf(decade), angle))
 }
 
 proptest! {
@@ -58,7 +67,9 @@ proptest! {
 
 #[test]
 fn a_wave_that_runs_round_has_no_collinearity_and_a_shape_all_the_same() {
-    let wave = DMatrix::from_fn(8, 1, |row, _| Complex::from_polar(1.0, std::f64::consts::FRAC_PI_4 * row as f64));
+    let wave = DMatrix::from_fn(8, 1, |row, _| {
+        Complex::from_polar(1.0, std::f64::consts::FRAC_PI_4 * row as f64)
+    });
     let (real, collinearity) = realize(&wave).expect("a wave");
     assert!(collinearity[0] < ROUND_OFF);
     assert!((real.norm_squared() - 4.0).abs() < ROUND_OFF);
@@ -78,5 +89,8 @@ fn numbers_whose_squares_leave_the_range_are_as_good_as_others() {
 fn shapes_that_are_none_are_refused() {
     let zero = DMatrix::from_element(2, 1, Complex::new(0.0, 0.0));
     assert!(matches!(realize(&zero), Err(Error::NotPositive { .. })));
-    assert!(matches!(realize(&zero.map(|_| Complex::new(1.0, f64::NAN))), Err(Error::NotFinite { .. })));
+    assert!(matches!(
+        realize(&zero.map(|_| Complex::new(1.0, f64::NAN))),
+        Err(Error::NotFinite { .. })
+    ));
 }

@@ -20,7 +20,9 @@ const RODS: usize = 10;
 
 /// Areas of the rods, and which joints (1 to 10, from the wall) are measured.
 fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
-    let material = Material::isotropic(1.0e7, 0.3).and_then(|material| material.with_density(2.5e-4)).expect("a metal");
+    let material = Material::isotropic(1.0e7, 0.3)
+        .and_then(|material| material.with_density(2.5e-4))
+        .expect("a metal");
     let grids = (0..=RODS).map(|joint| Grid {
         label: joint + 1,
         // Rods of unlike lengths: in a bar of like ones all that is condensed vibrates at one frequency, and costs no orthogonality.
@@ -35,8 +37,12 @@ fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
         material,
     });
     let structure = Structure::new(grids.collect(), rods.collect()).expect("a bar");
-    let t = DMatrix::from_fn(RODS, measured.len(), |row, column| f64::from(u8::from(row + 1 == measured[column])));
-    let parameters = (1..=RODS).map(|rod| Parameter::element(rod, None)).collect();
+    let t = DMatrix::from_fn(RODS, measured.len(), |row, column| {
+        f64::from(u8::from(row + 1 == measured[column]))
+    });
+    let parameters = (1..=RODS)
+        .map(|rod| Parameter::element(rod, None))
+        .collect();
     let none = DMatrix::zeros(measured.len(), measured.len());
     FiniteElementModel::new(structure, t, none, parameters).expect("a model")
 }
@@ -98,19 +104,33 @@ proptest! {
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
     let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
-    let errors = model.condensation_errors(&ONES, &joints, 5).expect("errors");
+    let errors = model
+        .condensation_errors(&ONES, &joints, 5)
+        .expect("errors");
     // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
     assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
     assert!(errors[4].frequency > 0.03, "{errors:?}");
-    let refused = errors.iter().filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR).count();
+    let refused = errors
+        .iter()
+        .filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR)
+        .count();
     assert!((1..=4).contains(&refused), "{errors:?}");
     // The pre-flight says so, mode by mode, and says nothing where every joint is measured.
     let findings = coarse_condensation(&model, &ONES, &joints, 5).expect("findings");
     assert_eq!(findings.len(), refused);
-    assert!(findings[0].to_string().starts_with("Condensation to the measured points raises mode "), "{}", findings[0]);
+    assert!(
+        findings[0]
+            .to_string()
+            .starts_with("Condensation to the measured points raises mode "),
+        "{}",
+        findings[0]
+    );
     let all: Vec<usize> = (1..=RODS).collect();
     let (model, joints) = whole(&bar(&[1.0; RODS], &all));
-    assert_eq!(coarse_condensation(&model, &ONES, &joints, RODS).expect("findings"), []);
+    assert_eq!(
+        coarse_condensation(&model, &ONES, &joints, RODS).expect("findings"),
+        []
+    );
 }
 
 #[test]
@@ -120,14 +140,20 @@ fn a_perfect_test_is_not_blamed_for_condensation() {
     let perfect = whole.seen_modes(&ONES, &joints, 5).expect("modes");
     let mass = model.condense(&ONES).expect("condensed").mass;
     // A limit that the model's own modes exceed twofold, because they are not orthogonal with the condensed mass.
-    let by_default =
-        whole.limits_allowing_for_condensation(&ONES, &joints, 5, &MovementLimits::default()).expect("limits");
+    let by_default = whole
+        .limits_allowing_for_condensation(&ONES, &joints, 5, &MovementLimits::default())
+        .expect("limits");
     let own = by_default.shape - MovementLimits::default().shape;
     assert!(own > 0.01, "{own}");
-    let usual = MovementLimits { shape: 0.5 * own, ..MovementLimits::default() };
+    let usual = MovementLimits {
+        shape: 0.5 * own,
+        ..MovementLimits::default()
+    };
     let blamed = examine(&perfect, &mass, Supports::Held, &usual).expect("examined");
     assert!(blamed.kept.len() < 5, "{:?}", blamed.reports);
-    let allowing = whole.limits_allowing_for_condensation(&ONES, &joints, 5, &usual).expect("limits");
+    let allowing = whole
+        .limits_allowing_for_condensation(&ONES, &joints, 5, &usual)
+        .expect("limits");
     assert!(allowing.shape > usual.shape && allowing.balance == usual.balance);
     let fair = examine(&perfect, &mass, Supports::Held, &allowing).expect("examined");
     assert_eq!(fair.kept, [0, 1, 2, 3, 4]);
@@ -135,13 +161,23 @@ fn a_perfect_test_is_not_blamed_for_condensation() {
     let mut wrong = perfect.clone();
     let second = perfect.shapes.column(1).into_owned();
     wrong.shapes.column_mut(4).axpy(2.0, &second, 1.0);
-    assert!(examine(&wrong, &mass, Supports::Held, &allowing).expect("examined").kept.len() < 5);
+    assert!(
+        examine(&wrong, &mass, Supports::Held, &allowing)
+            .expect("examined")
+            .kept
+            .len()
+            < 5
+    );
 }
 
 /// A model whose one parameter is all its stiffness.
 fn of_matrices(stiffness: SparseMatrix, values: &[f64]) -> WholeModel {
     let share = WholeShare::Stiffness(stiffness.clone());
-    let all = WholeParameter { name: "all".to_owned(), share, range: None };
+    let all = WholeParameter {
+        name: "all".to_owned(),
+        share,
+        range: None,
+    };
     WholeModel::new(stiffness, masses(values), vec![all]).expect("a model")
 }
 
@@ -149,24 +185,42 @@ fn of_matrices(stiffness: SparseMatrix, values: &[f64]) -> WholeModel {
 fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
     for (spring, mass) in [(1.0, 1.0), (1e20, 1e20), (1e-20, 1e-20)] {
         // Three masses between two walls, measured at the middle one, which rests in the second mode.
-        let model = of_matrices(chain_of_springs(ChainEnds::FixedFixed, 3, spring), &[mass; 3]);
+        let model = of_matrices(
+            chain_of_springs(ChainEnds::FixedFixed, 3, spring),
+            &[mass; 3],
+        );
         let sensors = sensors_at(&[1], 3);
         let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
         for count in [1, 2] {
             let found = model.seen_modes(&[1.0], &sensors, count).expect("modes");
             for (found, expected) in found.omega_squared.iter().zip([roots[0], roots[2]]) {
-                assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF, "{found} {expected}");
+                assert!(
+                    (found / expected - 1.0).abs() < MATRIX_ROUND_OFF,
+                    "{found} {expected}"
+                );
             }
             assert_eq!(found.len(), count);
         }
         let refused = model.seen_modes(&[1.0], &sensors, 3);
         assert!(
-            matches!(refused, Err(Error::TooMany { what: "modes that move a sensor", available: 2, requested: 3 })),
+            matches!(
+                refused,
+                Err(Error::TooMany {
+                    what: "modes that move a sensor",
+                    available: 2,
+                    requested: 3
+                })
+            ),
             "{refused:?}"
         );
         // Of two that are not joined the lower one does not move the other's sensor at all.
-        let alone = of_matrices(springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]), &[mass; 2]);
-        let found = alone.seen_modes(&[1.0], &sensors_at(&[1], 2), 1).expect("a mode");
+        let alone = of_matrices(
+            springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]),
+            &[mass; 2],
+        );
+        let found = alone
+            .seen_modes(&[1.0], &sensors_at(&[1], 2), 1)
+            .expect("a mode");
         assert!((found.omega_squared[0] / (4.0 * spring / mass) - 1.0).abs() < MATRIX_ROUND_OFF);
     }
 }
@@ -176,13 +230,36 @@ fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
     // One mass, and a point without that hangs on it.
     let model = of_matrices(chain_of_springs(ChainEnds::FreeFree, 2, 1.0), &[1.0, 0.0]);
     let refused = model.seen_modes(&[1.0], &sensors_at(&[0], 2), 1);
-    assert!(matches!(refused, Err(Error::TooMany { what: FINITE, available: 0, requested: 1 })), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Err(Error::TooMany {
+                what: FINITE,
+                available: 0,
+                requested: 1
+            })
+        ),
+        "{refused:?}"
+    );
 }
 
 #[test]
 fn more_modes_than_there_are_is_an_error() {
     let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
-    assert!(matches!(model.seen_modes(&ONES, &joints, 11), Err(Error::TooMany { available: 10, requested: 11, .. })));
-    assert!(matches!(model.seen_modes(&ONES, &joints, 0), Err(Error::Empty { .. })));
-    assert!(matches!(model.condensation_errors(&ONES, &joints, 6), Err(Error::TooMany { .. })));
+    assert!(matches!(
+        model.seen_modes(&ONES, &joints, 11),
+        Err(Error::TooMany {
+            available: 10,
+            requested: 11,
+            ..
+        })
+    ));
+    assert!(matches!(
+        model.seen_modes(&ONES, &joints, 0),
+        Err(Error::Empty { .. })
+    ));
+    assert!(matches!(
+        model.condensation_errors(&ONES, &joints, 6),
+        Err(Error::TooMany { .. })
+    ));
 }

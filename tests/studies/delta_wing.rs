@@ -35,29 +35,49 @@ fn structure() -> Structure {
 fn element(label: usize) -> Element {
     let structure = structure();
     let mut elements = structure.elements().iter();
-    elements.find(|e| e.label == label).expect("it exists").clone()
+    elements
+        .find(|e| e.label == label)
+        .expect("it exists")
+        .clone()
 }
 
 #[test]
 fn wing_is_counted_and_numbered_as_in_the_demonstration() {
     let structure = structure();
     let labels: Vec<usize> = structure.grids().iter().map(|grid| grid.label).collect();
-    let expected: Vec<usize> = [1..=6, 11..=16, 21..=26, 31..=36, 41..=45, 51..=55, 61..=64, 71..=74, 81..=83, 91..=93]
-        .into_iter()
-        .flatten()
-        .collect();
+    let expected: Vec<usize> = [
+        1..=6,
+        11..=16,
+        21..=26,
+        31..=36,
+        41..=45,
+        51..=55,
+        61..=64,
+        71..=74,
+        81..=83,
+        91..=93,
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     assert_eq!(labels, expected);
     assert_eq!(labels.len(), 48);
     let of = |kind: ElementKind| -> Vec<usize> {
         let elements = structure.elements().iter();
-        elements.filter(|e| e.kind == kind).map(|e| e.label).collect()
+        elements
+            .filter(|e| e.kind == kind)
+            .map(|e| e.label)
+            .collect()
     };
     assert_eq!(of(ElementKind::Triangle), [10, 14, 17]);
     let membranes: Vec<usize> = (1..=16).filter(|label| ![10, 14].contains(label)).collect();
     assert_eq!(of(ElementKind::Membrane), membranes);
     assert_eq!(membranes.len(), 14);
     assert_eq!(of(ElementKind::ShearPanel), (18..=53).collect::<Vec<_>>());
-    assert_eq!(of(ElementKind::Rod), (60..=83).chain(100..=135).collect::<Vec<_>>());
+    assert_eq!(
+        of(ElementKind::Rod),
+        (60..=83).chain(100..=135).collect::<Vec<_>>()
+    );
     assert_eq!(of(ElementKind::Rod).len(), 60);
     assert_eq!(structure.free_dof().len(), 86);
 }
@@ -123,7 +143,11 @@ fn elements_join_the_grids_of_the_demonstration() {
         (135, vec![55, 36], 0.03),
     ] {
         let element = element(label);
-        assert_eq!((element.grids, element.size), (grids, size), "element {label}");
+        assert_eq!(
+            (element.grids, element.size),
+            (grids, size),
+            "element {label}"
+        );
     }
 }
 
@@ -134,7 +158,11 @@ fn covers_fill_the_planform() {
     let structure = structure();
     let mut area = 0.0;
     for element in structure.elements().iter().filter(|e| e.label <= 17) {
-        let flat: Vec<_> = structure.corners(element).iter().map(|corner| corner.xy()).collect();
+        let flat: Vec<_> = structure
+            .corners(element)
+            .iter()
+            .map(|corner| corner.xy())
+            .collect();
         for n in 0..flat.len() {
             area += 0.5 * flat[n].perp(&flat[(n + 1) % flat.len()]);
         }
@@ -144,7 +172,11 @@ fn covers_fill_the_planform() {
 
 #[test]
 fn data_say_what_the_wing_is_made_of() {
-    assert_eq!(DeltaWing::parse("data", DATA).expect("it reads"), wing(), "the embedded wing");
+    assert_eq!(
+        DeltaWing::parse("data", DATA).expect("it reads"),
+        wing(),
+        "the embedded wing"
+    );
     let other = DATA
         .replace("cover_gage = 0.16", "cover_gage = 0.2")
         .replace("web_gage = 0.14", "web_gage = 0.1")
@@ -157,23 +189,46 @@ fn data_say_what_the_wing_is_made_of() {
             ElementKind::ShearPanel => assert_eq!(element.size, 0.1),
             ElementKind::Rod => {}
         }
-        let density = if element.kind == ElementKind::Rod { 0.0 } else { 2.523e-4 };
+        let density = if element.kind == ElementKind::Rod {
+            0.0
+        } else {
+            2.523e-4
+        };
         let material = element.material;
         assert_eq!(
-            (material.youngs_modulus, material.poissons_ratio, material.shear_modulus, material.density),
+            (
+                material.youngs_modulus,
+                material.poissons_ratio,
+                material.shear_modulus,
+                material.density
+            ),
             (2.0e7, 0.25, 8.0e6, density)
         );
     }
-    let weightless = DeltaWing { sheet_density: 0.0, ..wing() };
-    assert!(matches!(weightless.structure(), Err(Error::NotPositive { what: "density", .. })));
+    let weightless = DeltaWing {
+        sheet_density: 0.0,
+        ..wing()
+    };
+    assert!(matches!(
+        weightless.structure(),
+        Err(Error::NotPositive {
+            what: "density",
+            ..
+        })
+    ));
 }
 
 #[test]
 fn data_of_another_form_are_refused() {
     let error = DeltaWing::parse("other", &format!("{DATA}\nspan = 90.0\n"));
     let error = error.expect_err("an unknown key");
-    let CaseError::Toml { name, expected, .. } = &error else { panic!("{error}") };
-    assert_eq!((name.as_str(), *expected), ("other", "a delta wing: material, half depths and sizes"));
+    let CaseError::Toml { name, expected, .. } = &error else {
+        panic!("{error}")
+    };
+    assert_eq!(
+        (name.as_str(), *expected),
+        ("other", "a delta wing: material, half depths and sizes")
+    );
     for (whole, cut, what, expected, found) in [
         ("    [0.82, 0.82, 0.82],\n", "", "half depths", 5, 4),
         ("1.795, 0.754]", "1.795]", "half depths", 5, 4),
@@ -183,16 +238,31 @@ fn data_of_another_form_are_refused() {
         ("0.094, 0.0563]", "0.094]", "spanwise cap areas", 4, 3),
         ("    [0.028],\n", "", "chordwise cap areas", 5, 4),
         ("0.0805, 0.0572]", "0.0805]", "chordwise cap areas", 3, 2),
-        ("= [0.0344, 0.0325, 0.03]", "= [0.0344, 0.0325]", "leading-edge cap areas", 3, 2),
+        (
+            "= [0.0344, 0.0325, 0.03]",
+            "= [0.0344, 0.0325]",
+            "leading-edge cap areas",
+            3,
+            2,
+        ),
     ] {
         let text = DATA.replacen(whole, cut, 1);
         assert_ne!(text, DATA, "{whole}");
         let error = DeltaWing::parse("cut", &text).expect_err("it does not fit");
-        let CaseError::Method(Error::WrongShape { what: named, expected_rows, expected_columns, rows, columns }) =
-            error
+        let CaseError::Method(Error::WrongShape {
+            what: named,
+            expected_rows,
+            expected_columns,
+            rows,
+            columns,
+        }) = error
         else {
             panic!("{whole}: {error}")
         };
-        assert_eq!((named, expected_rows, rows, expected_columns, columns), (what, expected, found, 1, 1), "{whole}");
+        assert_eq!(
+            (named, expected_rows, rows, expected_columns, columns),
+            (what, expected, found, 1, 1),
+            "{whole}"
+        );
     }
 }

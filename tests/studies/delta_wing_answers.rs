@@ -7,7 +7,9 @@ use crate::common::tolerances::{
 use approx::assert_relative_eq;
 use corfem::files::deck::{self, BulkData, bulk_data};
 use corfem::method::assembly::{dense_stiffness, element_matrices};
-use corfem::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
+use corfem::studies::delta_wing::{
+    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
+};
 use nalgebra::{DMatrix, DVector};
 
 fn wing() -> DeltaWing {
@@ -20,7 +22,10 @@ fn deflections_are_those_nastran_printed_in_1995() {
     let labels: Vec<String> = MEASURED_GRIDS.iter().map(usize::to_string).collect();
     assert_eq!(known.labels, labels);
     assert_eq!(known.number, 0, "it is not of the paper");
-    for (load, heading) in [(TipLoad::TrailingEdge, "te_1995_in"), (TipLoad::LeadingEdge, "le_1995_in")] {
+    for (load, heading) in [
+        (TipLoad::TrailingEdge, "te_1995_in"),
+        (TipLoad::LeadingEdge, "le_1995_in"),
+    ] {
         let found = wing().deflections(load).expect("deflections");
         assert_eq!(found.len(), 9);
         for (label, z) in labels.iter().zip(found) {
@@ -36,13 +41,22 @@ fn deflections_are_near_the_measured_ones() {
     let differences = |load, heading: &str| -> Vec<f64> {
         let found = wing().deflections(load).expect("deflections");
         let pairs = MEASURED_GRIDS.iter().zip(found);
-        pairs.map(|(grid, z)| z - known.required(&grid.to_string(), heading).expect("measured")).collect()
+        pairs
+            .map(|(grid, z)| {
+                z - known
+                    .required(&grid.to_string(), heading)
+                    .expect("measured")
+            })
+            .collect()
     };
     let largest = |differences: &[f64]| differences.iter().fold(0.0_f64, |w, d| w.max(d.abs()));
     // Nothing is fitted: the largest differences, in, are what the model and its reading from figures leave.
     let trailing = differences(TipLoad::TrailingEdge, "te_experiment_in");
     let leading = differences(TipLoad::LeadingEdge, "le_experiment_in");
-    assert_eq!(format!("{:.4} {:.4}", largest(&trailing), largest(&leading)), "0.0338 0.0197");
+    assert_eq!(
+        format!("{:.4} {:.4}", largest(&trailing), largest(&leading)),
+        "0.0338 0.0197"
+    );
     let analog = differences(TipLoad::TrailingEdge, "te_analog_in");
     assert_eq!(format!("{:.4}", largest(&analog)), "0.0395");
     assert!(known.value("55", "te_analog_in") == Some(-0.144));
@@ -59,7 +73,10 @@ fn loads_at_either_end_of_the_tip_are_reciprocal() {
     assert_eq!((te.grid(), le.grid()), (16, 36));
     assert_relative_eq!(at(te, 36), at(le, 16), max_relative = MATRIX_ROUND_OFF);
     assert!(at(te, 16) < 0.0);
-    let twice = DeltaWing { tip_load: 1000.0, ..wing() };
+    let twice = DeltaWing {
+        tip_load: 1000.0,
+        ..wing()
+    };
     let double = twice.deflections(te).expect("deflections");
     assert_relative_eq!(double[2], 2.0 * at(te, 16), max_relative = ROUND_OFF);
 }
@@ -83,7 +100,11 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
             max_relative = PRINTED_SEVEN_DIGITS
         );
         // The analog computer, a coarser model of finite differences.
-        assert_relative_eq!(found.modes.frequencies_hz()[mode], printed("analog_hz"), max_relative = ANALOG_FREQUENCY);
+        assert_relative_eq!(
+            found.modes.frequencies_hz()[mode],
+            printed("analog_hz"),
+            max_relative = ANALOG_FREQUENCY
+        );
     }
 }
 
@@ -115,14 +136,25 @@ fn modes_are_those_of_the_dense_pencil() {
 fn wing_to_deck_to_wing_is_the_identity() {
     let model = BulkData::of_structure(&wing().structure().expect("a structure"));
     let text = bulk_data(&model).expect("a deck");
-    for (card, count) in
-        [("GRID*", 48), ("CROD", 60), ("CSHEAR", 36), ("CQDMEM", 14), ("CTRMEM", 3), ("PTRMEM", 3), ("MAT1", 2)]
-    {
-        let cards = text.lines().filter(|line| line.split_whitespace().next() == Some(card));
+    for (card, count) in [
+        ("GRID*", 48),
+        ("CROD", 60),
+        ("CSHEAR", 36),
+        ("CQDMEM", 14),
+        ("CTRMEM", 3),
+        ("PTRMEM", 3),
+        ("MAT1", 2),
+    ] {
+        let cards = text
+            .lines()
+            .filter(|line| line.split_whitespace().next() == Some(card));
         assert_eq!(cards.count(), count, "{card}");
     }
     let read = deck::read("wing", text.as_bytes(), &[]).expect("it reads");
     assert_eq!(read.model, model);
     assert!(read.unread.is_empty());
-    assert_eq!(deck::modes(&read.model).expect("modes"), wing().modes().expect("modes"));
+    assert_eq!(
+        deck::modes(&read.model).expect("modes"),
+        wing().modes().expect("modes")
+    );
 }

@@ -1,6 +1,8 @@
 //! Wrong gages of the delta wing recovered from ten modes at 19 points.
 
-use crate::common::tolerances::{HIDDEN_GAGE, MATRIX_ROUND_OFF, RECOVERED_GAGE, ROUND_OFF, SAME_HISTORY, SEEN_SHARE};
+use crate::common::tolerances::{
+    HIDDEN_GAGE, MATRIX_ROUND_OFF, RECOVERED_GAGE, ROUND_OFF, SAME_HISTORY, SEEN_SHARE,
+};
 use approx::assert_relative_eq;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
@@ -13,7 +15,8 @@ use corfem::studies::delta_wing::correlation::{
 use std::sync::LazyLock;
 
 /// The whole scenario, run once for all tests.
-static RUN: LazyLock<WingCorrelation> = LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+static RUN: LazyLock<WingCorrelation> =
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")
@@ -27,31 +30,54 @@ fn recovered() -> Groups {
     let factors = &RUN.correlation.best_factors;
     let error = |(group, factor): (&Group, &f64)| factor / group.true_factor() - 1.0;
     let errors = GROUPS.iter().zip(factors).map(error);
-    GROUPS.iter().zip(&RUN.shares).zip(errors).map(|((group, share), error)| (group, *share, error)).collect()
+    GROUPS
+        .iter()
+        .zip(&RUN.shares)
+        .zip(errors)
+        .map(|((group, share), error)| (group, *share, error))
+        .collect()
 }
 
 #[test]
 fn wrong_gages_are_recovered_where_test_modes_see_them() {
     assert!(RUN.correlation.converged);
-    let (hidden, seen): (Groups, Groups) = recovered().into_iter().partition(|(_, share, _)| *share < SEEN_SHARE);
+    let (hidden, seen): (Groups, Groups) = recovered()
+        .into_iter()
+        .partition(|(_, share, _)| *share < SEEN_SHARE);
     assert_eq!(hidden.len() + seen.len(), 21);
-    assert_eq!(hidden.iter().map(|(group, ..)| group.name).collect::<Vec<_>>(), ["webs x 30", "web x 90"]);
+    assert_eq!(
+        hidden
+            .iter()
+            .map(|(group, ..)| group.name)
+            .collect::<Vec<_>>(),
+        ["webs x 30", "web x 90"]
+    );
     for (groups, allowed) in [(&hidden, HIDDEN_GAGE), (&seen, RECOVERED_GAGE)] {
         for (group, _, error) in groups {
             assert!(error.abs() < allowed, "{}: {error:.4}", group.name);
         }
     }
     // What was right stays right, what was wrong by up to 40 % comes right.
-    let largest = |errors: Vec<f64>| errors.into_iter().fold(0.0_f64, |worst, error| worst.max(error.abs()));
+    let largest = |errors: Vec<f64>| {
+        errors
+            .into_iter()
+            .fold(0.0_f64, |worst, error| worst.max(error.abs()))
+    };
     let first = seen.iter().map(|(group, ..)| group.first_over_true - 1.0);
     assert_relative_eq!(largest(first.collect()), 0.4, max_relative = ROUND_OFF);
-    assert!(largest(seen.iter().map(|(.., error)| *error).collect()) > 0.01, "it is no exact answer");
+    assert!(
+        largest(seen.iter().map(|(.., error)| *error).collect()) > 0.01,
+        "it is no exact answer"
+    );
 }
 
 #[test]
 fn the_true_factor_of_a_group_undoes_its_error() {
     let group = GROUPS[9];
-    assert_eq!((group.name, group.first_over_true), ("webs y 20 outboard", 0.7));
+    assert_eq!(
+        (group.name, group.first_over_true),
+        ("webs y 20 outboard", 0.7)
+    );
     assert_relative_eq!(group.true_factor(), 10.0 / 7.0, max_relative = ROUND_OFF);
 }
 
@@ -61,8 +87,18 @@ fn history_is_three_passes_to_the_tolerances() {
     let run = correlate_wing(&wing(), |pass, _| told.push(pass)).expect("it runs");
     assert_eq!(told, [1, 2, 3]);
     let passes = &run.correlation.passes;
-    let counts: Vec<(usize, Stop)> = passes.iter().map(|pass| (pass.inner.iterations.len(), pass.inner.stop)).collect();
-    assert_eq!(counts, [(68, Stop::Tolerance), (20, Stop::Tolerance), (1, Stop::Tolerance)]);
+    let counts: Vec<(usize, Stop)> = passes
+        .iter()
+        .map(|pass| (pass.inner.iterations.len(), pass.inner.stop))
+        .collect();
+    assert_eq!(
+        counts,
+        [
+            (68, Stop::Tolerance),
+            (20, Stop::Tolerance),
+            (1, Stop::Tolerance)
+        ]
+    );
     assert!(passes[0].inner.last.errors.sum() < 0.01);
     assert!(passes[1].inner.last.errors.sum() < settings().later_inner_tolerance);
     let last = &passes[2].check;
@@ -70,7 +106,10 @@ fn history_is_three_passes_to_the_tolerances() {
     assert_eq!(last.pairing.analysis_mode, TEST_MODES.map(|mode| mode - 1));
     assert_eq!(run.correlation.best_factors, passes[2].factors);
     let initial = &run.correlation.initial.errors;
-    assert_eq!(format!("{:.4} {:.4}", initial.frequency_rms(), initial.shape_rms()), "0.0169 0.0649");
+    assert_eq!(
+        format!("{:.4} {:.4}", initial.frequency_rms(), initial.shape_rms()),
+        "0.0169 0.0649"
+    );
 }
 
 #[test]
@@ -99,9 +138,17 @@ fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
 fn history_does_not_hang_on_round_off() {
     // A modulus off by 1e-12 changes nothing that can be seen.
     let run = &*RUN;
-    let other = DeltaWing { youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12), ..wing() };
+    let other = DeltaWing {
+        youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12),
+        ..wing()
+    };
     let other = correlate_wing(&other, |_, _| {}).expect("it runs");
-    for (&a, b) in run.correlation.best_factors.iter().zip(other.correlation.best_factors) {
+    for (&a, b) in run
+        .correlation
+        .best_factors
+        .iter()
+        .zip(other.correlation.best_factors)
+    {
         assert_relative_eq!(a, b, max_relative = SAME_HISTORY);
     }
 }
@@ -115,8 +162,13 @@ fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
     let mut settings = settings();
     settings.inner.update = UpdateRule::default();
     let ranges = model.factor_ranges().expect("ranges");
-    let plain = correlate(|factors| model.analyze(factors, &solved.test, None), &ranges, &settings, |_, _| {})
-        .expect("it runs");
+    let plain = correlate(
+        |factors| model.analyze(factors, &solved.test, None),
+        &ranges,
+        &settings,
+        |_, _| {},
+    )
+    .expect("it runs");
     assert!(plain.converged);
     assert!(plain.passes.len() > solved.correlation.passes.len());
     assert_eq!(plain.passes[0].inner.stop, Stop::LocalMinimum);
@@ -130,7 +182,13 @@ fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
 
 #[test]
 fn a_wing_without_webs_has_no_modes_to_test() {
-    let error = correlate_wing(&DeltaWing { web_gage: 0.0, ..wing() }, |_, _| {});
+    let error = correlate_wing(
+        &DeltaWing {
+            web_gage: 0.0,
+            ..wing()
+        },
+        |_, _| {},
+    );
     assert!(matches!(
         error,
         Err(Error::NotPositive { what: "gage", owner, value: 0.0 }) if owner == "element 18"

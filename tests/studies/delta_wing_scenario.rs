@@ -5,7 +5,9 @@ use approx::assert_relative_eq;
 use corfem::method::modes::solve;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{GROUPS, TEST_MODES, first_model, measured_grids, test_modes};
+use corfem::studies::delta_wing::correlation::{
+    GROUPS, TEST_MODES, first_model, measured_grids, test_modes,
+};
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")
@@ -21,8 +23,11 @@ fn groups_are_all_covers_and_webs_once() {
     members.sort_unstable();
     assert_eq!(members, (1..=53).collect::<Vec<_>>());
     assert_eq!(GROUPS.len(), 21);
-    let wrong: Vec<(&str, f64)> =
-        GROUPS.iter().filter(|g| g.first_over_true != 1.0).map(|g| (g.name, g.first_over_true)).collect();
+    let wrong: Vec<(&str, f64)> = GROUPS
+        .iter()
+        .filter(|g| g.first_over_true != 1.0)
+        .map(|g| (g.name, g.first_over_true))
+        .collect();
     assert_eq!(
         wrong,
         [
@@ -50,7 +55,9 @@ fn groups_lie_where_their_names_say() {
             let corners = structure.corners(element);
             let range = |axis: usize| {
                 let values = corners.iter().map(|corner| corner[axis]);
-                values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)))
+                values.fold((f64::MAX, f64::MIN), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                })
             };
             let (x, y) = (range(0), range(1));
             let name = group.name;
@@ -104,25 +111,39 @@ fn first_model_has_wrong_gages_and_true_masses() {
 fn load_distribution_selects_z_of_19_upper_grids() {
     let model = first_model(&wing()).expect("a model");
     let grids = measured_grids(model.structure());
-    assert_eq!(grids, [11, 12, 14, 15, 16, 31, 32, 34, 35, 36, 51, 52, 54, 55, 71, 72, 74, 91, 92]);
+    assert_eq!(
+        grids,
+        [
+            11, 12, 14, 15, 16, 31, 32, 34, 35, 36, 51, 52, 54, 55, 71, 72, 74, 91, 92
+        ]
+    );
     let t = &model.load_distribution().dense();
     assert_eq!(t.shape(), (86, 19));
     assert_eq!(t.iter().filter(|entry| **entry != 0.0).count(), 19);
     for (column, &grid) in grids.iter().enumerate() {
-        let row = model.structure().free_dof_index(grid, 2).expect("it is free");
+        let row = model
+            .structure()
+            .free_dof_index(grid, 2)
+            .expect("it is free");
         assert_eq!(t[(row, column)], 1.0);
     }
 }
 
 #[test]
 fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
-    let dynamic = first_model(&wing()).and_then(|model| model.matrices(&true_factors())).expect("an analysis");
+    let dynamic = first_model(&wing())
+        .and_then(|model| model.matrices(&true_factors()))
+        .expect("an analysis");
     assert_eq!(dynamic.mass.shape(), (19, 19));
     let condensed = solve(&dynamic.stiffness, &dynamic.mass, 12).expect("modes");
     let whole = wing().modes().expect("modes").modes.frequencies_hz();
     for (mode, frequency) in condensed.frequencies_hz().iter().enumerate() {
         let above = frequency / whole[mode] - 1.0;
-        assert!((0.0..CONDENSED_WING).contains(&above), "mode {}: {above:.2e}", mode + 1);
+        assert!(
+            (0.0..CONDENSED_WING).contains(&above),
+            "mode {}: {above:.2e}",
+            mode + 1
+        );
     }
 }
 
@@ -130,7 +151,9 @@ fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
 fn test_modes_are_ten_of_the_whole_wing_sampled() {
     let model = first_model(&wing()).expect("a model");
     let mass = model.matrices(&[1.0; 21]).expect("an analysis").mass;
-    let test = test_modes(&wing()).and_then(|test| test.scaled_with(&mass)).expect("test modes");
+    let test = test_modes(&wing())
+        .and_then(|test| test.scaled_with(&mass))
+        .expect("test modes");
     assert_eq!((test.len(), test.shapes.shape()), (10, (19, 10)));
     let whole = wing().modes().expect("modes");
     let grids = measured_grids(model.structure());
@@ -141,7 +164,11 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
             max_relative = ROUND_OFF
         );
         let shape = test.shapes.column(column);
-        assert_relative_eq!(shape.dot(&(&mass * shape)), 1.0, max_relative = MATRIX_ROUND_OFF);
+        assert_relative_eq!(
+            shape.dot(&(&mass * shape)),
+            1.0,
+            max_relative = MATRIX_ROUND_OFF
+        );
         let sampled: Vec<f64> = grids
             .iter()
             .map(|&grid| {
@@ -167,9 +194,13 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     assert_eq!(format!("{:.4}", separation(8)), "0.0160");
     assert!((1..12).all(|mode| mode == 8 || separation(mode) > 0.06));
     // The wrong gages exchange them: what answers mode 8 is above what answers mode 9.
-    let first = first_model(&wing()).and_then(|model| model.matrices(&[1.0; 21])).expect("an analysis");
+    let first = first_model(&wing())
+        .and_then(|model| model.matrices(&[1.0; 21]))
+        .expect("an analysis");
     let modes = solve(&first.stiffness, &first.mass, 19).expect("modes");
-    let right = first_model(&wing()).and_then(|model| model.matrices(&true_factors())).expect("an analysis");
+    let right = first_model(&wing())
+        .and_then(|model| model.matrices(&true_factors()))
+        .expect("an analysis");
     let truth = solve(&right.stiffness, &right.mass, 12).expect("modes");
     let cross = cross_orthogonality(&modes, &truth, &first.mass).expect("they fit");
     let answers = pair_modes(&cross).expect("enough modes").analysis_mode;

@@ -8,7 +8,13 @@ use corfem::studies::wing::Wing;
 
 fn case(number: usize, error: f64) -> Counted {
     let settings = Case::new(number).expect("a case").settings;
-    counted(&Known::of_case(number).expect("a case"), None, &settings, error).expect("it runs")
+    counted(
+        &Known::of_case(number).expect("a case"),
+        None,
+        &settings,
+        error,
+    )
+    .expect("it runs")
 }
 
 #[test]
@@ -16,9 +22,16 @@ fn analyses_are_the_passes_and_the_start() {
     let run = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("it runs");
     assert!(run.correlation.converged);
     let found = case(1, 0.025);
-    assert_eq!(found.reanalysis.analyses, found.reanalysis.steps + 1, "a step, an analysis");
+    assert_eq!(
+        found.reanalysis.analyses,
+        found.reanalysis.steps + 1,
+        "a step, an analysis"
+    );
     assert!(found.perturbation.reached && found.reanalysis.reached);
-    assert_eq!((found.name.as_str(), found.parameters, found.error), ("Case 1", 15, 0.025));
+    assert_eq!(
+        (found.name.as_str(), found.parameters, found.error),
+        ("Case 1", 15, 0.025)
+    );
     assert!(found.perturbation.analyses <= run.correlation.passes.len() + 1);
 }
 
@@ -27,9 +40,16 @@ fn perturbation_takes_a_third_of_the_eigensolutions_of_reanalysis_and_less_for_l
     let mut before = None;
     for error in [0.05, 0.025] {
         for number in 1..=3 {
-            let Counted { perturbation, reanalysis, .. } = case(number, error);
+            let Counted {
+                perturbation,
+                reanalysis,
+                ..
+            } = case(number, error);
             assert!(perturbation.reached && reanalysis.reached, "case {number}");
-            assert!(2 * perturbation.analyses < reanalysis.analyses, "case {number}: {perturbation:?} {reanalysis:?}");
+            assert!(
+                2 * perturbation.analyses < reanalysis.analyses,
+                "case {number}: {perturbation:?} {reanalysis:?}"
+            );
         }
         let last = case(3, error).reanalysis.analyses;
         assert!(before.replace(last).is_none_or(|before| before < last));
@@ -38,19 +58,37 @@ fn perturbation_takes_a_third_of_the_eigensolutions_of_reanalysis_and_less_for_l
 
 #[test]
 fn a_small_wing_is_planted_and_found() {
-    let wing = Wing { bays: [9, 3, 1], measured: [9, 3], zones: 3, ..Wing::default() };
+    let wing = Wing {
+        bays: [9, 3, 1],
+        measured: [9, 3],
+        zones: 3,
+        ..Wing::default()
+    };
     let known = planted(&wing).expect("a wing");
     assert_eq!((known.truth.len(), known.test.len()), (15, 10));
-    let at_truth = known.model.analyze(&known.truth, &known.test, Some(10)).expect("it runs");
+    let at_truth = known
+        .model
+        .analyze(&known.truth, &known.test, Some(10))
+        .expect("it runs");
     assert!(at_truth.exact.errors.sum() < crate::common::tolerances::ROUND_OFF_FLOOR);
-    let start = known.model.analyze(&[1.0; 15], &known.test, Some(10)).expect("it runs");
+    let start = known
+        .model
+        .analyze(&[1.0; 15], &known.test, Some(10))
+        .expect("it runs");
     assert!(start.exact.errors.sum() > 0.1);
-    let too_few = Wing { measured: [3, 3], ..wing };
+    let too_few = Wing {
+        measured: [3, 3],
+        ..wing
+    };
     assert!(matches!(planted(&too_few), Err(Error::TooMany { .. })));
 }
 
 #[test]
 fn an_error_must_be_positive() {
-    assert!([0.0, f64::NAN].into_iter().all(|error| count_all(&[error]).is_err()));
+    assert!(
+        [0.0, f64::NAN]
+            .into_iter()
+            .all(|error| count_all(&[error]).is_err())
+    );
     assert_eq!(count_all(&[]).expect("nothing to do"), []);
 }

@@ -11,7 +11,12 @@ use proptest::prelude::*;
 const SENSORS: [usize; 4] = [1, 3, 4, 7];
 
 fn modes() -> DMatrix<f64> {
-    uniform_held_modes(8, 1000.0, 0.01).expect("a chain").lowest(3).expect("modes").shapes.clone()
+    uniform_held_modes(8, 1000.0, 0.01)
+        .expect("a chain")
+        .lowest(3)
+        .expect("modes")
+        .shapes
+        .clone()
 }
 
 proptest! {
@@ -39,29 +44,61 @@ proptest! {
 }
 
 #[test]
-fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_nearest_combination_does() {
+fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_nearest_combination_does()
+ {
     let at_sensors = modes().select_rows(&SENSORS);
     let mass = mass_by_modes(&at_sensors).unwrap();
-    assert!((at_sensors.tr_mul(&(&mass * &at_sensors)) - DMatrix::identity(3, 3)).amax() < MATRIX_ROUND_OFF);
+    assert!(
+        (at_sensors.tr_mul(&(&mass * &at_sensors)) - DMatrix::identity(3, 3)).amax()
+            < MATRIX_ROUND_OFF
+    );
     let measured = dmatrix![0.3; -1.0; 0.8; 0.1];
     let shares = expand(&DMatrix::identity(3, 3), &at_sensors, &measured).unwrap();
     let weight = (measured.tr_mul(&(&mass * &measured)))[(0, 0)];
-    assert!((weight / shares.norm_squared() - 1.0).abs() < MATRIX_ROUND_OFF, "{weight}");
-    assert!(matches!(mass_by_modes(&DMatrix::identity(2, 3)), Err(Error::TooMany { .. })));
+    assert!(
+        (weight / shares.norm_squared() - 1.0).abs() < MATRIX_ROUND_OFF,
+        "{weight}"
+    );
+    assert!(matches!(
+        mass_by_modes(&DMatrix::identity(2, 3)),
+        Err(Error::TooMany { .. })
+    ));
 }
 
 #[test]
 fn sensors_that_cannot_tell_the_modes_apart_are_refused() {
     let all = modes();
-    let few = |rows: &[usize]| expand(&all, &all.select_rows(rows), &DMatrix::identity(rows.len(), 1));
-    assert!(matches!(few(&[1, 3]), Err(Error::TooMany { available: 2, requested: 3, .. })));
-    assert!(matches!(few(&[1, 3, 3, 1]), Err(Error::Dependent { index: 2, .. })));
+    let few = |rows: &[usize]| {
+        expand(
+            &all,
+            &all.select_rows(rows),
+            &DMatrix::identity(rows.len(), 1),
+        )
+    };
+    assert!(matches!(
+        few(&[1, 3]),
+        Err(Error::TooMany {
+            available: 2,
+            requested: 3,
+            ..
+        })
+    ));
+    assert!(matches!(
+        few(&[1, 3, 3, 1]),
+        Err(Error::Dependent { index: 2, .. })
+    ));
     let unseen = dmatrix![1.0, 0.0; 2.0, 0.0; 0.5, 0.0];
     let refused = expand(&unseen, &unseen, &DMatrix::identity(3, 1));
-    assert!(matches!(refused, Err(Error::Dependent { index: 1, .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(Error::Dependent { index: 1, .. })),
+        "{refused:?}"
+    );
     let twice = dmatrix![1.0, -2.0, 0.0; 0.0, 0.0, 1.0; 0.5, -1.0, 0.0];
     let refused = expand(&twice, &twice, &DMatrix::identity(3, 1));
-    assert!(matches!(refused, Err(Error::Dependent { index: 1, .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(Error::Dependent { index: 1, .. })),
+        "{refused:?}"
+    );
 }
 
 #[test]
@@ -77,11 +114,32 @@ fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (DMatrix::<f64>::identity(2, 2), DMatrix::<f64>::identity(3, 3));
-    assert!(matches!(expand(&three, &two, &two), Err(Error::WrongShape { .. })));
-    assert!(matches!(expand(&two, &two, &three), Err(Error::WrongShape { .. })));
-    assert!(matches!(expand(&two, &DMatrix::zeros(2, 0), &two), Err(Error::Empty { .. })));
-    assert!(matches!(expand(&two, &(f64::NAN * &two), &two), Err(Error::NotFinite { .. })));
-    assert!(matches!(expand(&two, &two, &(f64::NAN * &two)), Err(Error::NotFinite { .. })));
-    assert!(matches!(expand(&(f64::NAN * &two), &two, &two), Err(Error::NotFinite { .. })));
+    let (two, three) = (
+        DMatrix::<f64>::identity(2, 2),
+        DMatrix::<f64>::identity(3, 3),
+    );
+    assert!(matches!(
+        expand(&three, &two, &two),
+        Err(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        expand(&two, &two, &three),
+        Err(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        expand(&two, &DMatrix::zeros(2, 0), &two),
+        Err(Error::Empty { .. })
+    ));
+    assert!(matches!(
+        expand(&two, &(f64::NAN * &two), &two),
+        Err(Error::NotFinite { .. })
+    ));
+    assert!(matches!(
+        expand(&two, &two, &(f64::NAN * &two)),
+        Err(Error::NotFinite { .. })
+    ));
+    assert!(matches!(
+        expand(&(f64::NAN * &two), &two, &two),
+        Err(Error::NotFinite { .. })
+    ));
 }

@@ -1,6 +1,8 @@
 //! Why elements and not matrices: the comparison's numbers by other routes, and what they show.
 
-use crate::common::tolerances::{CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE};
+use crate::common::tolerances::{
+    CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE,
+};
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
 use corfem::cases::torque_box::COVERS;
@@ -20,21 +22,34 @@ pub fn compared(case: usize) -> MatrixComparison {
 
 pub fn model(case: usize, gages: &[f64]) -> DynamicModel {
     let case = Case::new(case).expect("a case");
-    case.model_with(gages).expect("a model").matrices(&[1.0; 15]).expect("analyzed")
+    case.model_with(gages)
+        .expect("a model")
+        .matrices(&[1.0; 15])
+        .expect("analyzed")
 }
 
 pub fn by_name<'a>(comparison: &'a MatrixComparison, name: &str) -> &'a Prediction {
-    comparison.predictions.iter().find(|p| p.model == name).expect("it is compared")
+    comparison
+        .predictions
+        .iter()
+        .find(|p| p.model == name)
+        .expect("it is compared")
 }
 
 fn largest(errors: &[f64]) -> f64 {
-    errors.iter().fold(0.0, |worst, error| error.abs().max(worst))
+    errors
+        .iter()
+        .fold(0.0, |worst, error| error.abs().max(worst))
 }
 
 /// Gages that factors on the first ones give, with doublers on the covers or without.
 pub fn gages(case: usize, factors: &[f64], doublers: bool) -> Vec<f64> {
     let first = Case::new(case).expect("a case").first_gages();
-    let mut gages: Vec<f64> = first.iter().zip(factors).map(|(gage, factor)| gage * factor).collect();
+    let mut gages: Vec<f64> = first
+        .iter()
+        .zip(factors)
+        .map(|(gage, factor)| gage * factor)
+        .collect();
     if doublers {
         for cover in COVERS {
             gages[cover - 1] += COVER_DOUBLER;
@@ -47,12 +62,28 @@ pub fn gages(case: usize, factors: &[f64], doublers: bool) -> Vec<f64> {
 fn models_are_compared_in_a_fixed_order() {
     let comparison = compared(3);
     let names: Vec<&str> = comparison.predictions.iter().map(|p| p.model).collect();
-    assert_eq!(names, ["Initial", "Truth", "Element factors", "Baruch", "Berman and Nagy"]);
+    assert_eq!(
+        names,
+        [
+            "Initial",
+            "Truth",
+            "Element factors",
+            "Baruch",
+            "Berman and Nagy"
+        ]
+    );
     assert_eq!((comparison.case, comparison.test_modes), (3, TEST_MODES));
-    let elements: Vec<usize> = comparison.factors.iter().map(|factor| factor.element).collect();
+    let elements: Vec<usize> = comparison
+        .factors
+        .iter()
+        .map(|factor| factor.element)
+        .collect();
     assert_eq!(elements, (1..=15).collect::<Vec<_>>());
     for prediction in &comparison.predictions {
-        assert_eq!((prediction.as_tested.len(), prediction.after_change.len()), (9, 9));
+        assert_eq!(
+            (prediction.as_tested.len(), prediction.after_change.len()),
+            (9, 9)
+        );
     }
 }
 
@@ -61,8 +92,12 @@ fn covers_are_the_panels_between_the_spars() {
     // A cover's corners are all upper or all lower grids: odd or even.
     let case = Case::new(2).unwrap();
     let parity = |grids: &[usize]| grids.iter().map(|grid| grid % 2).sum::<usize>();
-    let covers: Vec<usize> =
-        case.panels.iter().filter(|panel| matches!(parity(&panel.grids), 0 | 4)).map(|panel| panel.label).collect();
+    let covers: Vec<usize> = case
+        .panels
+        .iter()
+        .filter(|panel| matches!(parity(&panel.grids), 0 | 4))
+        .map(|panel| panel.label)
+        .collect();
     assert_eq!(covers, COVERS);
     assert_eq!(COVER_DOUBLER, 0.005);
 }
@@ -71,20 +106,37 @@ fn covers_are_the_panels_between_the_spars() {
 fn truth_is_right_and_the_start_is_where_distance_begins() {
     for case in 1..=3 {
         let comparison = compared(case);
-        let (truth, initial) = (by_name(&comparison, "Truth"), by_name(&comparison, "Initial"));
+        let (truth, initial) = (
+            by_name(&comparison, "Truth"),
+            by_name(&comparison, "Initial"),
+        );
         assert!(largest(&truth.as_tested) <= EIGEN_ROUND_OFF);
         assert!(largest(&truth.after_change) <= EIGEN_ROUND_OFF);
         assert_eq!((truth.distance_left, initial.distance_left), (0.0, 1.0));
-        assert_eq!((initial.beyond_elements, largest(&initial.stiffness_change.concat())), (0.0, 0.0));
+        assert_eq!(
+            (
+                initial.beyond_elements,
+                largest(&initial.stiffness_change.concat())
+            ),
+            (0.0, 0.0)
+        );
         let tested = model(case, &[0.010; 15]);
-        let frequencies = solve(&tested.stiffness, &tested.mass, 9).unwrap().frequencies_hz();
+        let frequencies = solve(&tested.stiffness, &tested.mass, 9)
+            .unwrap()
+            .frequencies_hz();
         assert_eq!(comparison.as_tested_hz, frequencies);
-        let factors: Vec<f64> = comparison.factors.iter().map(|factor| factor.truth).collect();
+        let factors: Vec<f64> = comparison
+            .factors
+            .iter()
+            .map(|factor| factor.truth)
+            .collect();
         for gage in gages(case, &factors, false) {
             assert!((gage - 0.010).abs() < ROUND_OFF);
         }
         let changed = model(case, &gages(case, &factors, true));
-        let frequencies = solve(&changed.stiffness, &changed.mass, 9).unwrap().frequencies_hz();
+        let frequencies = solve(&changed.stiffness, &changed.mass, 9)
+            .unwrap()
+            .frequencies_hz();
         for (found, expected) in comparison.after_change_hz.iter().zip(&frequencies) {
             assert!((found / expected - 1.0).abs() <= EIGEN_ROUND_OFF);
         }
@@ -95,12 +147,23 @@ fn truth_is_right_and_the_start_is_where_distance_begins() {
 fn element_factors_are_analyzed_anew_and_matrices_are_added_to() {
     for case in 1..=3 {
         let comparison = compared(case);
-        let found: Vec<f64> = comparison.factors.iter().map(|factor| factor.found).collect();
+        let found: Vec<f64> = comparison
+            .factors
+            .iter()
+            .map(|factor| factor.found)
+            .collect();
         let first = model(case, &gages(case, &[1.0; 15], false));
-        let design_change = model(case, &gages(case, &[1.0; 15], true)).stiffness - &first.stiffness;
-        let test = Case::new(case).unwrap().test_modes().unwrap().lowest(TEST_MODES).unwrap();
+        let design_change =
+            model(case, &gages(case, &[1.0; 15], true)).stiffness - &first.stiffness;
+        let test = Case::new(case)
+            .unwrap()
+            .test_modes()
+            .unwrap()
+            .lowest(TEST_MODES)
+            .unwrap();
         let baruch = baruch_stiffness(&first.stiffness, &first.mass, &test).unwrap();
-        let elements = [false, true].map(|doublers| model(case, &gages(case, &found, doublers)).stiffness);
+        let elements =
+            [false, true].map(|doublers| model(case, &gages(case, &found, doublers)).stiffness);
         let matrices = [baruch.clone(), &baruch + design_change];
         for (name, stiffnesses) in [("Element factors", elements), ("Baruch", matrices)] {
             let prediction = by_name(&comparison, name);
@@ -113,7 +176,10 @@ fn element_factors_are_analyzed_anew_and_matrices_are_added_to() {
                 let modes = solve(stiffness, &first.mass, 9).unwrap().frequencies_hz();
                 for mode in 0..9 {
                     let expected = modes[mode] / truth[mode] - 1.0;
-                    assert!((errors[mode] - expected).abs() <= EIGEN_ROUND_OFF, "{name} {mode}");
+                    assert!(
+                        (errors[mode] - expected).abs() <= EIGEN_ROUND_OFF,
+                        "{name} {mode}"
+                    );
                 }
             }
             for (i, row) in prediction.stiffness_change.iter().enumerate() {
@@ -138,11 +204,17 @@ fn matrix_corrections_have_the_test_modes_and_leave_the_others() {
             let (fitted, others) = corrected.as_tested.split_at(TEST_MODES);
             assert!(largest(fitted) <= CORRECTION_ROUND_OFF, "{name}");
             for (found, before) in others.iter().zip(&initial.as_tested[TEST_MODES..]) {
-                assert!((found - before).abs() < UNMEASURED_MODE, "Case {case} {name}: {found} {before}");
+                assert!(
+                    (found - before).abs() < UNMEASURED_MODE,
+                    "Case {case} {name}: {found} {before}"
+                );
             }
         }
         let elements = by_name(&comparison, "Element factors");
-        assert!(largest(&elements.as_tested[TEST_MODES..]) < 0.5 * largest(&initial.as_tested[TEST_MODES..]));
+        assert!(
+            largest(&elements.as_tested[TEST_MODES..])
+                < 0.5 * largest(&initial.as_tested[TEST_MODES..])
+        );
     }
 }
 
@@ -170,9 +242,16 @@ fn as_many_modes_as_points_give_baruch_the_truth() {
 #[test]
 fn numbers_of_test_modes_out_of_range_are_errors() {
     let case = Case::new(2).unwrap();
-    assert!(matches!(compare_matrices(&case, 0), Err(CaseError::Method(Error::Empty { what: "modes" }))));
+    assert!(matches!(
+        compare_matrices(&case, 0),
+        Err(CaseError::Method(Error::Empty { what: "modes" }))
+    ));
     assert!(matches!(
         compare_matrices(&case, 10),
-        Err(CaseError::Method(Error::TooMany { what: "modes", available: 9, requested: 10 }))
+        Err(CaseError::Method(Error::TooMany {
+            what: "modes",
+            available: 9,
+            requested: 10
+        }))
     ));
 }

@@ -11,18 +11,31 @@ fn nearest_factors_leave_the_least() {
     for case in 1..=3 {
         let comparison = compared(case);
         let first = model(case, &gages(case, &[1.0; 15], false));
-        let test = Case::new(case).unwrap().test_modes().unwrap().lowest(TEST_MODES).unwrap();
+        let test = Case::new(case)
+            .unwrap()
+            .test_modes()
+            .unwrap()
+            .lowest(TEST_MODES)
+            .unwrap();
         let corrected = baruch_stiffness(&first.stiffness, &first.mass, &test).unwrap();
         let change: DMatrix<f64> = corrected - &first.stiffness;
         let left = |factors: &[f64]| {
             let made = first.shares.iter().zip(factors);
             let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share.matrix()).sum();
-            weighted_norm(&(&change - made), &first.mass).unwrap() / weighted_norm(&change, &first.mass).unwrap()
+            weighted_norm(&(&change - made), &first.mass).unwrap()
+                / weighted_norm(&change, &first.mass).unwrap()
         };
-        let nearest: Vec<f64> = comparison.factors.iter().map(|f| f.nearest_to_baruch).collect();
+        let nearest: Vec<f64> = comparison
+            .factors
+            .iter()
+            .map(|f| f.nearest_to_baruch)
+            .collect();
         let least = left(&nearest);
         let beyond = by_name(&comparison, "Baruch").beyond_elements;
-        assert!((least - beyond).abs() <= CORRECTION_ROUND_OFF, "{least} {beyond}");
+        assert!(
+            (least - beyond).abs() <= CORRECTION_ROUND_OFF,
+            "{least} {beyond}"
+        );
         for element in 0..15 {
             for step in [-0.01, 0.01] {
                 let mut other = nearest.clone();

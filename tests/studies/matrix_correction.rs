@@ -27,25 +27,34 @@ struct Problem {
 }
 
 fn problem() -> impl Strategy<Value = Problem> {
-    (positive_definite(SIZE, 2.0), positive_definite(SIZE, 2.0), positive_definite(SIZE, 2.0), 1..SIZE, symmetric(SIZE))
-        .prop_map(|((stiffness, _), (mass, _), (true_stiffness, _), count, other)| {
-            let all = solve(&true_stiffness, &mass, SIZE).expect("positive definite");
-            Problem {
-                test: all.lowest(count).expect("fewer than there are"),
-                stiffness,
-                mass,
-                all,
-                true_stiffness,
-                other,
-            }
-        })
+    (
+        positive_definite(SIZE, 2.0),
+        positive_definite(SIZE, 2.0),
+        positive_definite(SIZE, 2.0),
+        1..SIZE,
+        symmetric(SIZE),
+    )
+        .prop_map(
+            |((stiffness, _), (mass, _), (true_stiffness, _), count, other)| {
+                let all = solve(&true_stiffness, &mass, SIZE).expect("positive definite");
+                Problem {
+                    test: all.lowest(count).expect("fewer than there are"),
+                    stiffness,
+                    mass,
+                    all,
+                    true_stiffness,
+                    other,
+                }
+            },
+        )
 }
 
 /// Shapes that are not orthonormal: mixed by a matrix within 0.75 of one (five columns of 0.15), so that they stay
 /// independent.
 fn mixed(problem: &Problem) -> DMatrix<f64> {
     let count = problem.test.len();
-    let mixing = DMatrix::identity(count, count) + 0.15 * problem.other.view((0, 0), (count, count));
+    let mixing =
+        DMatrix::identity(count, count) + 0.15 * problem.other.view((0, 0), (count, count));
     &problem.test.shapes * mixing
 }
 
@@ -153,7 +162,10 @@ proptest! {
 }
 
 fn one_mode(shape: DVector<f64>, omega_squared: f64) -> ModeSet {
-    ModeSet { omega_squared: dvector![omega_squared], shapes: DMatrix::from_columns(&[shape]) }
+    ModeSet {
+        omega_squared: dvector![omega_squared],
+        shapes: DMatrix::from_columns(&[shape]),
+    }
 }
 
 #[test]
@@ -163,7 +175,10 @@ fn two_degrees_of_freedom_by_hand() {
     let identity = DMatrix::identity(2, 2);
     let test = one_mode(dvector![1.0, 0.0], 3.0);
     let expected = dmatrix![3.0, 0.0; 0.0, 2.0];
-    assert_eq!(baruch_stiffness(&stiffness, &identity, &test).unwrap(), expected);
+    assert_eq!(
+        baruch_stiffness(&stiffness, &identity, &test).unwrap(),
+        expected
+    );
     // Of generalized mass 4 there; one quarter of the mass makes it 1.
     let mass = berman_nagy_mass(&identity, &(2.0 * &test.shapes)).unwrap();
     assert_eq!(mass, dmatrix![0.25, 0.0; 0.0, 1.0]);
@@ -182,13 +197,22 @@ fn shapes_that_are_not_orthonormal_are_named() {
     let mass = DMatrix::identity(3, 3);
     let stiffness = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
     let mut shapes = DMatrix::identity(3, 2);
-    let modes = |shapes: DMatrix<f64>| ModeSet { omega_squared: dvector![1.0, 2.0], shapes };
+    let modes = |shapes: DMatrix<f64>| ModeSet {
+        omega_squared: dvector![1.0, 2.0],
+        shapes,
+    };
     // Within round-off of a test's processing is orthonormal enough.
     shapes[(1, 1)] = 1.0 + 1e-9;
     assert!(baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())).is_ok());
     shapes[(1, 1)] = 1.1;
     match baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())) {
-        Err(Error::NotOrthonormal { what, first: 1, second: 1, expected: 1.0, found }) => {
+        Err(Error::NotOrthonormal {
+            what,
+            first: 1,
+            second: 1,
+            expected: 1.0,
+            found,
+        }) => {
             assert_eq!((what, found), ("generalized mass of test modes", 1.1 * 1.1));
         }
         other => panic!("{other:?}"),
@@ -196,7 +220,13 @@ fn shapes_that_are_not_orthonormal_are_named() {
     shapes[(1, 1)] = 1.0;
     shapes[(0, 1)] = 0.5e-3;
     match baruch_stiffness(&stiffness, &mass, &modes(shapes.clone())) {
-        Err(Error::NotOrthonormal { what, first: 1, second: 0, expected: 0.0, found }) => {
+        Err(Error::NotOrthonormal {
+            what,
+            first: 1,
+            second: 0,
+            expected: 0.0,
+            found,
+        }) => {
             assert_eq!((what, found), ("generalized mass of test modes", 0.5e-3));
         }
         other => panic!("{other:?}"),
@@ -228,14 +258,38 @@ fn bad_matrices_are_named() {
         | Error::NotPositiveDefinite { what, .. } => assert_eq!(what, expected),
         other => panic!("{other:?}"),
     };
-    wrong(baruch_stiffness(&skew, &good, &test).unwrap_err(), "dynamic stiffness");
-    wrong(baruch_stiffness(&good, &skew, &test).unwrap_err(), "dynamic mass");
-    wrong(baruch_stiffness(&good, &small, &test).unwrap_err(), "dynamic mass");
-    wrong(baruch_stiffness(&good, &good, &one_mode(dvector![1.0], 1.0)).unwrap_err(), "test mode shapes");
-    wrong(baruch_stiffness(&good, &good, &nan).unwrap_err(), "test mode shapes");
-    wrong(berman_nagy_mass(&(-&good), &test.shapes).unwrap_err(), "dynamic mass");
-    wrong(berman_nagy_mass(&good, &DMatrix::identity(3, 1)).unwrap_err(), "test mode shapes");
-    wrong(berman_nagy_mass(&good, &nan.shapes).unwrap_err(), "test mode shapes");
+    wrong(
+        baruch_stiffness(&skew, &good, &test).unwrap_err(),
+        "dynamic stiffness",
+    );
+    wrong(
+        baruch_stiffness(&good, &skew, &test).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        baruch_stiffness(&good, &small, &test).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        baruch_stiffness(&good, &good, &one_mode(dvector![1.0], 1.0)).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        baruch_stiffness(&good, &good, &nan).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        berman_nagy_mass(&(-&good), &test.shapes).unwrap_err(),
+        "dynamic mass",
+    );
+    wrong(
+        berman_nagy_mass(&good, &DMatrix::identity(3, 1)).unwrap_err(),
+        "test mode shapes",
+    );
+    wrong(
+        berman_nagy_mass(&good, &nan.shapes).unwrap_err(),
+        "test mode shapes",
+    );
     wrong(weighted_norm(&skew, &good).unwrap_err(), "matrix change");
     wrong(weighted_norm(&small, &good).unwrap_err(), "matrix change");
     wrong(weighted_norm(&good, &(-&good)).unwrap_err(), "dynamic mass");

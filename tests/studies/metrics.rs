@@ -13,17 +13,23 @@ use proptest::prelude::*;
 fn shapes(dof: usize, modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
     prop::collection::vec(-1.0..1.0_f64, dof * modes).prop_map(move |values| {
         let mut shapes = DMatrix::from_vec(dof, modes, values);
-        (0..modes)
-            .for_each(|mode| shapes[(mode % dof, mode)] += if shapes[(mode % dof, mode)] < 0.0 { -0.5 } else { 0.5 });
+        (0..modes).for_each(|mode| {
+            shapes[(mode % dof, mode)] += if shapes[(mode % dof, mode)] < 0.0 {
+                -0.5
+            } else {
+                0.5
+            }
+        });
         shapes
     })
 }
 
 /// Scales of either sign, from a thousandth to a thousand.
 fn scales(modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
-    let one =
-        (-3.0..3.0_f64, any::<bool>()).prop_map(|(decade, minus)| 10_f64.powf(decade) * if minus { -1.0 } else { 1.0 });
-    prop::collection::vec(one, modes).prop_map(|scales| DMatrix::from_diagonal(&DVector::from_vec(scales)))
+    let one = (-3.0..3.0_f64, any::<bool>())
+        .prop_map(|(decade, minus)| 10_f64.powf(decade) * if minus { -1.0 } else { 1.0 });
+    prop::collection::vec(one, modes)
+        .prop_map(|scales| DMatrix::from_diagonal(&DVector::from_vec(scales)))
 }
 
 /// Test mode 0 with analysis mode 2, test mode 1 without, test mode 2 with analysis mode 0.
@@ -111,7 +117,8 @@ fn shapes_whose_squares_leave_the_range_of_numbers_are_compared_all_the_same() {
     let mass = dmatrix![2.0, 0.1; 0.1, 1.0];
     let usual = pseudo_orthogonality(&analysis, &test, &mass).expect("it fits");
     for scale in [1e200, 1e-200] {
-        let scaled = pseudo_orthogonality(&(scale * &analysis), &(&test / scale), &mass).expect("it fits");
+        let scaled =
+            pseudo_orthogonality(&(scale * &analysis), &(&test / scale), &mass).expect("it fits");
         assert!((scaled - &usual).amax() < ROUND_OFF);
     }
 }
@@ -141,23 +148,45 @@ fn coordinates_that_do_not_move_are_as_good_as_they_agree() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (DMatrix::<f64>::identity(2, 2), DMatrix::<f64>::identity(3, 3));
+    let (two, three) = (
+        DMatrix::<f64>::identity(2, 2),
+        DMatrix::<f64>::identity(3, 3),
+    );
     let zero = DMatrix::<f64>::zeros(2, 1);
     let wrong = |error: Option<Error>| matches!(error, Some(Error::WrongShape { .. }));
     assert!(
-        wrong(pseudo_orthogonality(&three, &two, &two).err()) && wrong(pseudo_orthogonality(&two, &three, &two).err())
+        wrong(pseudo_orthogonality(&three, &two, &two).err())
+            && wrong(pseudo_orthogonality(&two, &three, &two).err())
     );
     assert!(wrong(modal_scale_factors(&two, &three).err()));
     assert!(wrong(coordinate_assurance(&two, &three, &[None; 3]).err()));
     assert!(wrong(coordinate_assurance(&two, &two, &[Some(0)]).err()));
-    assert!(matches!(coordinate_assurance(&two, &two, &[None; 2]), Err(Error::Empty { .. })));
-    assert!(matches!(coordinate_assurance(&two, &two, &[None, Some(2)]), Err(Error::Unknown { label: 2, .. })));
-    assert!(matches!(coordinate_assurance(&two, &zero, &[Some(0)]), Err(Error::NotPositive { .. })));
-    assert!(matches!(modal_scale_factors(&zero, &two), Err(Error::NotPositive { .. })));
+    assert!(matches!(
+        coordinate_assurance(&two, &two, &[None; 2]),
+        Err(Error::Empty { .. })
+    ));
+    assert!(matches!(
+        coordinate_assurance(&two, &two, &[None, Some(2)]),
+        Err(Error::Unknown { label: 2, .. })
+    ));
+    assert!(matches!(
+        coordinate_assurance(&two, &zero, &[Some(0)]),
+        Err(Error::NotPositive { .. })
+    ));
+    assert!(matches!(
+        modal_scale_factors(&zero, &two),
+        Err(Error::NotPositive { .. })
+    ));
     let negative = -DMatrix::<f64>::identity(2, 2);
     assert!(matches!(
         pseudo_orthogonality(&two, &two, &negative),
-        Err(Error::NotPositive { what: "generalized mass", .. })
+        Err(Error::NotPositive {
+            what: "generalized mass",
+            ..
+        })
     ));
-    assert!(matches!(pseudo_orthogonality(&(f64::NAN * &two), &two, &two), Err(Error::NotFinite { .. })));
+    assert!(matches!(
+        pseudo_orthogonality(&(f64::NAN * &two), &two, &two),
+        Err(Error::NotFinite { .. })
+    ));
 }

@@ -1,7 +1,8 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
 use crate::common::tolerances::{
-    BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY, STANDARD_ERRORS,
+    BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY,
+    STANDARD_ERRORS,
 };
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
 use corfem::cases::torque_box::dynamic_points;
@@ -37,13 +38,21 @@ fn unit(shape: DVector<f64>) -> DVector<f64> {
 
 /// The changes of all shapes by noise, relative to each shape's largest component, mode by mode.
 fn shape_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
-    let change =
-        |mode: usize| (noisy.shapes.column(mode) - exact.shapes.column(mode)) / exact.shapes.column(mode).amax();
-    (0..exact.len()).flat_map(|mode| change(mode).as_slice().to_vec()).collect()
+    let change = |mode: usize| {
+        (noisy.shapes.column(mode) - exact.shapes.column(mode)) / exact.shapes.column(mode).amax()
+    };
+    (0..exact.len())
+        .flat_map(|mode| change(mode).as_slice().to_vec())
+        .collect()
 }
 
 fn frequency_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
-    noisy.frequencies_hz().iter().zip(exact.frequencies_hz()).map(|(noisy, exact)| noisy / exact - 1.0).collect()
+    noisy
+        .frequencies_hz()
+        .iter()
+        .zip(exact.frequencies_hz())
+        .map(|(noisy, exact)| noisy / exact - 1.0)
+        .collect()
 }
 
 #[test]
@@ -63,16 +72,32 @@ fn the_generator_gives_its_published_numbers() {
 
 #[test]
 fn noise_is_normal_and_of_the_stated_size() {
-    let (exact, noise) = (exact(), Noise { shape: 0.02, frequency: 0.004 });
-    let noisy: Vec<ModeSet> = (1..=100).map(|seed| with_noise(&exact, noise, seed).unwrap()).collect();
-    let shapes: Vec<f64> = noisy.iter().flat_map(|noisy| shape_changes(&exact, noisy)).collect();
-    let frequencies: Vec<f64> = noisy.iter().flat_map(|noisy| frequency_changes(&exact, noisy)).collect();
+    let (exact, noise) = (
+        exact(),
+        Noise {
+            shape: 0.02,
+            frequency: 0.004,
+        },
+    );
+    let noisy: Vec<ModeSet> = (1..=100)
+        .map(|seed| with_noise(&exact, noise, seed).unwrap())
+        .collect();
+    let shapes: Vec<f64> = noisy
+        .iter()
+        .flat_map(|noisy| shape_changes(&exact, noisy))
+        .collect();
+    let frequencies: Vec<f64> = noisy
+        .iter()
+        .flat_map(|noisy| frequency_changes(&exact, noisy))
+        .collect();
     assert_eq!((shapes.len(), frequencies.len()), (8100, 900));
     for (changes, size) in [(shapes, noise.shape), (frequencies, noise.frequency)] {
         let z: Vec<f64> = changes.iter().map(|change| change / size).collect();
         let n = z.len() as f64;
         let mean = |of: &dyn Fn(f64) -> f64| z.iter().map(|&z| of(z)).sum::<f64>() / n;
-        let off = |found: f64, expected: f64, variance: f64| (found - expected).abs() / (variance / n).sqrt();
+        let off = |found: f64, expected: f64, variance: f64| {
+            (found - expected).abs() / (variance / n).sqrt()
+        };
         let following = z.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / n;
         // Moments of the standard normal distribution, with the variance of what is averaged.
         for (what, found, expected, variance) in [
@@ -82,15 +107,24 @@ fn noise_is_normal_and_of_the_stated_size() {
             ("fourth power", mean(&|z| z.powi(4)), 3.0, 96.0),
             ("product with the next", following, 0.0, 1.0),
         ] {
-            assert!(off(found, expected, variance) < STANDARD_ERRORS, "{what}: {found}");
+            assert!(
+                off(found, expected, variance) < STANDARD_ERRORS,
+                "{what}: {found}"
+            );
         }
     }
 }
 
 #[test]
 fn noise_that_turns_a_frequency_negative_is_an_error() {
-    let far = Noise { shape: 0.0, frequency: 10.0 };
-    assert!(matches!(with_noise(&exact(), far, 1), Err(Error::NotPositive { .. })));
+    let far = Noise {
+        shape: 0.0,
+        frequency: 10.0,
+    };
+    assert!(matches!(
+        with_noise(&exact(), far, 1),
+        Err(Error::NotPositive { .. })
+    ));
 }
 
 proptest! {
@@ -139,14 +173,17 @@ fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
         let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
         for mode in 0..9 {
             let error = |modes: &ModeSet| {
-                let [found, right] = [modes, &exact].map(|modes| unit(modes.shapes.column(mode).into_owned()));
+                let [found, right] =
+                    [modes, &exact].map(|modes| unit(modes.shapes.column(mode).into_owned()));
                 (found - right).norm_squared()
             };
             before[mode] += error(&raw);
             after[mode] += error(&orthogonal);
         }
     }
-    let growth: Vec<f64> = (0..9).map(|mode| (after[mode] / before[mode]).sqrt()).collect();
+    let growth: Vec<f64> = (0..9)
+        .map(|mode| (after[mode] / before[mode]).sqrt())
+        .collect();
     // The growth is largest where the mode moves the heaviest points, and the highest mode moves the lightest alone.
     let generalized_mass = |mode: usize| {
         let shape = unit(exact.shapes.column(mode).into_owned());
@@ -156,7 +193,13 @@ fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
     let lightest = (0..9).min_by(|a, b| generalized_mass(*a).total_cmp(&generalized_mass(*b)));
     assert_eq!((heaviest, lightest), (Some(5), Some(8)));
     assert!(growth[5] > 20.0 && growth[8] < 0.2, "{growth:?}");
-    assert!(growth[..5].iter().chain(&growth[6..8]).all(|growth| (1.0..4.0).contains(growth)), "{growth:?}");
+    assert!(
+        growth[..5]
+            .iter()
+            .chain(&growth[6..8])
+            .all(|growth| (1.0..4.0).contains(growth)),
+        "{growth:?}"
+    );
 }
 
 #[test]
@@ -166,22 +209,35 @@ fn the_box_is_held_so_that_its_modes_are_not_balanced() {
     let points = dynamic_points(&case.reconstruction).unwrap();
     // Plunge, roll and pitch of points that move along z.
     let motions = DMatrix::from_fn(9, 3, |i, j| [1.0, points[i].y, points[i].x][j]);
-    let [stiffness, mass] = [&matrices.stiffness, &matrices.mass].map(|matrix| motions.transpose() * matrix * &motions);
-    let roots = (mass.try_inverse().unwrap() * stiffness).complex_eigenvalues().map(|root| root.re);
+    let [stiffness, mass] =
+        [&matrices.stiffness, &matrices.mass].map(|matrix| motions.transpose() * matrix * &motions);
+    let roots = (mass.try_inverse().unwrap() * stiffness)
+        .complex_eigenvalues()
+        .map(|root| root.re);
     let expected = roots.max() / exact().omega_squared[0];
     let ratio = study().support_ratio.expect("held");
-    assert!((ratio / expected - 1.0).abs() < BALANCE_EQUATIONS, "{ratio} {expected}");
+    assert!(
+        (ratio / expected - 1.0).abs() < BALANCE_EQUATIONS,
+        "{ratio} {expected}"
+    );
     assert!(ratio > LARGEST_SUSPENSION_RATIO);
 }
 
 /// The three correlations of a run with the test modes that each was given.
 fn sides(run: &NoisyRun) -> [(&Found, ModeSet); 3] {
     let (exact, mass) = (exact(), case().reconstruction.mass());
-    let raw = run.seed.map_or_else(|| exact.clone(), |seed| with_noise(&exact, Noise::USUAL, seed).unwrap());
+    let raw = run.seed.map_or_else(
+        || exact.clone(),
+        |seed| with_noise(&exact, Noise::USUAL, seed).unwrap(),
+    );
     let screened = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(screened.kept, run.kept);
     let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
-    [(&run.raw, raw), (&run.orthogonal, orthogonal), (&run.screened, screened.modes)]
+    [
+        (&run.raw, raw),
+        (&run.orthogonal, orthogonal),
+        (&run.screened, screened.modes),
+    ]
 }
 
 #[test]
@@ -199,7 +255,13 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
     let best = best.expect("a pass");
     for found in [&first.raw, &first.orthogonal, &first.screened] {
         assert_eq!(found.converged, result.correlation.converged);
-        assert_eq!(found.iterations, passes.iter().map(|pass| pass.inner.iterations.len()).sum::<usize>());
+        assert_eq!(
+            found.iterations,
+            passes
+                .iter()
+                .map(|pass| pass.inner.iterations.len())
+                .sum::<usize>()
+        );
         for (gage, expected) in found.gages_in.iter().zip(&result.pass_gages[best]) {
             assert!((gage / expected - 1.0).abs() < SAME_HISTORY);
         }
@@ -210,21 +272,33 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
 #[test]
 fn errors_are_those_of_a_model_with_the_gages_found() {
     let case = case();
-    assert_eq!(study().runs.iter().filter_map(|run| run.seed).collect::<Vec<_>>(), SEEDS.collect::<Vec<_>>());
+    assert_eq!(
+        study()
+            .runs
+            .iter()
+            .filter_map(|run| run.seed)
+            .collect::<Vec<_>>(),
+        SEEDS.collect::<Vec<_>>()
+    );
     for run in &study().runs {
         for (found, test) in sides(run) {
             let model = case.model_with(&found.gages_in).unwrap();
-            let errors = |test: &ModeSet| model.analyze(&[1.0; 15], test, None).unwrap().exact.errors;
+            let errors =
+                |test: &ModeSet| model.analyze(&[1.0; 15], test, None).unwrap().exact.errors;
             let truth = errors(&exact());
             // Nine shear panels and six membranes.
-            let squares = 9.0 * found.shear_gage_rms.powi(2) + 6.0 * found.membrane_gage_rms.powi(2);
+            let squares =
+                9.0 * found.shear_gage_rms.powi(2) + 6.0 * found.membrane_gage_rms.powi(2);
             for (found, expected) in [
                 (found.error_sum, errors(&test).sum()),
                 (found.true_frequency_rms, truth.frequency_rms()),
                 (found.true_shape_rms, truth.shape_rms()),
                 (found.gage_rms, (squares / 15.0).sqrt()),
             ] {
-                assert!((found / expected - 1.0).abs() < DIFFERENCE_ROUND_OFF, "{found} {expected}");
+                assert!(
+                    (found / expected - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                    "{found} {expected}"
+                );
             }
         }
     }

@@ -37,7 +37,13 @@ pub fn findings(specimen: &Specimen) -> Vec<Finding> {
 }
 
 pub fn with_shapes(specimen: &Specimen, shapes: DMatrix<f64>) -> Specimen {
-    Specimen { test: ModeSet { shapes, ..specimen.test.clone() }, ..specimen.clone() }
+    Specimen {
+        test: ModeSet {
+            shapes,
+            ..specimen.test.clone()
+        },
+        ..specimen.clone()
+    }
 }
 
 /// The change that alone is found.
@@ -54,7 +60,11 @@ pub fn agreement(model: &DynamicModel, test: &ModeSet) -> f64 {
     let test = test.scaled_with(&model.mass).unwrap();
     let cross = cross_orthogonality(&analysis, &test, &model.mass).unwrap();
     let pairing = pair_modes(&cross).unwrap();
-    let pairs = pairing.analysis_mode.iter().enumerate().map(|(test, &mode)| cross[(mode, test)].abs());
+    let pairs = pairing
+        .analysis_mode
+        .iter()
+        .enumerate()
+        .map(|(test, &mode)| cross[(mode, test)].abs());
     pairs.sum::<f64>() / test.len() as f64
 }
 
@@ -76,7 +86,11 @@ fn low_pairs_of_case_4_come_from_its_faulty_element() {
     let pairs: Vec<_> = low
         .iter()
         .map(|finding| match finding {
-            Finding::LowPair { test, analysis, cross } if *cross < LOW_PAIR => (*test, *analysis),
+            Finding::LowPair {
+                test,
+                analysis,
+                cross,
+            } if *cross < LOW_PAIR => (*test, *analysis),
             other => panic!("{other:?}"),
         })
         .collect();
@@ -84,7 +98,12 @@ fn low_pairs_of_case_4_come_from_its_faulty_element() {
     // Element 8 made right.
     let mut gages = Case::new(4).unwrap().first_gages();
     gages[7] *= 100.0;
-    let model = Case::new(4).unwrap().model_with(&gages).unwrap().matrices(&[1.0; PANEL_COUNT]).unwrap();
+    let model = Case::new(4)
+        .unwrap()
+        .model_with(&gages)
+        .unwrap()
+        .matrices(&[1.0; PANEL_COUNT])
+        .unwrap();
     assert_eq!(findings(&Specimen { model, ..case(4) }), []);
 }
 
@@ -94,11 +113,20 @@ fn models_with_any_gages_within_two_thirds_cause_no_false_alarm() {
     let (test, mut state) = (ModeSet::from(case.test_modes().unwrap()), 7);
     let mut unit = || (split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64;
     for seed in 1..=100 {
-        let gages: Vec<f64> = (0..PANEL_COUNT).map(|_| TEST_GAGE * 0.6_f64.powf(2.0 * unit() - 1.0)).collect();
-        let model = case.model_with(&gages).unwrap().matrices(&[1.0; PANEL_COUNT]).unwrap();
+        let gages: Vec<f64> = (0..PANEL_COUNT)
+            .map(|_| TEST_GAGE * 0.6_f64.powf(2.0 * unit() - 1.0))
+            .collect();
+        let model = case
+            .model_with(&gages)
+            .unwrap()
+            .matrices(&[1.0; PANEL_COUNT])
+            .unwrap();
         let noisy = with_noise(&test, Noise::USUAL, seed).unwrap();
         for finding in preflight(&model, &noisy, &case.settings, &[]).unwrap() {
-            assert!(matches!(finding, Finding::LowPair { .. }), "{seed}: {finding}");
+            assert!(
+                matches!(finding, Finding::LowPair { .. }),
+                "{seed}: {finding}"
+            );
         }
     }
 }
@@ -113,24 +141,47 @@ fn every_factor_is_named_and_a_models_error_is_none() {
         };
         for known in FACTORS {
             match with_factor(known.factor)[..] {
-                [Finding::CommonFactor(CommonFactor { median, named: Some(named), .. })] => {
+                [
+                    Finding::CommonFactor(CommonFactor {
+                        median,
+                        named: Some(named),
+                        ..
+                    }),
+                ] => {
                     assert_eq!(named, known);
-                    assert!((median / known.factor - 1.0).abs() < FIRST_FREQUENCY_RATIO, "{median}");
+                    assert!(
+                        (median / known.factor - 1.0).abs() < FIRST_FREQUENCY_RATIO,
+                        "{median}"
+                    );
                 }
                 ref other => panic!("{}: {other:?}", known.name),
             }
         }
         assert_eq!(with_factor(1.2), []);
         let unnamed = with_factor(2.1);
-        assert!(matches!(unnamed[..], [Finding::CommonFactor(CommonFactor { named: None, .. })]), "{unnamed:?}");
+        assert!(
+            matches!(
+                unnamed[..],
+                [Finding::CommonFactor(CommonFactor { named: None, .. })]
+            ),
+            "{unnamed:?}"
+        );
     }
 }
 
 #[test]
 fn factors_are_what_they_are_called() {
-    for (known, squared) in FACTORS.iter().step_by(2).zip([std::f64::consts::TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
+    for (known, squared) in
+        FACTORS
+            .iter()
+            .step_by(2)
+            .zip([std::f64::consts::TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
     {
-        assert!((known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF, "{}", known.name);
+        assert!(
+            (known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF,
+            "{}",
+            known.name
+        );
     }
     for pair in FACTORS.chunks(2) {
         assert!((pair[0].factor * pair[1].factor - 1.0).abs() < ROUND_OFF);
@@ -159,13 +210,25 @@ fn every_reversed_sensor_is_named_with_its_numbers() {
 #[test]
 fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
     let case = Case::new(2).unwrap();
-    let (model, mut test) = (case.model().unwrap(), ModeSet::from(case.test_modes().unwrap()));
+    let (model, mut test) = (
+        case.model().unwrap(),
+        ModeSet::from(case.test_modes().unwrap()),
+    );
     test.shapes.row_mut(6).neg_mut();
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
-    let run = correlate(analyze, &model.factor_ranges().unwrap(), &case.settings, |_, _| {}).unwrap();
+    let run = correlate(
+        analyze,
+        &model.factor_ranges().unwrap(),
+        &case.settings,
+        |_, _| {},
+    )
+    .unwrap();
     let factors = &run.best_factors;
     assert!(!run.converged);
-    assert!(factors.iter().any(|factor| *factor < 0.01) && factors.iter().any(|factor| *factor > 8.0), "{factors:?}");
+    assert!(
+        factors.iter().any(|factor| *factor < 0.01) && factors.iter().any(|factor| *factor > 8.0),
+        "{factors:?}"
+    );
 }
 
 #[test]
@@ -178,7 +241,11 @@ fn a_reversed_sensor_costs_a_right_model_two_of_all_its_modes() {
         shares: Vec::new(),
     };
     let test = ModeSet::from(uniform_held_modes(count, stiffness, mass).unwrap());
-    let right = Specimen { model, test, ..chain() };
+    let right = Specimen {
+        model,
+        test,
+        ..chain()
+    };
     for sensor in 0..count {
         let mut shapes = right.test.shapes.clone();
         shapes.row_mut(sensor).neg_mut();
@@ -210,7 +277,10 @@ fn every_two_sensors_exchanged_are_named() {
     for [a, b] in [[0, 18], [3, 10], [1, 2]] {
         let mut shapes = wing.test.shapes.clone();
         shapes.swap_rows(a, b);
-        assert_eq!(mended(&with_shapes(&wing, shapes)).change, Change::Exchanged([a, b]));
+        assert_eq!(
+            mended(&with_shapes(&wing, shapes)).change,
+            Change::Exchanged([a, b])
+        );
     }
 }
 
@@ -223,10 +293,21 @@ fn columns_of_t_in_another_order_are_named() {
     for order in [[0, 3, 6, 1, 4, 7, 2, 5, 8], [0, 1, 2, 7, 4, 5, 6, 3, 8]] {
         let t = model.load_distribution().dense().select_columns(&order);
         let parameters = model.parameters().to_vec();
-        let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
-        let wrong = Specimen { model: wrong.matrices(&ones).unwrap(), ..case(2) };
+        let wrong = FiniteElementModel::new(
+            model.structure().clone(),
+            t,
+            model.mass().clone(),
+            parameters,
+        )
+        .unwrap();
+        let wrong = Specimen {
+            model: wrong.matrices(&ones).unwrap(),
+            ..case(2)
+        };
         let found = mended(&wrong);
-        let Change::Columns(back) = &found.change else { panic!("{found:?}") };
+        let Change::Columns(back) = &found.change else {
+            panic!("{found:?}")
+        };
         let round: Vec<usize> = back.iter().map(|&place| order[place]).collect();
         assert_eq!(round, (0..9).collect::<Vec<_>>());
         assert!((found.after - agreement(&case(2).model, &case(2).test)).abs() < MATRIX_ROUND_OFF);
@@ -236,8 +317,17 @@ fn columns_of_t_in_another_order_are_named() {
     let order: Vec<usize> = (0..19).map(|place| (7 * place + 3) % 19).collect();
     let t = model.load_distribution().dense().select_columns(&order);
     let parameters = model.parameters().to_vec();
-    let wrong = FiniteElementModel::new(model.structure().clone(), t, model.mass().clone(), parameters).unwrap();
-    let wrong = Specimen { model: wrong.matrices(&[1.0; 21]).unwrap(), ..wing() };
+    let wrong = FiniteElementModel::new(
+        model.structure().clone(),
+        t,
+        model.mass().clone(),
+        parameters,
+    )
+    .unwrap();
+    let wrong = Specimen {
+        model: wrong.matrices(&[1.0; 21]).unwrap(),
+        ..wing()
+    };
     assert_eq!(mended(&wrong).change, Change::Reordered(order));
 }
 
@@ -248,7 +338,11 @@ fn sensors_and_columns_are_told_apart_by_the_masses_alone() {
     let mut order: Vec<usize> = (0..8).collect();
     order.swap(3, 5);
     let mut wrong = right.clone();
-    wrong.model.stiffness = right.model.stiffness.select_rows(&order).select_columns(&order);
+    wrong.model.stiffness = right
+        .model
+        .stiffness
+        .select_rows(&order)
+        .select_columns(&order);
     let found = mended(&wrong);
     assert_eq!(found.change, Change::Exchanged([3, 5]));
     let (next, agreement) = found.next.clone().expect("the columns");
@@ -259,7 +353,10 @@ fn sensors_and_columns_are_told_apart_by_the_masses_alone() {
     wrong.test = solve(&right.model.stiffness, &alike, 8).unwrap().into();
     let found = mended(&wrong);
     let (_, agreement) = found.next.expect("the columns");
-    assert!((agreement - found.after).abs() < MATRIX_ROUND_OFF, "with equal masses they are the same mistake");
+    assert!(
+        (agreement - found.after).abs() < MATRIX_ROUND_OFF,
+        "with equal masses they are the same mistake"
+    );
 }
 
 #[test]
@@ -267,8 +364,13 @@ fn points_in_another_order_and_transposed_shapes_are_named() {
     for specimen in [case(2), case(3), wing(), chain()] {
         let (points, modes) = specimen.test.shapes.shape();
         let order: Vec<usize> = (0..points).map(|place| (place + 1) % points).collect();
-        let found = mended(&with_shapes(&specimen, specimen.test.shapes.select_rows(&order)));
-        let back: Vec<usize> = (0..points).map(|place| (place + points - 1) % points).collect();
+        let found = mended(&with_shapes(
+            &specimen,
+            specimen.test.shapes.select_rows(&order),
+        ));
+        let back: Vec<usize> = (0..points)
+            .map(|place| (place + points - 1) % points)
+            .collect();
         assert_eq!(found.change, Change::Reordered(back), "{}", specimen.name);
         if points == modes {
             let found = mended(&with_shapes(&specimen, specimen.test.shapes.transpose()));

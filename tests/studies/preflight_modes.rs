@@ -6,7 +6,9 @@ use crate::studies::preflight::{case, chain, findings, wing, with_shapes};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::outer_loop::Settings;
-use corfem::studies::preflight::{Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight};
+use corfem::studies::preflight::{
+    Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
+};
 use corfem::studies::whole_model::CondensationError;
 
 #[test]
@@ -16,7 +18,13 @@ fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
             let mut wrong = specimen.clone();
             wrong.test.omega_squared.swap_rows(first, first + 1);
             match findings(&wrong)[..] {
-                [Finding::FrequenciesExchanged(FrequenciesExchanged { modes, before, after })] => {
+                [
+                    Finding::FrequenciesExchanged(FrequenciesExchanged {
+                        modes,
+                        before,
+                        after,
+                    }),
+                ] => {
                     assert_eq!(modes, [first, first + 1]);
                     assert!(after < before);
                 }
@@ -33,7 +41,13 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
         let copy = specimen.test.shapes.column(1).into_owned();
         wrong.test.shapes.set_column(4, &(-3.0 * copy));
         let same = |wrong: &Specimen| match findings(wrong)[..] {
-            [Finding::NearlySame { modes, assurance, frequency_ratio }] => {
+            [
+                Finding::NearlySame {
+                    modes,
+                    assurance,
+                    frequency_ratio,
+                },
+            ] => {
                 assert_eq!(modes, [1, 4], "{}", specimen.name);
                 assert!((assurance - 1.0).abs() < ROUND_OFF);
                 (frequency_ratio, findings(wrong)[0].to_string())
@@ -43,17 +57,27 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
         let (ratio, words) = same(&wrong);
         assert!(ratio > 1.1 && !words.contains("twice"));
         wrong.test.omega_squared[4] = specimen.test.omega_squared[1];
-        assert!(words.starts_with("Test modes 2 and 5 are nearly the same shape, modal assurance 1.000"), "{words}");
+        assert!(
+            words
+                .starts_with("Test modes 2 and 5 are nearly the same shape, modal assurance 1.000"),
+            "{words}"
+        );
         let (ratio, words) = same(&wrong);
-        assert!((ratio - 1.0).abs() < ROUND_OFF && words.contains("measured twice?"), "{words}");
+        assert!(
+            (ratio - 1.0).abs() < ROUND_OFF && words.contains("measured twice?"),
+            "{words}"
+        );
         // A shape between two others.
         let unit = |mode: usize| specimen.test.shapes.column(mode).normalize();
         wrong.test.shapes.set_column(4, &(unit(1) + unit(3)));
         let modes = specimen.test.len();
         let is_told = |finding: &Finding| match finding {
-            Finding::TooManyModes { modes: all, distinct, smallest, .. } => {
-                (*all, *distinct) == (modes, modes - 1) && smallest.abs() < 1.0
-            }
+            Finding::TooManyModes {
+                modes: all,
+                distinct,
+                smallest,
+                ..
+            } => (*all, *distinct) == (modes, modes - 1) && smallest.abs() < 1.0,
             _ => false,
         };
         assert!(findings(&wrong).iter().any(is_told), "{}", specimen.name);
@@ -64,14 +88,31 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
 fn more_modes_than_points_are_told_and_nothing_else() {
     let right = chain();
     let points = [0, 2, 4, 6];
-    let [stiffness, mass] =
-        [&right.model.stiffness, &right.model.mass].map(|matrix| matrix.select_rows(&points).select_columns(&points));
+    let [stiffness, mass] = [&right.model.stiffness, &right.model.mass]
+        .map(|matrix| matrix.select_rows(&points).select_columns(&points));
     let mut few = with_shapes(&right, right.test.shapes.select_rows(&points));
-    few.model = DynamicModel { stiffness, mass, shares: Vec::new() };
+    few.model = DynamicModel {
+        stiffness,
+        mass,
+        shares: Vec::new(),
+    };
     let found = findings(&few);
     let (last, others) = found.split_last().expect("a finding");
-    let Finding::TooManyModes { modes, points: 4, distinct: 4, smallest } = *last else { panic!("{found:?}") };
-    assert!(others.iter().all(|finding| matches!(finding, Finding::NearlySame { .. })), "{found:?}");
+    let Finding::TooManyModes {
+        modes,
+        points: 4,
+        distinct: 4,
+        smallest,
+    } = *last
+    else {
+        panic!("{found:?}")
+    };
+    assert!(
+        others
+            .iter()
+            .all(|finding| matches!(finding, Finding::NearlySame { .. })),
+        "{found:?}"
+    );
     assert!(modes + others.len() == 8 && smallest < DEPENDENT_SHAPES);
 }
 
@@ -91,7 +132,13 @@ fn two_mistakes_at_once_are_both_named() {
 #[test]
 fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
     for right in [case(3), wing(), chain()] {
-        let ranges = vec![Some(Range { lower: 0.5, upper: 2.0 }); right.ranges.len()];
+        let ranges = vec![
+            Some(Range {
+                lower: 0.5,
+                upper: 2.0
+            });
+            right.ranges.len()
+        ];
         let found = |settings: &Settings, ranges: &[Option<Range>]| {
             preflight(&right.model, &right.test, settings, ranges).unwrap()
         };
@@ -101,17 +148,48 @@ fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
         settings.shape_tolerance = 4.0;
         settings.frequency_tolerance = LARGEST_TOLERANCE;
         let percent = |setting, value| Finding::Percent { setting, value };
-        assert_eq!(found(&settings, &ranges), [percent("inner.tolerance", 2.5), percent("shape_tolerance", 4.0)]);
-        settings = Settings { later_inner_tolerance: 1.5, error_sum_tolerance: 5.0, ..right.settings.clone() };
-        let expected = [percent("later_inner_tolerance", 1.5), percent("error_sum_tolerance", 5.0)];
+        assert_eq!(
+            found(&settings, &ranges),
+            [
+                percent("inner.tolerance", 2.5),
+                percent("shape_tolerance", 4.0)
+            ]
+        );
+        settings = Settings {
+            later_inner_tolerance: 1.5,
+            error_sum_tolerance: 5.0,
+            ..right.settings.clone()
+        };
+        let expected = [
+            percent("later_inner_tolerance", 1.5),
+            percent("error_sum_tolerance", 5.0),
+        ];
         assert_eq!(found(&settings, &ranges), expected);
-        settings = Settings { frequency_tolerance: 1.5, ..right.settings.clone() };
-        assert_eq!(found(&settings, &ranges), [percent("frequency_tolerance", 1.5)]);
+        settings = Settings {
+            frequency_tolerance: 1.5,
+            ..right.settings.clone()
+        };
+        assert_eq!(
+            found(&settings, &ranges),
+            [percent("frequency_tolerance", 1.5)]
+        );
         let mut wrong = ranges.clone();
-        wrong[2] = Some(Range { lower: 55.0, upper: 150.0 });
+        wrong[2] = Some(Range {
+            lower: 55.0,
+            upper: 150.0,
+        });
         wrong[5] = None;
-        let range = Range { lower: 55.0, upper: 150.0 };
-        let expected = [Finding::ExcludesStart { parameter: 2, range }, Finding::Unbounded(vec![5])];
+        let range = Range {
+            lower: 55.0,
+            upper: 150.0,
+        };
+        let expected = [
+            Finding::ExcludesStart {
+                parameter: 2,
+                range,
+            },
+            Finding::Unbounded(vec![5]),
+        ];
         assert_eq!(found(&right.settings, &wrong), expected);
     }
 }
@@ -119,7 +197,10 @@ fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
 #[test]
 fn a_test_that_does_not_fit_the_model_is_an_error() {
     let (right, other) = (case(2), chain());
-    assert!(matches!(right.findings(&other.test), Err(Error::WrongShape { .. })));
+    assert!(matches!(
+        right.findings(&other.test),
+        Err(Error::WrongShape { .. })
+    ));
 }
 
 #[test]
@@ -129,8 +210,16 @@ fn findings_are_said_with_places_from_one() {
     wrong.test.omega_squared.swap_rows(0, 1);
     wrong.test.omega_squared *= FACTORS[0].factor.powi(2);
     wrong.settings.shape_tolerance = 4.0;
-    wrong.ranges[2] = Some(Range { lower: 55.0, upper: 150.0 });
-    let said: Vec<String> = wrong.findings(&wrong.test).unwrap().iter().map(Finding::to_string).collect();
+    wrong.ranges[2] = Some(Range {
+        lower: 55.0,
+        upper: 150.0,
+    });
+    let said: Vec<String> = wrong
+        .findings(&wrong.test)
+        .unwrap()
+        .iter()
+        .map(Finding::to_string)
+        .collect();
     let all = said.join("\n");
     for words in [
         "times the model's, near 2π: the test is in rad/s?",
@@ -144,11 +233,31 @@ fn findings_are_said_with_places_from_one() {
         assert!(all.contains(words), "{words} in {all}");
     }
     let last = case(4);
-    let said = last.findings(&last.test).unwrap().iter().map(Finding::to_string).collect::<Vec<_>>().join("\n");
-    assert!(said.starts_with("Test mode 5 and analysis mode 5 have a cross-orthogonality of 0.7"), "{said}");
-    assert!(said.ends_with("Parameters without bounds: 1 to 15."), "{said}");
-    let error = CondensationError { whole_hz: 12.5, frequency: 0.0314, shape: 0.2 };
-    let exchanged = FrequenciesExchanged { modes: [0, 4], before: 0.123, after: 0.045 };
+    let said = last
+        .findings(&last.test)
+        .unwrap()
+        .iter()
+        .map(Finding::to_string)
+        .collect::<Vec<_>>()
+        .join("\n");
+    assert!(
+        said.starts_with("Test mode 5 and analysis mode 5 have a cross-orthogonality of 0.7"),
+        "{said}"
+    );
+    assert!(
+        said.ends_with("Parameters without bounds: 1 to 15."),
+        "{said}"
+    );
+    let error = CondensationError {
+        whole_hz: 12.5,
+        frequency: 0.0314,
+        shape: 0.2,
+    };
+    let exchanged = FrequenciesExchanged {
+        modes: [0, 4],
+        before: 0.123,
+        after: 0.045,
+    };
     for (finding, words) in [
         (
             Finding::CoarseCondensation { mode: 1, error },
@@ -164,8 +273,14 @@ fn findings_are_said_with_places_from_one() {
     }
     for (change, words) in [
         (Change::Exchanged([0, 4]), "sensors 1 and 5 exchanged"),
-        (Change::Reordered(vec![2, 0, 1]), "points in another order (3, 1, 2)"),
-        (Change::Columns(vec![1, 0]), "columns of T in another order (2, 1)"),
+        (
+            Change::Reordered(vec![2, 0, 1]),
+            "points in another order (3, 1, 2)",
+        ),
+        (
+            Change::Columns(vec![1, 0]),
+            "columns of T in another order (2, 1)",
+        ),
         (Change::Transposed, "shapes transposed"),
     ] {
         assert_eq!(change.to_string(), words);

@@ -14,9 +14,23 @@ pub fn study() -> &'static [Rates] {
 fn no_good_test_is_accused() {
     assert_eq!(study().len(), 4);
     for found in study() {
-        assert_eq!((found.seeds, found.false_alarms), (100, 0), "{}", found.name);
+        assert_eq!(
+            (found.seeds, found.false_alarms),
+            (100, 0),
+            "{}",
+            found.name
+        );
         // Low pairs are so, by noise: that of the box's light points is large where heavy ones ought to rest.
-        assert!(found.low_pairs <= if found.name.starts_with("Case") { MOST_LOW_PAIRS } else { 0 }, "{}", found.name);
+        assert!(
+            found.low_pairs
+                <= if found.name.starts_with("Case") {
+                    MOST_LOW_PAIRS
+                } else {
+                    0
+                },
+            "{}",
+            found.name
+        );
     }
 }
 
@@ -25,16 +39,30 @@ fn nearly_every_mistake_is_named() {
     for found in study() {
         for rate in &found.rates {
             let what = format!("{}: {rate:?}", found.name);
-            assert!(rate.named <= rate.told && rate.told <= rate.said && rate.said <= found.seeds, "{what}");
+            assert!(
+                rate.named <= rate.told && rate.told <= rate.said && rate.said <= found.seeds,
+                "{what}"
+            );
             assert!(rate.told >= LEAST_DETECTIONS, "{what}");
             // Columns of T look like sensors where masses are alike.
             assert!(
-                rate.named >= if rate.mistake == Mistake::TwoColumns { LEAST_COLUMNS } else { LEAST_DETECTIONS },
+                rate.named
+                    >= if rate.mistake == Mistake::TwoColumns {
+                        LEAST_COLUMNS
+                    } else {
+                        LEAST_DETECTIONS
+                    },
                 "{what}"
             );
         }
-        let possible = MISTAKES.into_iter().filter(|m| *m != Mistake::Transposed || found.name != "Delta wing");
-        assert!(possible.eq(found.rates.iter().map(|rate| rate.mistake)), "{}", found.name);
+        let possible = MISTAKES
+            .into_iter()
+            .filter(|m| *m != Mistake::Transposed || found.name != "Delta wing");
+        assert!(
+            possible.eq(found.rates.iter().map(|rate| rate.mistake)),
+            "{}",
+            found.name
+        );
     }
 }
 

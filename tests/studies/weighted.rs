@@ -1,7 +1,9 @@
 //! Weighted residuals, their Jacobian, and Gauss–Newton steps on them.
 
 use crate::common::draws::Draws;
-use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR};
+use crate::common::tolerances::{
+    CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
+};
 use crate::evidence::rules::compare_all;
 use corfem::cases::Case;
 use corfem::method::error::Error;
@@ -38,12 +40,19 @@ pub fn at(first: &DynamicModel, factors: &[f64]) -> DynamicModel {
             Share::Mass(matrix) => model.mass += (factor - 1.0) * matrix,
         }
     }
-    model.shares = first.shares.iter().zip(factors).map(|(share, &factor)| share.map(|m| factor * m)).collect();
+    model.shares = first
+        .shares
+        .iter()
+        .zip(factors)
+        .map(|(share, &factor)| share.map(|m| factor * m))
+        .collect();
     model
 }
 
 fn modes(model: &DynamicModel) -> ModeSet {
-    solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap().into()
+    solve(&model.stiffness, &model.mass, model.mass.nrows())
+        .unwrap()
+        .into()
 }
 
 fn weights(modes: usize) -> Vec<ModeWeight> {
@@ -58,7 +67,10 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
         let mut draws = Draws(seed);
         let factors: Vec<f64> = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect();
         let test = with_noise(&modes(&first), Noise::USUAL, seed).unwrap();
-        let weight = |_| ModeWeight { frequency: 100.0 + 200.0 * draws.unit(), shape: 30.0 + 70.0 * draws.unit() };
+        let weight = |_| ModeWeight {
+            frequency: 100.0 + 200.0 * draws.unit(),
+            shape: 30.0 + 70.0 * draws.unit(),
+        };
         let weights: Vec<ModeWeight> = (0..9).map(weight).collect();
         let here = at(&first, &factors).analyze(&test, None).unwrap();
         let slopes = jacobian(&here, &weights).unwrap();
@@ -68,12 +80,18 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
                 let mut factors = factors.clone();
                 factors[e] *= log.exp();
                 let model = at(&first, &factors).analyze(&test, None).unwrap();
-                assert_eq!(model.exact.pairing.analysis_mode, here.exact.pairing.analysis_mode);
+                assert_eq!(
+                    model.exact.pairing.analysis_mode,
+                    here.exact.pairing.analysis_mode
+                );
                 residuals(&model, &weights).unwrap()
             };
             let difference = (beside(step) - beside(-step)) / (2.0 * step);
             let off = (difference - slopes.column(e)).amax();
-            assert!(off < CENTRAL_DIFFERENCE_GRADIENT * slopes.amax(), "seed {seed}, parameter {e}: {off}");
+            assert!(
+                off < CENTRAL_DIFFERENCE_GRADIENT * slopes.amax(),
+                "seed {seed}, parameter {e}: {off}"
+            );
         }
     }
 }
@@ -86,8 +104,10 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
     other.shapes *= -7.0;
     let weights = weights(9);
     let model = first.analyze(&test, None).unwrap();
-    let (one, two) =
-        (residuals(&model, &weights).unwrap(), residuals(&first.analyze(&other, None).unwrap(), &weights).unwrap());
+    let (one, two) = (
+        residuals(&model, &weights).unwrap(),
+        residuals(&first.analyze(&other, None).unwrap(), &weights).unwrap(),
+    );
     for j in 0..9 {
         let i = model.exact.pairing.analysis_mode[j];
         let (v, r) = (model.exact.modes.shapes.column(i), one.rows(10 * j + 1, 9));
@@ -101,19 +121,36 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
         }
         assert!((r + other).amax() < MATRIX_ROUND_OFF * weights[j].shape);
         let ratio = (model.exact.modes.omega_squared[i] / test.omega_squared[j]).sqrt();
-        assert!((one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs() < ROUND_OFF * weights[j].frequency);
+        assert!(
+            (one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs()
+                < ROUND_OFF * weights[j].frequency
+        );
     }
 }
 
-fn corrected(known: &Known, ranges: &[Option<Range>], settings: &WeightedSettings) -> WeightedCorrelation {
+fn corrected(
+    known: &Known,
+    ranges: &[Option<Range>],
+    settings: &WeightedSettings,
+) -> WeightedCorrelation {
     let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
-    gauss_newton(analyze, &vec![1.0; ranges.len()], ranges, &weights(known.test.len()), settings).unwrap()
+    gauss_newton(
+        analyze,
+        &vec![1.0; ranges.len()],
+        ranges,
+        &weights(known.test.len()),
+        settings,
+    )
+    .unwrap()
 }
 
 #[test]
 fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
     let known = Known::of_case(2).unwrap();
-    let settings = WeightedSettings { prior_deviation: 1e3, ..WeightedSettings::default() };
+    let settings = WeightedSettings {
+        prior_deviation: 1e3,
+        ..WeightedSettings::default()
+    };
     let mut calls = 0;
     let analyze = |factors: &[f64]| {
         calls += 1;
@@ -122,14 +159,35 @@ fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
     let found = gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights(9), &settings).unwrap();
     assert_eq!(calls, found.analyses);
     assert!(found.iterations.len() < 10);
-    assert!(found.iterations.iter().all(|it| it.check.pairing.analysis_mode == found.initial.pairing.analysis_mode));
+    assert!(
+        found
+            .iterations
+            .iter()
+            .all(|it| it.check.pairing.analysis_mode == found.initial.pairing.analysis_mode)
+    );
     for (factor, truth) in found.factors.iter().zip(&known.truth) {
-        assert!((factor / truth - 1.0).abs() < WEIGHTED_FACTOR, "{factor} {truth}");
+        assert!(
+            (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
+            "{factor} {truth}"
+        );
     }
-    assert!(found.iterations.windows(2).all(|pair| pair[1].objective < pair[0].objective));
+    assert!(
+        found
+            .iterations
+            .windows(2)
+            .all(|pair| pair[1].objective < pair[0].objective)
+    );
     let last = found.iterations.last().unwrap();
-    assert_eq!((&last.factors, last.objective), (&found.factors, found.objective));
-    let again = known.model.analyze(&[1.0; 15], &known.test, None).unwrap().exact.errors;
+    assert_eq!(
+        (&last.factors, last.objective),
+        (&found.factors, found.objective)
+    );
+    let again = known
+        .model
+        .analyze(&[1.0; 15], &known.test, None)
+        .unwrap()
+        .exact
+        .errors;
     assert_eq!(found.initial.errors, again);
 }
 
@@ -138,11 +196,17 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
     let known = Known::of_case(2).unwrap();
     let settings = WeightedSettings::default();
     // The truth is 2/3 of the first gages.
-    let bound = Range { lower: 0.8, upper: 1.2 };
+    let bound = Range {
+        lower: 0.8,
+        upper: 1.2,
+    };
     let mut ranges = vec![None; 15];
     (ranges[0], ranges[9]) = (Some(bound), Some(bound));
     let found = corrected(&known, &ranges, &settings);
-    assert_eq!((found.factors[0], found.factors[9], found.stop), (0.8, 0.8, WeightedStop::Gradient));
+    assert_eq!(
+        (found.factors[0], found.factors[9], found.stop),
+        (0.8, 0.8, WeightedStop::Gradient)
+    );
     let objective = |factors: &[f64]| {
         let model = known.model.analyze(factors, &known.test, None).unwrap();
         let logs: f64 = factors.iter().map(|factor| factor.ln().powi(2)).sum();
@@ -154,7 +218,11 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
             let mut factors = found.factors.clone();
             factors[e] *= change;
             let is_out = ranges[e].is_some_and(|range| !range.contains(factors[e]));
-            assert_eq!(objective(&factors) < found.objective, is_out, "{e} {change}");
+            assert_eq!(
+                objective(&factors) < found.objective,
+                is_out,
+                "{e} {change}"
+            );
         }
     }
 }
@@ -163,16 +231,41 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
 #[test]
 fn modes_that_change_places_are_followed_and_recorded() {
     let diagonal = |a, b| DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
-    let shares = vec![Share::Stiffness(diagonal(400.0, 0.0)), Share::Stiffness(diagonal(0.0, 200.0))];
-    let first = DynamicModel { stiffness: diagonal(400.0, 200.0), mass: diagonal(1.0, 1.0), shares };
-    let test = modes(&DynamicModel { stiffness: diagonal(100.0, 200.0), ..first.clone() });
+    let shares = vec![
+        Share::Stiffness(diagonal(400.0, 0.0)),
+        Share::Stiffness(diagonal(0.0, 200.0)),
+    ];
+    let first = DynamicModel {
+        stiffness: diagonal(400.0, 200.0),
+        mass: diagonal(1.0, 1.0),
+        shares,
+    };
+    let test = modes(&DynamicModel {
+        stiffness: diagonal(100.0, 200.0),
+        ..first.clone()
+    });
     let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
-    let settings = WeightedSettings { prior_deviation: 1e3, ..WeightedSettings::default() };
+    let settings = WeightedSettings {
+        prior_deviation: 1e3,
+        ..WeightedSettings::default()
+    };
     let found = gauss_newton(analyze, &[1.0; 2], &[None; 2], &weights(2), &settings).unwrap();
-    assert!((found.factors[0] - 0.25).abs() < WEIGHTED_FACTOR && (found.factors[1] - 1.0).abs() < WEIGHTED_FACTOR);
+    assert!(
+        (found.factors[0] - 0.25).abs() < WEIGHTED_FACTOR
+            && (found.factors[1] - 1.0).abs() < WEIGHTED_FACTOR
+    );
     assert_eq!(found.initial.pairing.analysis_mode, [1, 0]);
-    let modes = |iteration: usize| found.iterations[iteration].check.pairing.analysis_mode.clone();
-    let iteration = 1 + (0..found.iterations.len()).find(|&iteration| modes(iteration) == [0, 1]).expect("they change");
+    let modes = |iteration: usize| {
+        found.iterations[iteration]
+            .check
+            .pairing
+            .analysis_mode
+            .clone()
+    };
+    let iteration = 1
+        + (0..found.iterations.len())
+            .find(|&iteration| modes(iteration) == [0, 1])
+            .expect("they change");
     assert!((iteration..found.iterations.len()).all(|later| modes(later) == [0, 1]));
     let order = |factors: &[f64]| factors[0] * 400.0 < factors[1] * 200.0;
     assert!(order(&found.iterations[iteration - 1].factors));
@@ -182,11 +275,28 @@ fn modes_that_change_places_are_followed_and_recorded() {
 #[test]
 fn the_data_see_what_the_columns_say() {
     // Two separate parameters, one parallel to the first, one without effect.
-    let columns = DMatrix::from_row_slice(3, 4, &[3.0, 0.0, 1.5, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let columns = DMatrix::from_row_slice(
+        3,
+        4,
+        &[3.0, 0.0, 1.5, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    );
     let seen = identifiability(&columns, 1.0).unwrap();
-    assert_eq!((seen.blind, seen.subset, seen.condition), (vec![3], vec![1, 0], f64::INFINITY));
-    assert_eq!(seen.parallel.iter().map(|&(a, b, _)| (a, b)).collect::<Vec<_>>(), [(0, 2)]);
-    for (found, expected) in seen.singular_values.iter().zip([4.0, 11.25_f64.sqrt(), 0.0, 0.0]) {
+    assert_eq!(
+        (seen.blind, seen.subset, seen.condition),
+        (vec![3], vec![1, 0], f64::INFINITY)
+    );
+    assert_eq!(
+        seen.parallel
+            .iter()
+            .map(|&(a, b, _)| (a, b))
+            .collect::<Vec<_>>(),
+        [(0, 2)]
+    );
+    for (found, expected) in seen
+        .singular_values
+        .iter()
+        .zip([4.0, 11.25_f64.sqrt(), 0.0, 0.0])
+    {
         assert!((found - expected).abs() < ROUND_OFF);
     }
     let two = identifiability(&columns.columns(0, 2).into_owned(), 1.0).unwrap();
@@ -197,7 +307,10 @@ fn the_data_see_what_the_columns_say() {
         assert!((two.learned[e] - (1.0 - 1.0 / information)).abs() < ROUND_OFF);
         let interval = two.intervals(&[2.0; 2]).unwrap()[e];
         let ratio = (NORMAL_95 / information.sqrt()).exp();
-        assert!((interval.upper / 2.0 - ratio).abs() < ROUND_OFF && (interval.lower * ratio - 2.0).abs() < ROUND_OFF);
+        assert!(
+            (interval.upper / 2.0 - ratio).abs() < ROUND_OFF
+                && (interval.lower * ratio - 2.0).abs() < ROUND_OFF
+        );
     }
     // What has no effect keeps the prior.
     assert!((seen.deviations[3] - 1.0).abs() < ROUND_OFF && seen.learned[3].abs() < ROUND_OFF);
@@ -209,7 +322,9 @@ fn a_narrower_prior_adds_its_own_information() {
     let seen = identifiability(&columns, 0.5).unwrap();
     // The second column is shorter than one over the prior's deviation: the test adds less than is known before.
     assert_eq!(seen.subset, [0]);
-    let [(0, 2, cosine)] = seen.parallel[..] else { panic!("{:?}", seen.parallel) };
+    let [(0, 2, cosine)] = seen.parallel[..] else {
+        panic!("{:?}", seen.parallel)
+    };
     assert!((cosine - 1.0).abs() < ROUND_OFF);
     assert!((seen.covariance[(1, 1)] - 1.0 / (1.0 + 4.0)).abs() < ROUND_OFF);
     assert!((seen.learned[1] - (1.0 - 4.0 / 5.0)).abs() < ROUND_OFF);
@@ -219,7 +334,11 @@ fn a_narrower_prior_adds_its_own_information() {
 fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
     let known = Known::of_case(2).unwrap();
     let seen = corrected(&known, &[None; 15], &WeightedSettings::default()).identifiability;
-    let pairs: Vec<(usize, usize)> = seen.parallel.iter().map(|&(a, b, _)| (a + 1, b + 1)).collect();
+    let pairs: Vec<(usize, usize)> = seen
+        .parallel
+        .iter()
+        .map(|&(a, b, _)| (a + 1, b + 1))
+        .collect();
     assert_eq!(pairs, [(2, 15), (4, 8), (9, 11)]);
     assert_eq!(seen.subset.len(), 12);
     for (upper, lower) in pairs {
@@ -229,12 +348,22 @@ fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
 
 #[test]
 fn several_starts_lead_to_one_place_on_the_box_and_not_all_of_them_on_the_wing() {
-    for (known, all) in [(Known::of_case(2).unwrap(), true), (Known::delta_wing().unwrap(), false)] {
+    for (known, all) in [
+        (Known::of_case(2).unwrap(), true),
+        (Known::delta_wing().unwrap(), false),
+    ] {
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let run = |starts| {
             let ranges = vec![None; known.truth.len()];
             let settings = WeightedSettings::default();
-            from_several_starts(analyze, &ranges, &weights(known.test.len()), &settings, starts, 1)
+            from_several_starts(
+                analyze,
+                &ranges,
+                &weights(known.test.len()),
+                &settings,
+                starts,
+                1,
+            )
         };
         let (best, reached) = run(5).unwrap();
         assert!(best.objective <= run(1).unwrap().0.objective);
@@ -253,8 +382,14 @@ fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_tr
         ["Case 1", "Case 2", "Case 3", "Delta wing"]
     );
     for [none, paper, weighted] in &all {
-        assert_eq!([none.rule, paper.rule, weighted.rule], ["none", "paper", "gauss_newton"]);
-        assert!(weighted.steps < paper.steps && weighted.factor_rms < paper.factor_rms, "{weighted:?} {paper:?}");
+        assert_eq!(
+            [none.rule, paper.rule, weighted.rule],
+            ["none", "paper", "gauss_newton"]
+        );
+        assert!(
+            weighted.steps < paper.steps && weighted.factor_rms < paper.factor_rms,
+            "{weighted:?} {paper:?}"
+        );
         assert!(paper.factor_rms < none.factor_rms && none.steps == 0);
         assert!(weighted.largest < paper.largest && weighted.factor_rms <= weighted.largest);
     }
@@ -263,22 +398,66 @@ fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_tr
 #[test]
 fn input_out_of_range_is_refused() {
     let known = Known::of_case(2).unwrap();
-    let analyze = |factors: &[f64]| -> Result<ModalModel, Error> { known.model.analyze(factors, &known.test, None) };
-    let run = |first: &[f64], ranges: &[Option<Range>], weights: &[ModeWeight], settings: &WeightedSettings| {
+    let analyze = |factors: &[f64]| -> Result<ModalModel, Error> {
+        known.model.analyze(factors, &known.test, None)
+    };
+    let run = |first: &[f64],
+               ranges: &[Option<Range>],
+               weights: &[ModeWeight],
+               settings: &WeightedSettings| {
         gauss_newton(analyze, first, ranges, weights, settings).err()
     };
     let (ones, free, usual) = ([1.0; 15], [None; 15], WeightedSettings::default());
-    let vague = WeightedSettings { prior_deviation: f64::INFINITY, ..usual.clone() };
-    assert!(matches!(run(&ones, &free, &weights(9), &vague), Some(Error::Setting { name: "prior_deviation", .. })));
-    let idle = WeightedSettings { tolerance: 0.0, ..usual.clone() };
-    assert!(matches!(run(&ones, &free, &weights(9), &idle), Some(Error::Setting { name: "tolerance", .. })));
-    assert!(matches!(run(&ones, &free[1..], &weights(9), &usual), Some(Error::WrongShape { .. })));
-    assert!(matches!(run(&ones, &free, &weights(8), &usual), Some(Error::WrongShape { .. })));
-    assert!(matches!(run(&[0.0; 15], &free, &weights(9), &usual), Some(Error::NotPositive { .. })));
-    let upside_down = [Some(Range { lower: 2.0, upper: 1.0 }); 15];
-    assert!(matches!(run(&ones, &upside_down, &weights(9), &usual), Some(Error::Limits { .. })));
-    assert!(matches!(equal_weights(Noise::NONE, 9), Err(Error::Setting { .. })));
-    assert!(matches!(identifiability(&DMatrix::zeros(0, 3), 1.0), Err(Error::Empty { .. })));
+    let vague = WeightedSettings {
+        prior_deviation: f64::INFINITY,
+        ..usual.clone()
+    };
+    assert!(matches!(
+        run(&ones, &free, &weights(9), &vague),
+        Some(Error::Setting {
+            name: "prior_deviation",
+            ..
+        })
+    ));
+    let idle = WeightedSettings {
+        tolerance: 0.0,
+        ..usual.clone()
+    };
+    assert!(matches!(
+        run(&ones, &free, &weights(9), &idle),
+        Some(Error::Setting {
+            name: "tolerance",
+            ..
+        })
+    ));
+    assert!(matches!(
+        run(&ones, &free[1..], &weights(9), &usual),
+        Some(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        run(&ones, &free, &weights(8), &usual),
+        Some(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        run(&[0.0; 15], &free, &weights(9), &usual),
+        Some(Error::NotPositive { .. })
+    ));
+    let upside_down = [Some(Range {
+        lower: 2.0,
+        upper: 1.0,
+    }); 15];
+    assert!(matches!(
+        run(&ones, &upside_down, &weights(9), &usual),
+        Some(Error::Limits { .. })
+    ));
+    assert!(matches!(
+        equal_weights(Noise::NONE, 9),
+        Err(Error::Setting { .. })
+    ));
+    assert!(matches!(
+        identifiability(&DMatrix::zeros(0, 3), 1.0),
+        Err(Error::Empty { .. })
+    ));
     let few = WeightedSettings { trials: 1, ..usual };
     let stopped = gauss_newton(analyze, &ones, &free, &weights(9), &few).unwrap();
     assert_eq!((stopped.stop, stopped.analyses), (WeightedStop::Trials, 2));

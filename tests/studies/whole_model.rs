@@ -17,7 +17,9 @@ use corfem::studies::free_modes::{CountedModes, counted_modes};
 use corfem::studies::noise::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::equal_weights;
-use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
+use corfem::studies::whole_model::{
+    SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
@@ -29,25 +31,45 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let model = shear_building(&[1.0e5; 10], 1.0, range);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
+    let test = ModeSet {
+        shapes: sensors.times(&whole.shapes).expect("fits"),
+        ..whole
+    };
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
-    let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
+    let found =
+        correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
     for (story, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
-        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "story {}: {found} for {truth}", story + 1);
+        assert!(
+            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            "story {}: {found} for {truth}",
+            story + 1
+        );
     }
 }
 
 #[test]
 fn a_factor_scales_its_own_share_of_stiffness_or_mass() {
     let (wall, between) = ((0, None, 5.0), (1, Some(0), 7.0));
-    let parameter = |name: &str, share| WholeParameter { name: name.to_owned(), share, range: None };
+    let parameter = |name: &str, share| WholeParameter {
+        name: name.to_owned(),
+        share,
+        range: None,
+    };
     let parameters = vec![
         parameter("wall", WholeShare::Stiffness(springs(2, &[wall]))),
         parameter("tip", WholeShare::Mass(masses(&[0.0, 3.0]))),
     ];
-    let model = WholeModel::new(springs(2, &[wall, between]), masses(&[2.0, 4.0]), parameters).unwrap();
+    let model = WholeModel::new(
+        springs(2, &[wall, between]),
+        masses(&[2.0, 4.0]),
+        parameters,
+    )
+    .unwrap();
     let (stiffness, mass) = model.at(&[2.0, 0.5]).unwrap();
-    assert_eq!(stiffness.dense(), springs(2, &[(0, None, 10.0), between]).dense());
+    assert_eq!(
+        stiffness.dense(),
+        springs(2, &[(0, None, 10.0), between]).dense()
+    );
     assert_eq!(mass.dense(), masses(&[2.0, 2.5]).dense());
 }
 
@@ -60,18 +82,30 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let model = shear_building(&[1.0e5; 10], 1.0, None);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = ModeSet { shapes: sensors.times(&whole.shapes).expect("fits"), ..whole };
+    let test = ModeSet {
+        shapes: sensors.times(&whole.shapes).expect("fits"),
+        ..whole
+    };
     let scales = [3.0, -0.2, 1.0e3, -1.0, 0.01];
     let shapes = &test.shapes * DMatrix::from_diagonal(&scales.to_vec().into());
-    let other = ModeSet { shapes, omega_squared: test.omega_squared.clone() };
-    let [first, other] =
-        [&test, &other].map(|test| model.analyze(&[1.0; 10], &sensors, (test, pair_modes), 10).expect("an analysis"));
+    let other = ModeSet {
+        shapes,
+        omega_squared: test.omega_squared.clone(),
+    };
+    let [first, other] = [&test, &other].map(|test| {
+        model
+            .analyze(&[1.0; 10], &sensors, (test, pair_modes), 10)
+            .expect("an analysis")
+    });
     for (j, scale) in scales.iter().enumerate() {
         let shape = first.test.shapes.column(j);
         let pairing = &first.exact.pairing;
         let mode = pairing.sign[j] * first.exact.modes.shapes.column(pairing.analysis_mode[j]);
         assert!((&mode - shape).dot(&shape).abs() < ROUND_OFF * shape.norm_squared());
-        assert!((other.test.shapes.column(j) - scale.signum() * shape).norm() < ROUND_OFF * shape.norm());
+        assert!(
+            (other.test.shapes.column(j) - scale.signum() * shape).norm()
+                < ROUND_OFF * shape.norm()
+        );
     }
 }
 
@@ -82,10 +116,19 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
     let (whole, sensors) = WholeModel::of(&model).expect("a whole model");
-    let factors: Vec<f64> = (0..model.parameters().len()).map(|e| 0.8 + 0.03 * e as f64).collect();
+    let factors: Vec<f64> = (0..model.parameters().len())
+        .map(|e| 0.8 + 0.03 * e as f64)
+        .collect();
     let expected = model.analyze(&factors, &test, None).expect("an analysis");
-    let found = whole.analyze_condensed(&factors, &sensors, &test, None).expect("an analysis");
-    for (a, b) in found.exact.frequencies_hz.iter().zip(&expected.exact.frequencies_hz) {
+    let found = whole
+        .analyze_condensed(&factors, &sensors, &test, None)
+        .expect("an analysis");
+    for (a, b) in found
+        .exact
+        .frequencies_hz
+        .iter()
+        .zip(&expected.exact.frequencies_hz)
+    {
         assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
     }
     for (a, b) in found.shares.iter().zip(&expected.shares) {
@@ -93,28 +136,58 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     }
     // The same box with its elements' stiffness as matrices.
     let as_matrix = |parameter: &WholeParameter| {
-        let WholeShare::Elements(members) = &parameter.share else { panic!("the box's parameters are elements") };
-        let entries = members.iter().flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
-            let place = move |at: usize| (at / dof.len(), at % dof.len());
-            (0..dof.len() * dof.len()).map(place).map(move |(a, b)| (dof[a], dof[b], size * unit[(a, b)]))
-        });
-        let matrix = SparseMatrix::new("share", whole.dof_count(), whole.dof_count(), entries.collect());
-        WholeParameter { share: WholeShare::Stiffness(matrix.expect("a matrix")), ..parameter.clone() }
+        let WholeShare::Elements(members) = &parameter.share else {
+            panic!("the box's parameters are elements")
+        };
+        let entries = members
+            .iter()
+            .flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
+                let place = move |at: usize| (at / dof.len(), at % dof.len());
+                (0..dof.len() * dof.len())
+                    .map(place)
+                    .map(move |(a, b)| (dof[a], dof[b], size * unit[(a, b)]))
+            });
+        let matrix = SparseMatrix::new(
+            "share",
+            whole.dof_count(),
+            whole.dof_count(),
+            entries.collect(),
+        );
+        WholeParameter {
+            share: WholeShare::Stiffness(matrix.expect("a matrix")),
+            ..parameter.clone()
+        }
     };
     let (stiffness, mass) = whole.at(&vec![1.0; factors.len()]).expect("matrices");
-    let of_matrices = WholeModel::new(stiffness, mass, whole.parameters().iter().map(as_matrix).collect());
-    let of_matrices = of_matrices.expect("a model").analyze_condensed(&factors, &sensors, &test, None);
-    for (a, b) in of_matrices.expect("an analysis").shares.iter().zip(&found.shares) {
+    let of_matrices = WholeModel::new(
+        stiffness,
+        mass,
+        whole.parameters().iter().map(as_matrix).collect(),
+    );
+    let of_matrices = of_matrices
+        .expect("a model")
+        .analyze_condensed(&factors, &sensors, &test, None);
+    for (a, b) in of_matrices
+        .expect("an analysis")
+        .shares
+        .iter()
+        .zip(&found.shares)
+    {
         assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
     // Its mass is at the sensors alone, so that nothing is condensed and the whole model has the same modes.
-    let at_sensors = whole.analyze(&factors, &sensors, (&test, pair_modes), 9).expect("an analysis");
-    let assurance = modal_assurance(&at_sensors.exact.modes.shapes, &expected.exact.modes.shapes).expect("shapes");
+    let at_sensors = whole
+        .analyze(&factors, &sensors, (&test, pair_modes), 9)
+        .expect("an analysis");
+    let assurance = modal_assurance(&at_sensors.exact.modes.shapes, &expected.exact.modes.shapes)
+        .expect("shapes");
     for (mode, hz) in expected.exact.frequencies_hz.iter().enumerate() {
         assert!((at_sensors.exact.frequencies_hz[mode] / hz - 1.0).abs() < SAME_ANALYSIS);
         assert!(assurance[(mode, mode)] > 1.0 - SAME_ANALYSIS);
     }
-    assert!((at_sensors.exact.errors.sum() / expected.exact.errors.sum() - 1.0).abs() < SAME_ANALYSIS);
+    assert!(
+        (at_sensors.exact.errors.sum() / expected.exact.errors.sum() - 1.0).abs() < SAME_ANALYSIS
+    );
     for (a, b) in at_sensors.shares.iter().zip(&expected.shares) {
         let magnitude = |share: &Share| share.matrix().abs();
         assert!((magnitude(a) - magnitude(b)).amax() < SAME_ANALYSIS * b.matrix().amax());
@@ -129,12 +202,18 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
         let spring = |e: usize| (e + 1, Some(e), 1.0e5 * factors[e]);
         springs(count, &(0..count - 1).map(spring).collect::<Vec<_>>())
     };
-    let truth: Vec<f64> = (0..count - 1).map(|e| [1.0, 0.8, 1.15, 1.0, 0.9][e % 5]).collect();
+    let truth: Vec<f64> = (0..count - 1)
+        .map(|e| [1.0, 0.8, 1.15, 1.0, 0.9][e % 5])
+        .collect();
     let model_of = |first: &[f64]| {
         let parameters = (0..count - 1).map(|e| {
             let mut alone = vec![0.0; count - 1];
             alone[e] = first[e];
-            WholeParameter { name: format!("{e}"), share: WholeShare::Stiffness(springs_of(&alone)), range: None }
+            WholeParameter {
+                name: format!("{e}"),
+                share: WholeShare::Stiffness(springs_of(&alone)),
+                range: None,
+            }
         });
         let mass: Vec<f64> = (0..count).map(|row| 1.0 + 0.1 * (row % 3) as f64).collect();
         WholeModel::new(springs_of(first), masses(&mass), parameters.collect()).expect("a chain")
@@ -143,66 +222,130 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
     let (real, model) = (model_of(&truth), model_of(&vec![1.0; count - 1]));
     let modes = real.modes(&vec![1.0; count - 1], 8).expect("modes");
     assert_eq!(modes.rigid_body.ncols(), 1);
-    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&modes.vibrations, pair_modes), count - 1);
-    let found = correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
+    let analyze = |factors: &[f64]| {
+        model.analyze(
+            factors,
+            &sensors,
+            (&modes.vibrations, pair_modes),
+            count - 1,
+        )
+    };
+    let found =
+        correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
     for (e, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
-        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "spring {e}: {found} for {truth}");
+        assert!(
+            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            "spring {e}: {found} for {truth}"
+        );
     }
 }
 
 /// The delta wing without its supports: its motions without strain are kept out, and the wrong covers found from the others.
 #[test]
 fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
-    let wing = DeltaWing::embedded().expect("a wing").structure().expect("a structure");
-    let grids = wing.grids().iter().map(|grid| Grid { constrained: [false; 3], ..grid.clone() });
+    let wing = DeltaWing::embedded()
+        .expect("a wing")
+        .structure()
+        .expect("a structure");
+    let grids = wing.grids().iter().map(|grid| Grid {
+        constrained: [false; 3],
+        ..grid.clone()
+    });
     let free = Structure::new(grids.collect(), wing.elements().to_vec()).expect("a free wing");
-    let groups: Vec<&[usize]> = [1, 2, 4].map(|group: usize| GROUPS[group].elements).to_vec();
+    let groups: Vec<&[usize]> = [1, 2, 4]
+        .map(|group: usize| GROUPS[group].elements)
+        .to_vec();
     let truth = [1.2, 0.85, 1.1];
     let dof = free.free_dof();
-    let seen: Vec<usize> = (0..dof.len()).filter(|&row| dof[row].direction == 2).collect();
+    let seen: Vec<usize> = (0..dof.len())
+        .filter(|&row| dof[row].direction == 2)
+        .collect();
     let t = DMatrix::identity(dof.len(), dof.len()).select_columns(&seen);
     let model_of = |factors: [f64; 3]| {
         let elements = free.elements().iter().map(|element| {
-            let group = groups.iter().position(|group| group.contains(&element.label));
+            let group = groups
+                .iter()
+                .position(|group| group.contains(&element.label));
             let factor = group.map_or(1.0, |group| factors[group]);
-            let material = Material { density: element.material.density / factor, ..element.material };
-            Element { size: factor * element.size, material, ..element.clone() }
+            let material = Material {
+                density: element.material.density / factor,
+                ..element.material
+            };
+            Element {
+                size: factor * element.size,
+                material,
+                ..element.clone()
+            }
         });
         let structure = Structure::new(free.grids().to_vec(), elements.collect()).expect("a wing");
-        let parameters = groups.iter().map(|group| Parameter::group("group", group)).collect();
+        let parameters = groups
+            .iter()
+            .map(|group| Parameter::group("group", group))
+            .collect();
         let none = DMatrix::zeros(seen.len(), seen.len());
-        let model = FiniteElementModel::new(structure, t.clone(), none, parameters).expect("a model");
+        let model =
+            FiniteElementModel::new(structure, t.clone(), none, parameters).expect("a model");
         WholeModel::of(&model).expect("a whole model")
     };
     let (real, sensors) = model_of(truth);
     let (model, _) = model_of([1.0; 3]);
-    let CountedModes { rigid_body, vibrations } = real.modes(&[1.0; 3], 6).expect("modes");
+    let CountedModes {
+        rigid_body,
+        vibrations,
+    } = real.modes(&[1.0; 3], 6).expect("modes");
     // Beside the six, grids that only supports had held move freely: as many motions without strain as dense matrices find.
     let (stiffness, mass) = real.at(&[1.0; 3]).expect("matrices");
     let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
     assert!(rigid_body.ncols() >= 6);
     assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
-    let test = ModeSet { shapes: sensors.times(&vibrations.shapes).expect("fits"), ..vibrations };
+    let test = ModeSet {
+        shapes: sensors.times(&vibrations.shapes).expect("fits"),
+        ..vibrations
+    };
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 20);
-    let weights = equal_weights(Noise { frequency: 1e-3, shape: 5e-3 }, test.len()).expect("weights");
+    let weights = equal_weights(
+        Noise {
+            frequency: 1e-3,
+            shape: 5e-3,
+        },
+        test.len(),
+    )
+    .expect("weights");
     let settings = WeightedSettings::default();
-    let found = gauss_newton(analyze, &[1.0; 3], &model.ranges(), &weights, &settings).expect("a correlation");
+    let found = gauss_newton(analyze, &[1.0; 3], &model.ranges(), &weights, &settings)
+        .expect("a correlation");
     for (found, truth) in found.factors.iter().zip(&truth) {
-        assert!((found / truth - 1.0).abs() < RECOVERED_STORY, "{found} for {truth}");
+        assert!(
+            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            "{found} for {truth}"
+        );
     }
 }
 
 /// Tolerances of a test without noise.
 fn fine_settings() -> Settings {
-    let inner = InnerSettings { tolerance: 5e-4, ..InnerSettings::default() };
-    Settings { inner, later_inner_tolerance: 5e-4, error_sum_tolerance: 1e-3, most_passes: 30, ..Settings::default() }
+    let inner = InnerSettings {
+        tolerance: 5e-4,
+        ..InnerSettings::default()
+    };
+    Settings {
+        inner,
+        later_inner_tolerance: 5e-4,
+        error_sum_tolerance: 1e-3,
+        most_passes: 30,
+        ..Settings::default()
+    }
 }
 
 #[test]
 fn what_is_wrong_with_a_whole_model_is_named() {
     let held = springs(3, &[(0, None, 1.0), (1, Some(0), 1.0), (2, Some(1), 1.0)]);
     let parameter = |matrix: SparseMatrix| {
-        vec![WholeParameter { name: "all".to_owned(), share: WholeShare::Stiffness(matrix), range: None }]
+        vec![WholeParameter {
+            name: "all".to_owned(),
+            share: WholeShare::Stiffness(matrix),
+            range: None,
+        }]
     };
     let mass = masses(&[1.0; 3]);
     let new = |stiffness: &SparseMatrix, mass: &SparseMatrix, parameters| {
@@ -212,31 +355,97 @@ fn what_is_wrong_with_a_whole_model_is_named() {
         new(&held, &masses(&[1.0; 2]), parameter(held.clone())),
         Err(Error::WrongShape { what: "mass", .. })
     ));
-    assert!(matches!(new(&held, &mass, Vec::new()), Err(Error::Empty { what: "parameters" })));
+    assert!(matches!(
+        new(&held, &mass, Vec::new()),
+        Err(Error::Empty { what: "parameters" })
+    ));
     let lopsided = SparseMatrix::new("stiffness", 3, 3, vec![(0, 1, 1.0)]).expect("a matrix");
-    assert!(matches!(new(&held, &mass, parameter(lopsided)), Err(Error::NotSymmetric { row: 1, column: 0, .. })));
+    assert!(matches!(
+        new(&held, &mass, parameter(lopsided)),
+        Err(Error::NotSymmetric {
+            row: 1,
+            column: 0,
+            ..
+        })
+    ));
     let element = |row: usize, unit: DMatrix<f64>, size: f64| {
-        let element = ElementMatrix { label: 7, dof: vec![0, row], unit, unit_mass: DVector::zeros(2) };
+        let element = ElementMatrix {
+            label: 7,
+            dof: vec![0, row],
+            unit,
+            unit_mass: DVector::zeros(2),
+        };
         let share = WholeShare::Elements(vec![(element, size)]);
-        new(&held, &mass, vec![WholeParameter { name: "seven".to_owned(), share, range: None }])
+        new(
+            &held,
+            &mass,
+            vec![WholeParameter {
+                name: "seven".to_owned(),
+                share,
+                range: None,
+            }],
+        )
     };
     let spring = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
     let leaning = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, 0.0, 1.0]);
     assert!(element(2, spring.clone(), 1.0).is_ok());
-    assert!(matches!(element(3, spring.clone(), 1.0), Err(Error::TooMany { available: 3, requested: 4, .. })));
-    assert!(matches!(element(2, leaning, 1.0), Err(Error::NotSymmetric { what: "element stiffness", .. })));
-    assert!(matches!(element(2, DMatrix::identity(3, 3), 1.0), Err(Error::WrongShape { .. })));
+    assert!(matches!(
+        element(3, spring.clone(), 1.0),
+        Err(Error::TooMany {
+            available: 3,
+            requested: 4,
+            ..
+        })
+    ));
+    assert!(matches!(
+        element(2, leaning, 1.0),
+        Err(Error::NotSymmetric {
+            what: "element stiffness",
+            ..
+        })
+    ));
+    assert!(matches!(
+        element(2, DMatrix::identity(3, 3), 1.0),
+        Err(Error::WrongShape { .. })
+    ));
     let refused = element(2, spring, 0.0).unwrap_err().to_string();
     assert!(refused.contains("element 7"), "{refused}");
     let model = new(&held, &mass, parameter(held.clone())).expect("a model");
-    assert!(matches!(model.modes(&[0.0], 1), Err(Error::NotPositive { .. })));
-    assert!(matches!(model.modes(&[1.0, 1.0], 1), Err(Error::WrongShape { .. })));
-    assert!(matches!(model.modes(&[1.0], 4), Err(Error::TooMany { available: 3, requested: 4, .. })));
-    assert!(matches!(SparseMatrix::new("m", 2, 2, vec![(2, 0, 1.0)]), Err(Error::TooMany { requested: 3, .. })));
-    assert!(matches!(SparseMatrix::new("m", 2, 2, vec![(0, 0, f64::NAN)]), Err(Error::NotFinite { .. })));
-    let floating = springs(200, &(1..199).map(|row| (row, Some(row - 1), 1.0)).collect::<Vec<_>>());
+    assert!(matches!(
+        model.modes(&[0.0], 1),
+        Err(Error::NotPositive { .. })
+    ));
+    assert!(matches!(
+        model.modes(&[1.0, 1.0], 1),
+        Err(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        model.modes(&[1.0], 4),
+        Err(Error::TooMany {
+            available: 3,
+            requested: 4,
+            ..
+        })
+    ));
+    assert!(matches!(
+        SparseMatrix::new("m", 2, 2, vec![(2, 0, 1.0)]),
+        Err(Error::TooMany { requested: 3, .. })
+    ));
+    assert!(matches!(
+        SparseMatrix::new("m", 2, 2, vec![(0, 0, f64::NAN)]),
+        Err(Error::NotFinite { .. })
+    ));
+    let floating = springs(
+        200,
+        &(1..199)
+            .map(|row| (row, Some(row - 1), 1.0))
+            .collect::<Vec<_>>(),
+    );
     let mut values = vec![1.0; 200];
     values[199] = 0.0;
     let refused = lowest_modes(&floating, &masses(&values), 1);
-    assert!(matches!(refused, Err(Error::NotPositiveDefinite { dof: 199, .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(Error::NotPositiveDefinite { dof: 199, .. })),
+        "{refused:?}"
+    );
 }

@@ -6,15 +6,22 @@ use crate::common::whole_models::{chain_of_springs as chain, masses, springs};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
 use corfem::studies::free_modes::counted_modes;
-use corfem::studies::whole_model::{Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes};
+use corfem::studies::whole_model::{
+    Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes,
+};
 use nalgebra::{DMatrix, DVector};
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {
-    for ends in [ChainEnds::FreeFree, ChainEnds::FixedFree, ChainEnds::FixedFixed] {
+    for ends in [
+        ChainEnds::FreeFree,
+        ChainEnds::FixedFree,
+        ChainEnds::FixedFixed,
+    ] {
         let (count, spring, mass) = (2000, 3.0e5, 0.02);
         let expected = chain_eigenvalues(ends, count, spring, mass);
-        let found = lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20).expect("modes");
+        let found = lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20)
+            .expect("modes");
         let rigid = usize::from(matches!(ends, ChainEnds::FreeFree));
         assert_eq!(found.rigid_body.ncols(), rigid);
         for (mode, omega_squared) in found.vibrations.omega_squared.iter().enumerate() {
@@ -34,12 +41,34 @@ fn a_mode_that_was_missed_is_missing_from_the_count() {
     let lowest = DVector::from_column_slice(&exact[..12]);
     check_none_missed(&stiffness, &mass, &lowest).unwrap();
     for missed in 0..11 {
-        let error = check_none_missed(&stiffness, &mass, &lowest.clone().remove_row(missed)).unwrap_err();
-        assert!(matches!(error, Error::Miscounted { counted: 12, found: 11, .. }), "{error}");
+        let error =
+            check_none_missed(&stiffness, &mass, &lowest.clone().remove_row(missed)).unwrap_err();
+        assert!(
+            matches!(
+                error,
+                Error::Miscounted {
+                    counted: 12,
+                    found: 11,
+                    ..
+                }
+            ),
+            "{error}"
+        );
     }
     // One that is no mode at all is one too many.
-    let doubled = check_none_missed(&stiffness, &mass, &lowest.clone().insert_row(5, lowest[5])).unwrap_err();
-    assert!(matches!(doubled, Error::Miscounted { counted: 12, found: 13, .. }), "{doubled}");
+    let doubled =
+        check_none_missed(&stiffness, &mass, &lowest.clone().insert_row(5, lowest[5])).unwrap_err();
+    assert!(
+        matches!(
+            doubled,
+            Error::Miscounted {
+                counted: 12,
+                found: 13,
+                ..
+            }
+        ),
+        "{doubled}"
+    );
     let none = check_none_missed(&stiffness, &mass, &DVector::zeros(0)).unwrap_err();
     assert!(matches!(none, Error::Empty { .. }), "{none}");
 }
@@ -52,20 +81,39 @@ fn repeated_roots_of_a_square_net_are_all_found() {
     for i in 0..side {
         for j in 0..side {
             let at = |i: usize, j: usize| i * side + j;
-            let right = if i + 1 < side { Some(at(i + 1, j)) } else { None };
-            let up = if j + 1 < side { Some(at(i, j + 1)) } else { None };
+            let right = if i + 1 < side {
+                Some(at(i + 1, j))
+            } else {
+                None
+            };
+            let up = if j + 1 < side {
+                Some(at(i, j + 1))
+            } else {
+                None
+            };
             all.extend([(at(i, j), right, 1.0e4), (at(i, j), up, 1.0e4)]);
             all.extend((i == 0).then_some((at(i, j), None, 1.0e4)));
             all.extend((j == 0).then_some((at(i, j), None, 1.0e4)));
         }
     }
     let one = chain_eigenvalues(ChainEnds::FixedFixed, side, 1.0e4, 0.5);
-    let mut expected: Vec<f64> = one.iter().flat_map(|a| one.iter().map(move |b| a + b)).collect();
+    let mut expected: Vec<f64> = one
+        .iter()
+        .flat_map(|a| one.iter().map(move |b| a + b))
+        .collect();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 7, 24] {
-        let found = lowest_modes(&springs(side * side, &all), &masses(&vec![0.5; side * side]), count).expect("modes");
+        let found = lowest_modes(
+            &springs(side * side, &all),
+            &masses(&vec![0.5; side * side]),
+            count,
+        )
+        .expect("modes");
         for (found, expected) in found.vibrations.omega_squared.iter().zip(&expected) {
-            assert!((found / expected - 1.0).abs() < COUNTED_ROOT, "{found} {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < COUNTED_ROOT,
+                "{found} {expected}"
+            );
         }
         let (m, shapes) = (masses(&vec![0.5; side * side]), &found.vibrations.shapes);
         let unit = shapes.tr_mul(&m.times(shapes).expect("it fits"));
@@ -80,17 +128,33 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
     for number in 0..30 {
         let count = MOST_DENSE_ROWS + 1 + draws.below(100);
         let is_held = draws.below(2) == 0;
-        let mut all: Vec<_> =
-            (1..count).map(|row| (row, Some(draws.below(row)), 10.0_f64.powf(4.0 + draws.unit()))).collect();
-        all.extend((0..count).map(|row| (row, Some((row + 7) % count), 1.0e4 * (0.1 + draws.unit()))));
+        let mut all: Vec<_> = (1..count)
+            .map(|row| {
+                (
+                    row,
+                    Some(draws.below(row)),
+                    10.0_f64.powf(4.0 + draws.unit()),
+                )
+            })
+            .collect();
+        all.extend(
+            (0..count).map(|row| (row, Some((row + 7) % count), 1.0e4 * (0.1 + draws.unit()))),
+        );
         all.extend(is_held.then_some((0, None, 1.0e4)));
         let massless = draws.below(3);
         let values: Vec<f64> = (0..count)
-            .map(|row| if massless > 0 && row % (massless + 1) == 0 { 0.0 } else { 0.1 + draws.unit() })
+            .map(|row| {
+                if massless > 0 && row % (massless + 1) == 0 {
+                    0.0
+                } else {
+                    0.1 + draws.unit()
+                }
+            })
             .collect();
         let (stiffness, mass) = (springs(count, &all), masses(&values));
         let wanted = 1 + draws.below(12);
-        let found = lowest_modes(&stiffness, &mass, wanted).unwrap_or_else(|error| panic!("{number}: {error}"));
+        let found = lowest_modes(&stiffness, &mass, wanted)
+            .unwrap_or_else(|error| panic!("{number}: {error}"));
         let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
         assert_eq!(found.rigid_body.ncols(), usize::from(!is_held), "{number}");
         for (mode, omega_squared) in found.vibrations.omega_squared.iter().enumerate() {
@@ -100,8 +164,12 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                 "{number} {mode}: {omega_squared} {expected}"
             );
             let shape = found.vibrations.shapes.columns(mode, 1).into_owned();
-            let residual = stiffness.times(&shape).expect("fits") - *omega_squared * mass.times(&shape).expect("fits");
-            assert!(residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).expect("fits").norm(), "{number} {mode}");
+            let residual = stiffness.times(&shape).expect("fits")
+                - *omega_squared * mass.times(&shape).expect("fits");
+            assert!(
+                residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).expect("fits").norm(),
+                "{number} {mode}"
+            );
         }
     }
 }
@@ -113,16 +181,28 @@ fn a_factor_counts_negative_eigenvalues_and_solves() {
         let entries = (0..count).flat_map(|row| {
             let other = draws.below(count);
             let (own, off) = (4.0 * draws.unit() - 2.0, draws.unit() - 0.5);
-            let pair = if other == row { vec![] } else { vec![(row, other, off), (other, row, off)] };
+            let pair = if other == row {
+                vec![]
+            } else {
+                vec![(row, other, off), (other, row, off)]
+            };
             [vec![(row, row, own)], pair].concat()
         });
-        let matrix = SparseMatrix::new("random", count, count, entries.collect()).expect("a matrix");
+        let matrix =
+            SparseMatrix::new("random", count, count, entries.collect()).expect("a matrix");
         let eigenvalues = matrix.dense().symmetric_eigenvalues();
         let factor = Factor::new("random", &matrix).expect("a factor");
-        assert_eq!(factor.negative_count(), eigenvalues.iter().filter(|value| **value < 0.0).count());
+        assert_eq!(
+            factor.negative_count(),
+            eigenvalues.iter().filter(|value| **value < 0.0).count()
+        );
         let right = DMatrix::from_fn(count, 2, |_, _| draws.unit());
         let solved = factor.solve(&right).expect("a solution");
         let residual = matrix.times(&solved).expect("fits") - &right;
-        assert!(residual.amax() < COUNTED_ROOT * (1.0 + solved.amax()), "{count}: {}", residual.amax());
+        assert!(
+            residual.amax() < COUNTED_ROOT * (1.0 + solved.amax()),
+            "{count}: {}",
+            residual.amax()
+        );
     }
 }

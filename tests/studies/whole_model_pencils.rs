@@ -5,7 +5,9 @@ use crate::common::whole_models::{chain_of_springs, masses, springs};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
 use corfem::studies::free_modes::CountedModes;
-use corfem::studies::whole_model::{Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes};
+use corfem::studies::whole_model::{
+    Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// More than are solved as dense matrices.
@@ -14,28 +16,51 @@ const ROWS: usize = MOST_DENSE_ROWS + 50;
 fn assert_roots(found: &CountedModes, expected: &[f64], what: &str) {
     assert_eq!(found.vibrations.len(), expected.len(), "{what}");
     for (found, expected) in found.vibrations.omega_squared.iter().zip(expected) {
-        assert!((found / expected - 1.0).abs() < COUNTED_ROOT, "{what}: {found} {expected}");
+        assert!(
+            (found / expected - 1.0).abs() < COUNTED_ROOT,
+            "{what}: {found} {expected}"
+        );
     }
 }
 
 /// Each spring of its own stands between one mass and the ground.
 fn oscillators(omega_squared: &[f64]) -> SparseMatrix {
-    springs(omega_squared.len(), &omega_squared.iter().enumerate().map(|(row, &k)| (row, None, k)).collect::<Vec<_>>())
+    springs(
+        omega_squared.len(),
+        &omega_squared
+            .iter()
+            .enumerate()
+            .map(|(row, &k)| (row, None, k))
+            .collect::<Vec<_>>(),
+    )
 }
 
 #[test]
 fn units_of_stiffness_and_mass_only_scale_the_roots_and_shapes() {
     for ends in [ChainEnds::FreeFree, ChainEnds::FixedFree] {
-        for (spring, mass) in [(1.0, 1.0), (1e9, 1e-9), (1e-9, 1e9), (1e12, 1e12), (1e-12, 1e-12)] {
+        for (spring, mass) in [
+            (1.0, 1.0),
+            (1e9, 1e-9),
+            (1e-9, 1e9),
+            (1e12, 1e12),
+            (1e-12, 1e-12),
+        ] {
             let what = format!("{ends:?} {spring:e} {mass:e}");
             let matrix = chain_of_springs(ends, ROWS, spring);
-            let found =
-                lowest_modes(&matrix, &masses(&[mass; ROWS]), 10).unwrap_or_else(|error| panic!("{what}: {error}"));
+            let found = lowest_modes(&matrix, &masses(&[mass; ROWS]), 10)
+                .unwrap_or_else(|error| panic!("{what}: {error}"));
             let rigid = usize::from(ends == ChainEnds::FreeFree);
             assert_eq!(found.rigid_body.ncols(), rigid, "{what}");
-            assert_roots(&found, &chain_eigenvalues(ends, ROWS, spring, mass)[rigid..rigid + 10], &what);
+            assert_roots(
+                &found,
+                &chain_eigenvalues(ends, ROWS, spring, mass)[rigid..rigid + 10],
+                &what,
+            );
             let shapes = &found.vibrations.shapes;
-            assert!((mass * shapes.tr_mul(shapes) - DMatrix::identity(10, 10)).amax() < WHOLE_SHAPE, "{what}");
+            assert!(
+                (mass * shapes.tr_mul(shapes) - DMatrix::identity(10, 10)).amax() < WHOLE_SHAPE,
+                "{what}"
+            );
         }
     }
 }
@@ -46,11 +71,19 @@ fn every_loose_part_has_a_rigid_body_motion() {
     let (parts, length) = (8, ROWS / 8);
     let stiffness_of = |part: usize| 1.0 + 0.2 * part as f64;
     let all = (0..parts).flat_map(|part| {
-        (1..length).map(move |row| (part * length + row, Some(part * length + row - 1), stiffness_of(part)))
+        (1..length).map(move |row| {
+            (
+                part * length + row,
+                Some(part * length + row - 1),
+                stiffness_of(part),
+            )
+        })
     });
     let stiffness = springs(parts * length, &all.collect::<Vec<_>>());
     let mass = masses(&vec![0.5; parts * length]);
-    let vibrations = |part: usize| chain_eigenvalues(ChainEnds::FreeFree, length, stiffness_of(part), 0.5).split_off(1);
+    let vibrations = |part: usize| {
+        chain_eigenvalues(ChainEnds::FreeFree, length, stiffness_of(part), 0.5).split_off(1)
+    };
     let mut expected: Vec<f64> = (0..parts).flat_map(vibrations).collect();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 12] {
@@ -67,9 +100,14 @@ fn a_free_chain_of_a_few_masses_has_as_many_modes_and_no_more() {
     for between in [37, 40] {
         let count = ROWS / between + 1;
         let rows = between * (count - 1) + 1;
-        let values: Vec<f64> = (0..rows).map(|row| if row % between == 0 { 3.0 } else { 0.0 }).collect();
+        let values: Vec<f64> = (0..rows)
+            .map(|row| if row % between == 0 { 3.0 } else { 0.0 })
+            .collect();
         let spring = 100.0 * between as f64;
-        let (stiffness, mass) = (chain_of_springs(ChainEnds::FreeFree, rows, spring), masses(&values));
+        let (stiffness, mass) = (
+            chain_of_springs(ChainEnds::FreeFree, rows, spring),
+            masses(&values),
+        );
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 3.0).split_off(1);
         for asked in 1..count {
             let found = lowest_modes(&stiffness, &mass, asked).expect("modes");
@@ -90,17 +128,47 @@ fn a_root_as_often_repeated_as_modes_are_found_is_counted_just_above_it() {
         // One mode asked for and the four beyond it are one root, so that no two neighbors are apart.
         let repeated = |times: usize| {
             let others = (times..ROWS).map(|place| unit * (4.5 + 0.1 * (place - times) as f64));
-            oscillators(&[4.0 * unit].repeat(times).into_iter().chain(others).collect::<Vec<_>>())
+            oscillators(
+                &[4.0 * unit]
+                    .repeat(times)
+                    .into_iter()
+                    .chain(others)
+                    .collect::<Vec<_>>(),
+            )
         };
         let mass = masses(&[1.0; ROWS]);
-        assert_roots(&lowest_modes(&repeated(5), &mass, 1).expect("modes"), &[4.0 * unit], "five times");
+        assert_roots(
+            &lowest_modes(&repeated(5), &mass, 1).expect("modes"),
+            &[4.0 * unit],
+            "five times",
+        );
         // A sixth of them is one too many to be left out.
         let refused = lowest_modes(&repeated(6), &mass, 1);
-        assert!(matches!(refused, Err(Error::Miscounted { counted: 6, found: 5, .. })), "{refused:?}");
+        assert!(
+            matches!(
+                refused,
+                Err(Error::Miscounted {
+                    counted: 6,
+                    found: 5,
+                    ..
+                })
+            ),
+            "{refused:?}"
+        );
         let list = |times: usize| DVector::from_element(times, 4.0 * unit);
         check_none_missed(&repeated(5), &mass, &list(5)).expect("all of them");
         let refused = check_none_missed(&repeated(5), &mass, &list(4));
-        assert!(matches!(refused, Err(Error::Miscounted { counted: 5, found: 4, .. })), "{refused:?}");
+        assert!(
+            matches!(
+                refused,
+                Err(Error::Miscounted {
+                    counted: 5,
+                    found: 4,
+                    ..
+                })
+            ),
+            "{refused:?}"
+        );
     }
 }
 
@@ -109,7 +177,11 @@ fn roots_are_found_that_lie_ten_thousandfold_apart() {
     let expected = chain_eigenvalues(ChainEnds::FixedFree, 2 * ROWS, 7.0, 2.0);
     assert!(expected[79] > 1e4 * expected[0]);
     let stiffness = chain_of_springs(ChainEnds::FixedFree, 2 * ROWS, 7.0);
-    assert_roots(&lowest_modes(&stiffness, &masses(&[2.0; 2 * ROWS]), 80).expect("modes"), &expected[..80], "80 modes");
+    assert_roots(
+        &lowest_modes(&stiffness, &masses(&[2.0; 2 * ROWS]), 80).expect("modes"),
+        &expected[..80],
+        "80 modes",
+    );
 }
 
 #[test]
@@ -118,25 +190,49 @@ fn the_more_rows_a_matrix_has_the_larger_its_smallest_pivot_must_be() {
     let coupled = |rows: usize, lack: f64| {
         let off = [(0, 1, lack - 1.0), (1, 0, lack - 1.0)];
         let entries = (0..rows).map(|row| (row, row, 1.0)).chain(off);
-        let factor =
-            Factor::new("coupled", &SparseMatrix::new("coupled", rows, rows, entries.collect()).expect("a matrix"));
+        let factor = Factor::new(
+            "coupled",
+            &SparseMatrix::new("coupled", rows, rows, entries.collect()).expect("a matrix"),
+        );
         factor.expect("a factor")
     };
     for rows in [2, 2000] {
         let (pivot, row) = coupled(rows, 1e-3).smallest_pivot();
-        assert!((pivot / (2e-3 - 1e-6) - 1.0).abs() < COUNTED_ROOT && row < 2, "{pivot} {row}");
+        assert!(
+            (pivot / (2e-3 - 1e-6) - 1.0).abs() < COUNTED_ROOT && row < 2,
+            "{pivot} {row}"
+        );
     }
     // Of two rows round-off is 32 times 3e-16, of two thousand thirty times as much.
     assert!(coupled(2, 2e-14).check_positive("coupled").is_ok());
     let refused = coupled(2000, 2e-14).check_positive("coupled");
-    assert!(matches!(refused, Err(Error::NotPositiveDefinite { what: "coupled", dof: 0 | 1 })), "{refused:?}");
-    assert!(matches!(coupled(2, 2e-15).check_positive("coupled"), Err(Error::NotPositiveDefinite { .. })));
+    assert!(
+        matches!(
+            refused,
+            Err(Error::NotPositiveDefinite {
+                what: "coupled",
+                dof: 0 | 1
+            })
+        ),
+        "{refused:?}"
+    );
+    assert!(matches!(
+        coupled(2, 2e-15).check_positive("coupled"),
+        Err(Error::NotPositiveDefinite { .. })
+    ));
 }
 
 #[test]
 fn a_difference_between_triangles_is_told_relative_to_the_largest_entry() {
-    let lopsided = SparseMatrix::new("m", 2, 2, vec![(0, 0, 8.0), (0, 1, 3.0), (1, 0, 1.0)]).expect("a matrix");
-    let Err(Error::NotSymmetric { row, column, difference, .. }) = lopsided.check_symmetric("m") else {
+    let lopsided = SparseMatrix::new("m", 2, 2, vec![(0, 0, 8.0), (0, 1, 3.0), (1, 0, 1.0)])
+        .expect("a matrix");
+    let Err(Error::NotSymmetric {
+        row,
+        column,
+        difference,
+        ..
+    }) = lopsided.check_symmetric("m")
+    else {
         panic!("it is not symmetric")
     };
     assert_eq!((row, column, difference), (1, 0, 0.25));

@@ -14,7 +14,14 @@ use std::f64::consts::PI;
 /// Numbers of covers, spar webs, rib webs, spanwise caps, and posts with rib caps.
 fn counts([ribs, chord, depth]: [usize; 3]) -> [usize; 5] {
     let (lines, levels) = (chord + 1, depth + 1);
-    [2 * chord, lines * depth, chord * depth, lines * levels, lines * depth + chord * levels].map(|count| ribs * count)
+    [
+        2 * chord,
+        lines * depth,
+        chord * depth,
+        lines * levels,
+        lines * depth + chord * levels,
+    ]
+    .map(|count| ribs * count)
 }
 
 fn free_dof([ribs, chord, depth]: [usize; 3]) -> usize {
@@ -24,7 +31,10 @@ fn free_dof([ribs, chord, depth]: [usize; 3]) -> usize {
 /// Area of an element for unit size: its volume.
 fn area(structure: &Structure, label: usize) -> f64 {
     let element = &structure.elements()[label - 1];
-    corner_volumes(element.kind, &structure.corners(element)).expect("an element").iter().sum()
+    corner_volumes(element.kind, &structure.corners(element))
+        .expect("an element")
+        .iter()
+        .sum()
 }
 
 #[test]
@@ -44,16 +54,31 @@ fn measured_sizes_are_those_of_their_names() {
 
 #[test]
 fn sizes_of_a_sort_sum_to_what_was_given() {
-    let wing = Wing { bays: [6, 4, 2], measured: [6, 3], ..Wing::default() };
+    let wing = Wing {
+        bays: [6, 4, 2],
+        measured: [6, 3],
+        ..Wing::default()
+    };
     let model = wing.model().expect("a wing");
     let [covers, spars, ribs] = wing.gages;
     let [caps, rib_caps, posts] = wing.areas;
     // Webs of two cells stand on each other; every bay along the span has its own caps and spar webs.
-    let expected = [covers * 48.0, spars * 12.0, ribs * 8.0, caps * 6.0, posts * 2.0 + rib_caps * 4.0];
+    let expected = [
+        covers * 48.0,
+        spars * 12.0,
+        ribs * 8.0,
+        caps * 6.0,
+        posts * 2.0 + rib_caps * 4.0,
+    ];
     for (sort, expected) in expected.iter().enumerate() {
-        let of_sort = model.parameters()[sort * wing.zones..].iter().take(wing.zones);
+        let of_sort = model.parameters()[sort * wing.zones..]
+            .iter()
+            .take(wing.zones);
         let size = |label: usize| model.structure().elements()[label - 1].size;
-        let total: f64 = of_sort.flat_map(|p| &p.members).map(|&label| size(label)).sum();
+        let total: f64 = of_sort
+            .flat_map(|p| &p.members)
+            .map(|&label| size(label))
+            .sum();
         assert_relative_eq!(total, *expected, max_relative = ROUND_OFF);
     }
 }
@@ -61,7 +86,11 @@ fn sizes_of_a_sort_sum_to_what_was_given() {
 #[test]
 fn covers_and_ribs_fill_planform_and_sections() {
     for (twist, depth) in [(0.0, 1), (0.0, 3), (8.0, 2)] {
-        let wing = Wing { bays: [7, 3, depth], angles: [35.0, twist], ..Wing::default() };
+        let wing = Wing {
+            bays: [7, 3, depth],
+            angles: [35.0, twist],
+            ..Wing::default()
+        };
         let structure = wing.structure().expect("a wing");
         let [root, tip] = wing.chords;
         let [covers, spars, ribs, ..] = counts(wing.bays);
@@ -71,33 +100,70 @@ fn covers_and_ribs_fill_planform_and_sections() {
             let expected = 2.0 * wing.span * 0.5 * (root + tip) * slope.hypot(1.0);
             assert_relative_eq!(total, expected, max_relative = ELEMENT_ROUND_OFF);
         }
-        let total: f64 = (1..=ribs).map(|label| area(&structure, covers + spars + label)).sum();
-        let section = |rib: usize| wing.thickness * (root + (tip - root) * rib as f64 / 7.0).powi(2);
-        assert_relative_eq!(total, (1..=7).map(section).sum(), max_relative = ELEMENT_ROUND_OFF);
+        let total: f64 = (1..=ribs)
+            .map(|label| area(&structure, covers + spars + label))
+            .sum();
+        let section =
+            |rib: usize| wing.thickness * (root + (tip - root) * rib as f64 / 7.0).powi(2);
+        assert_relative_eq!(
+            total,
+            (1..=7).map(section).sum(),
+            max_relative = ELEMENT_ROUND_OFF
+        );
     }
 }
 
 #[test]
 fn tip_is_swept_and_twisted_about_half_the_chord() {
-    let wing = Wing { bays: [4, 2, 2], angles: [30.0, 10.0], ..Wing::default() };
+    let wing = Wing {
+        bays: [4, 2, 2],
+        angles: [30.0, 10.0],
+        ..Wing::default()
+    };
     let structure = wing.structure().expect("a wing");
     let at = |place| structure.grids()[wing.grid(place) - 1].position;
     let middle = at([4, 1, 1]);
     assert_relative_eq!(middle.x, 300.0 * (PI / 6.0).tan(), max_relative = ROUND_OFF);
     assert_relative_eq!(middle.z, 0.0, epsilon = ROUND_OFF);
     let (leading, trailing) = (at([4, 0, 1]), at([4, 2, 1]));
-    assert_relative_eq!((leading - trailing).norm(), wing.chords[1], max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        (leading - trailing).norm(),
+        wing.chords[1],
+        max_relative = ROUND_OFF
+    );
     // Nose up by ten degrees.
-    assert_relative_eq!(leading.z - trailing.z, wing.chords[1] * (PI / 18.0).sin(), max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        leading.z - trailing.z,
+        wing.chords[1] * (PI / 18.0).sin(),
+        max_relative = ROUND_OFF
+    );
     assert_eq!(at([0, 0, 1]).z, at([0, 2, 1]).z);
 }
 
 #[test]
 fn slender_wing_bends_as_a_beam() {
-    let material = Material { youngs_modulus: 1e7, poissons_ratio: 0.0, shear_modulus: 5e6, density: 0.0 };
+    let material = Material {
+        youngs_modulus: 1e7,
+        poissons_ratio: 0.0,
+        shear_modulus: 5e6,
+        density: 0.0,
+    };
     let (bays, chords, angles, measured) = ([40, 2, 1], [12.0; 2], [0.0; 2], [20, 3]);
-    let wing = Wing { bays, chords, angles, thickness: 0.5, material, measured, ..Wing::default() };
-    let first = wing.model().expect("a wing").modes(&[1.0; 25]).expect("modes").frequencies_hz()[0];
+    let wing = Wing {
+        bays,
+        chords,
+        angles,
+        thickness: 0.5,
+        material,
+        measured,
+        ..Wing::default()
+    };
+    let first = wing
+        .model()
+        .expect("a wing")
+        .modes(&[1.0; 25])
+        .expect("modes")
+        .frequencies_hz()[0];
     // Covers and caps at half the depth; a cantilever's flexibility between masses at twenty stations.
     let [depth, sheet] = [6.0, 2.0 * wing.gages[0] * 12.0];
     let bending = material.youngs_modulus * (sheet + wing.areas[0]) * (0.5 * depth) * (0.5 * depth);
@@ -112,8 +178,16 @@ fn slender_wing_bends_as_a_beam() {
 #[test]
 fn lowest_modes_hardly_depend_on_the_mesh() {
     let frequencies = |bays| {
-        let wing = Wing { bays, measured: [9, 3], ..Wing::default() };
-        let modes = wing.model().expect("a wing").modes(&[1.0; 25]).expect("modes");
+        let wing = Wing {
+            bays,
+            measured: [9, 3],
+            ..Wing::default()
+        };
+        let modes = wing
+            .model()
+            .expect("a wing")
+            .modes(&[1.0; 25])
+            .expect("modes");
         modes.lowest(4).expect("four").frequencies_hz()
     };
     // Of the same depth: caps in mid-depth would bend less.
@@ -125,18 +199,73 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
 
 #[test]
 fn wings_that_cannot_be_are_refused() {
-    let with = |bays: [usize; 3], zones, measured| Wing { bays, zones, measured, ..Wing::default() }.model();
-    assert!(matches!(with([0, 1, 1], 1, [1, 1]), Err(Error::Empty { what: "zones" } | Error::TooMany { .. })));
-    assert!(matches!(with([1, 0, 1], 1, [1, 1]), Err(Error::Empty { what: "bays and cells" })));
-    assert!(matches!(with([1, 1, 0], 1, [1, 1]), Err(Error::Empty { what: "bays and cells" })));
-    assert!(matches!(with([2, 1, 1], 0, [1, 1]), Err(Error::Empty { what: "zones" })));
-    assert!(matches!(with([2, 1, 1], 3, [1, 1]), Err(Error::TooMany { what: "zones", available: 2, requested: 3 })));
-    assert!(matches!(with([2, 1, 1], 1, [3, 1]), Err(Error::TooMany { what: "measured ribs", .. })));
-    assert!(matches!(with([2, 1, 1], 1, [1, 3]), Err(Error::TooMany { what: "measured points of a rib", .. })));
-    let flat = Wing { thickness: 0.0, ..Wing::default() };
+    let with = |bays: [usize; 3], zones, measured| {
+        Wing {
+            bays,
+            zones,
+            measured,
+            ..Wing::default()
+        }
+        .model()
+    };
+    assert!(matches!(
+        with([0, 1, 1], 1, [1, 1]),
+        Err(Error::Empty { what: "zones" } | Error::TooMany { .. })
+    ));
+    assert!(matches!(
+        with([1, 0, 1], 1, [1, 1]),
+        Err(Error::Empty {
+            what: "bays and cells"
+        })
+    ));
+    assert!(matches!(
+        with([1, 1, 0], 1, [1, 1]),
+        Err(Error::Empty {
+            what: "bays and cells"
+        })
+    ));
+    assert!(matches!(
+        with([2, 1, 1], 0, [1, 1]),
+        Err(Error::Empty { what: "zones" })
+    ));
+    assert!(matches!(
+        with([2, 1, 1], 3, [1, 1]),
+        Err(Error::TooMany {
+            what: "zones",
+            available: 2,
+            requested: 3
+        })
+    ));
+    assert!(matches!(
+        with([2, 1, 1], 1, [3, 1]),
+        Err(Error::TooMany {
+            what: "measured ribs",
+            ..
+        })
+    ));
+    assert!(matches!(
+        with([2, 1, 1], 1, [1, 3]),
+        Err(Error::TooMany {
+            what: "measured points of a rib",
+            ..
+        })
+    ));
+    let flat = Wing {
+        thickness: 0.0,
+        ..Wing::default()
+    };
     assert!(matches!(flat.model(), Err(Error::InElement { .. })));
-    let light = Wing { mass: 0.0, ..Wing::default() };
-    assert!(matches!(light.model(), Err(Error::NotPositiveDefinite { what: "dynamic mass", .. })));
+    let light = Wing {
+        mass: 0.0,
+        ..Wing::default()
+    };
+    assert!(matches!(
+        light.model(),
+        Err(Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            ..
+        })
+    ));
 }
 
 proptest! {

@@ -56,7 +56,9 @@ impl Card {
     /// Numbers of the fields that are not blank, in order.
     pub fn filled(&self) -> Vec<usize> {
         let filled = (0..self.fields.len()).filter(|&place| !self.fields[place].text.is_empty());
-        filled.map(|place| 10 * (place / FIELDS_PER_LINE) + place % FIELDS_PER_LINE + 2).collect()
+        filled
+            .map(|place| 10 * (place / FIELDS_PER_LINE) + place % FIELDS_PER_LINE + 2)
+            .collect()
     }
 
     /// An error about a field.
@@ -74,7 +76,11 @@ impl Card {
 
     /// Refuses a field for which something that is expected of it does not hold.
     pub fn require(&self, is_met: bool, field: usize, expected: &str) -> Result<(), FileError> {
-        if is_met { Ok(()) } else { Err(self.error(field, expected)) }
+        if is_met {
+            Ok(())
+        } else {
+            Err(self.error(field, expected))
+        }
     }
 
     /// A positive integer of at most eight digits.
@@ -111,13 +117,21 @@ impl Card {
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
         let is_zero = text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0);
-        self.require(is_zero, field, &format!("a blank or zero, for the crate has no {meaning}"))
+        self.require(
+            is_zero,
+            field,
+            &format!("a blank or zero, for the crate has no {meaning}"),
+        )
     }
 
     /// Directions x, y, z among components such as `123`; the rotations, 4 to 6, are allowed and left out.
     pub fn directions(&self, field: usize) -> Result<[bool; 3], FileError> {
         let components = self.text(field);
-        self.require(components.chars().all(|c| ('1'..='6').contains(&c)), field, "components from 1 to 6")?;
+        self.require(
+            components.chars().all(|c| ('1'..='6').contains(&c)),
+            field,
+            "components from 1 to 6",
+        )?;
         Ok(['1', '2', '3'].map(|component| components.contains(component)))
     }
 
@@ -128,14 +142,37 @@ impl Card {
     }
 
     /// Adds an entry to others by the number in its first field, which no other card may have.
-    pub fn keep<T>(&self, start: usize, value: T, others: &mut Numbered<T>) -> Result<(), FileError> {
-        let kept = Kept { value, card: self.clone(), start };
-        let Some(first) = others.insert(self.label(start)?, kept) else { return Ok(()) };
-        Err(self.error(start, format!("a number other than that of the card in line {}", first.card.line)))
+    pub fn keep<T>(
+        &self,
+        start: usize,
+        value: T,
+        others: &mut Numbered<T>,
+    ) -> Result<(), FileError> {
+        let kept = Kept {
+            value,
+            card: self.clone(),
+            start,
+        };
+        let Some(first) = others.insert(self.label(start)?, kept) else {
+            return Ok(());
+        };
+        Err(self.error(
+            start,
+            format!(
+                "a number other than that of the card in line {}",
+                first.card.line
+            ),
+        ))
     }
 
     /// What a field refers to by its number, which must exist; `card` is the name of the card looked for.
-    pub fn referred<'a, T>(&self, field: usize, all: &'a BTreeMap<usize, T>, card: &str) -> Result<&'a T, FileError> {
-        all.get(&self.label(field)?).ok_or_else(|| self.error(field, format!("the number of a {card} card")))
+    pub fn referred<'a, T>(
+        &self,
+        field: usize,
+        all: &'a BTreeMap<usize, T>,
+        card: &str,
+    ) -> Result<&'a T, FileError> {
+        all.get(&self.label(field)?)
+            .ok_or_else(|| self.error(field, format!("the number of a {card} card")))
     }
 }

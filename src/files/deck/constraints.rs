@@ -24,7 +24,10 @@ struct Sets {
 impl Sets {
     /// Keeps the cards of the selected set, or of the sets that it joins, and returns the others.
     fn select(&mut self, selected: Option<usize>) -> Result<Vec<Card>, FileError> {
-        let chosen: Vec<_> = self.unions.extract_if(.., |(set, _)| Some(*set) == selected).collect();
+        let chosen: Vec<_> = self
+            .unions
+            .extract_if(.., |(set, _)| Some(*set) == selected)
+            .collect();
         let known: BTreeSet<usize> = self.cards.iter().map(|(set, _)| *set).collect();
         let mut sets = BTreeSet::new();
         for (_, card) in &chosen {
@@ -41,15 +44,26 @@ impl Sets {
             sets.extend(selected);
         }
         let left_out = self.cards.extract_if(.., |(set, _)| !sets.contains(set));
-        Ok(left_out.chain(self.unions.drain(..)).map(|(_, card)| card).collect())
+        Ok(left_out
+            .chain(self.unions.drain(..))
+            .map(|(_, card)| card)
+            .collect())
     }
 }
 
 impl Constraints {
     /// Takes an SPC1, SPCADD, MPC or MPCADD card.
     pub fn take(&mut self, card: Card) -> Result<(), FileError> {
-        let sets = if card.name.starts_with("SPC") { &mut self.supports } else { &mut self.equations };
-        let cards = if card.name.ends_with("ADD") { &mut sets.unions } else { &mut sets.cards };
+        let sets = if card.name.starts_with("SPC") {
+            &mut self.supports
+        } else {
+            &mut self.equations
+        };
+        let cards = if card.name.ends_with("ADD") {
+            &mut sets.unions
+        } else {
+            &mut sets.cards
+        };
         cards.push((card.label(2)?, card));
         Ok(())
     }
@@ -58,19 +72,39 @@ impl Constraints {
     /// set of SPCADD counts, or else the one set there is, and every other card is an error.
     ///
     /// A set that case control selects must exist in `file`, unless cards `may_lack`.
-    pub fn select(&mut self, file: &str, selected: Option<Selected>, may_lack: bool) -> Result<Vec<Card>, FileError> {
+    pub fn select(
+        &mut self,
+        file: &str,
+        selected: Option<Selected>,
+        may_lack: bool,
+    ) -> Result<Vec<Card>, FileError> {
         let mut left_out = Vec::new();
-        for (row, sets) in [&mut self.supports, &mut self.equations].into_iter().enumerate() {
+        for (row, sets) in [&mut self.supports, &mut self.equations]
+            .into_iter()
+            .enumerate()
+        {
             let Some(chosen) = selected.map(|selected| selected[row]) else {
-                let first = sets.unions.first().or(sets.cards.first()).map(|(set, _)| *set);
+                let first = sets
+                    .unions
+                    .first()
+                    .or(sets.cards.first())
+                    .map(|(set, _)| *set);
                 if let (Some(first), Some(other)) = (first, sets.select(first)?.first()) {
-                    return Err(other.error(2, format!("set {first} again, for no case control selects one")));
+                    return Err(other.error(
+                        2,
+                        format!("set {first} again, for no case control selects one"),
+                    ));
                 }
                 continue;
             };
             left_out.extend(sets.select(chosen.map(|(set, _)| set))?);
             if let Some((set, line)) = chosen.filter(|_| sets.cards.is_empty() && !may_lack) {
-                return Err(FileError::line(file, line, "a set of constraints that the deck has", set.to_string()));
+                return Err(FileError::line(
+                    file,
+                    line,
+                    "a set of constraints that the deck has",
+                    set.to_string(),
+                ));
             }
         }
         Ok(left_out)
@@ -89,14 +123,17 @@ impl Constraints {
                 if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
                     // Fields 10 and 11 are no data.
                     let after = if word % 10 == 9 { word + 3 } else { word + 1 };
-                    let end = fields.next().ok_or_else(|| card.error(after, "a grid after THRU"))?;
+                    let end = fields
+                        .next()
+                        .ok_or_else(|| card.error(after, "a grid after THRU"))?;
                     last = card.label(end)?;
                     card.require(last >= first, end, &format!("a grid after {first}"))?;
                 }
                 let mut run = grids.range_mut(first..=last).peekable();
                 card.require(run.peek().is_some(), field, "the number of a GRID card")?;
                 for (_, grid) in run {
-                    grid.constrained = std::array::from_fn(|d| grid.constrained[d] || directions[d]);
+                    grid.constrained =
+                        std::array::from_fn(|d| grid.constrained[d] || directions[d]);
                 }
             }
         }
@@ -110,22 +147,45 @@ impl Constraints {
             let last = card.filled().pop().unwrap_or(0);
             let term = |field| {
                 let grid = card.referred(field, grids, "GRID")?.label;
-                Ok((StructuralDof { grid, direction: card.direction(field + 1)? }, card.real(field + 2)?))
+                Ok((
+                    StructuralDof {
+                        grid,
+                        direction: card.direction(field + 1)?,
+                    },
+                    card.real(field + 2)?,
+                ))
             };
-            let terms = (0..).map(term_field).take_while(|&field| field <= last).map(term);
+            let terms = (0..)
+                .map(term_field)
+                .take_while(|&field| field <= last)
+                .map(term);
             let mut terms = terms.collect::<Result<Vec<_>, FileError>>()?.into_iter();
             let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
             let key = (dependent.grid, dependent.direction);
             card.require(coefficient != 0.0, 5, "a coefficient that is not zero")?;
-            let is_constrained = grids.get(&key.0).is_some_and(|grid| grid.constrained[key.1]);
-            card.require(!is_constrained, 3, "a degree of freedom that no SPC1 card constrains")?;
-            let tie = Tie { dependent, coefficient, terms: terms.collect() };
+            let is_constrained = grids
+                .get(&key.0)
+                .is_some_and(|grid| grid.constrained[key.1]);
+            card.require(
+                !is_constrained,
+                3,
+                "a degree of freedom that no SPC1 card constrains",
+            )?;
+            let tie = Tie {
+                dependent,
+                coefficient,
+                terms: terms.collect(),
+            };
             if let Some((_, first)) = ties.insert(key, (tie, card)) {
-                return Err(card.error(3, format!("a degree of freedom that line {} does not tie", first.line)));
+                return Err(card.error(
+                    3,
+                    format!("a degree of freedom that line {} does not tie", first.line),
+                ));
             }
         }
         for (tie, card) in ties.values() {
-            let is_tied = |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
+            let is_tied =
+                |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
             if let Some(row) = tie.terms.iter().position(is_tied) {
                 let expected = "a degree of freedom that no MPC card makes dependent";
                 return Err(card.error(term_field(row + 1), expected));

@@ -49,7 +49,8 @@ impl ElementCards {
     /// Takes a card of an element, a property or a material.
     pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
-        let is_double = TWO_TO_A_CARD.contains(&name) && card.filled().last().is_some_and(|&last| last > 5);
+        let is_double =
+            TWO_TO_A_CARD.contains(&name) && card.filled().last().is_some_and(|&last| last > 5);
         let starts = if is_double { &[2, 6][..] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             for &start in starts {
@@ -80,17 +81,34 @@ impl ElementCards {
     }
 
     /// What has the size and the material of an element: its property's card, which must exist, or its own.
-    pub fn holder<'a>(&'a self, connection: &'a Kept<Option<usize>>) -> Result<Holder<'a>, FileError> {
+    pub fn holder<'a>(
+        &'a self,
+        connection: &'a Kept<Option<usize>>,
+    ) -> Result<Holder<'a>, FileError> {
         let Kept { value, card, start } = connection;
         let Some(row) = *value else {
-            return Ok(Holder { card, size: card.positive(6)?, size_field: 6, material_field: 5 });
+            return Ok(Holder {
+                card,
+                size: card.positive(6)?,
+                size_field: 6,
+                material_field: 5,
+            });
         };
-        let Kept { value, card, start } = card.referred(start + 1, &self.properties[row], ELEMENT_CARDS[row].1)?;
-        Ok(Holder { card, size: *value, size_field: start + 2, material_field: start + 1 })
+        let Kept { value, card, start } =
+            card.referred(start + 1, &self.properties[row], ELEMENT_CARDS[row].1)?;
+        Ok(Holder {
+            card,
+            size: *value,
+            size_field: start + 2,
+            material_field: start + 1,
+        })
     }
 
     /// The elements by number, and what they refer to; property, material and grids must exist.
-    pub fn elements(&self, grids: &BTreeMap<usize, Grid>) -> Result<(Vec<Element>, Members), FileError> {
+    pub fn elements(
+        &self,
+        grids: &BTreeMap<usize, Grid>,
+    ) -> Result<(Vec<Element>, Members), FileError> {
         let (mut elements, mut members) = (Vec::new(), Members::new());
         for (&label, connection) in &self.connections {
             let holder = self.holder(connection)?;
@@ -99,11 +117,26 @@ impl ElementCards {
             let first_grid = if value.is_some() { start + 2 } else { 3 };
             let corners = (first_grid..).take(kind.corner_count());
             let corners = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
-            let material = holder.card.referred(holder.material_field, &self.materials, "MAT1")?.value;
+            let material = holder
+                .card
+                .referred(holder.material_field, &self.materials, "MAT1")?
+                .value;
             let grids = corners.collect::<Result<_, FileError>>()?;
-            elements.push(Element { label, kind, grids, size: holder.size, material });
+            elements.push(Element {
+                label,
+                kind,
+                grids,
+                size: holder.size,
+                material,
+            });
             let property = value.map(|_| card.label(start + 1)).transpose()?;
-            members.insert(label, Membership { property, material: holder.card.label(holder.material_field)? });
+            members.insert(
+                label,
+                Membership {
+                    property,
+                    material: holder.card.label(holder.material_field)?,
+                },
+            );
         }
         Ok((elements, members))
     }
@@ -124,10 +157,18 @@ fn material(card: &Card) -> Result<Material, FileError> {
         Error::Setting { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
         _ => card.error(3, "a positive Young's modulus"),
     })?;
-    let shear_modulus = if g.is_some() { card.positive(4)? } else { derived.shear_modulus };
+    let shear_modulus = if g.is_some() {
+        card.positive(4)?
+    } else {
+        derived.shear_modulus
+    };
     let density = card.real(6)?;
     card.require(density >= 0.0, 6, "a density that is not negative")?;
-    Ok(Material { shear_modulus, density, ..derived })
+    Ok(Material {
+        shear_modulus,
+        density,
+        ..derived
+    })
 }
 
 /// CMASS2 on one direction of a grid, or CONM2 on all three.
@@ -136,10 +177,20 @@ pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
     if card.name == "CMASS2" {
         card.absent(6, "masses between two degrees of freedom")?;
         let (grid, direction) = (card.label(4)?, Some(card.direction(5)?));
-        return Ok(PointMass { label, grid, direction, mass: card.positive(3)? });
+        return Ok(PointMass {
+            label,
+            grid,
+            direction,
+            mass: card.positive(3)?,
+        });
     }
     card.absent(4, "coordinate systems but the basic one")?;
     (6..=8).try_for_each(|field| card.absent(field, "offsets of masses"))?;
     (12..=17).try_for_each(|field| card.absent(field, "rotary inertia"))?;
-    Ok(PointMass { label, grid: card.label(3)?, direction: None, mass: card.positive(5)? })
+    Ok(PointMass {
+        label,
+        grid: card.label(3)?,
+        direction: None,
+        mass: card.positive(5)?,
+    })
 }

@@ -33,7 +33,12 @@ pub(super) struct Line {
 /// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
 pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect::<String>();
+    let latin_1 = || {
+        bytes
+            .iter()
+            .map(|&byte| char::from(byte))
+            .collect::<String>()
+    };
     std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
 }
 
@@ -41,22 +46,45 @@ pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
 ///
 /// What stands in front of the bulk data and yet is part of the model, parameters and other files, is among its lines.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
-    let code = |line: &str| line.split('$').next().unwrap_or_default().to_ascii_uppercase();
-    let lines = (1..).zip(text.lines().map(code)).filter(|(_, line)| !line.trim().is_empty());
+    let code = |line: &str| {
+        line.split('$')
+            .next()
+            .unwrap_or_default()
+            .to_ascii_uppercase()
+    };
+    let lines = (1..)
+        .zip(text.lines().map(code))
+        .filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<(usize, String)> = lines.collect();
-    let begin = lines.iter().position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
+    let begin = lines
+        .iter()
+        .position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
     let mut selected = Selected::default();
-    control.iter().try_for_each(|(number, line)| select(file, *number, line, &mut selected))?;
-    let of_model = |(_, line): &&(usize, String)| statement(line, &["PARAM"]).or(statement(line, &INCLUDES)).is_some();
+    control
+        .iter()
+        .try_for_each(|(number, line)| select(file, *number, line, &mut selected))?;
+    let of_model = |(_, line): &&(usize, String)| {
+        statement(line, &["PARAM"])
+            .or(statement(line, &INCLUDES))
+            .is_some()
+    };
     let bulk = bulk.iter().take_while(|(_, line)| line.trim() != "ENDDATA");
-    let bulk = control.iter().filter(of_model).chain(bulk).map(|(number, line)| fields(file, *number, line.trim_end()));
+    let bulk = control
+        .iter()
+        .filter(of_model)
+        .chain(bulk)
+        .map(|(number, line)| fields(file, *number, line.trim_end()));
     Ok((begin.map(|_| selected), bulk.collect::<Result<_, _>>()?))
 }
 
 /// Which of these words a line begins with.
 fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
-    let begins = |name: &&&str| line.trim_start().strip_prefix(**name).is_some_and(|rest| rest.starts_with(WORD_ENDS));
+    let begins = |name: &&&str| {
+        line.trim_start()
+            .strip_prefix(**name)
+            .is_some_and(|rest| rest.starts_with(WORD_ENDS))
+    };
     names.iter().find(begins).copied()
 }
 
@@ -69,7 +97,14 @@ fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Res
     };
     match set.trim().parse() {
         Ok(set) if slot.is_none_or(|(earlier, _)| earlier == set) => *slot = Some((set, line)),
-        _ => return Err(FileError::line(file, line, "one set of constraints, by its number", text.trim())),
+        _ => {
+            return Err(FileError::line(
+                file,
+                line,
+                "one set of constraints, by its number",
+                text.trim(),
+            ));
+        }
     }
     Ok(())
 }
@@ -92,21 +127,53 @@ pub(super) fn cut(text: &str) -> Cut {
     let columns = expand_tabs(text);
     let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
     let mut parts = text.split(',').map(str::to_owned);
-    let name = if is_free { parts.next().unwrap_or_default() } else { slice(0, SMALL_FIELD) };
+    let name = if is_free {
+        parts.next().unwrap_or_default()
+    } else {
+        slice(0, SMALL_FIELD)
+    };
     let is_large = name.trim().ends_with('*') || name.trim().starts_with('*');
-    let (width, count) = if is_large { (LARGE_FIELD, LARGE_FIELDS_PER_LINE) } else { (SMALL_FIELD, FIELDS_PER_LINE) };
+    let (width, count) = if is_large {
+        (LARGE_FIELD, LARGE_FIELDS_PER_LINE)
+    } else {
+        (SMALL_FIELD, FIELDS_PER_LINE)
+    };
     let start = |place: usize| SMALL_FIELD + width * place;
-    let fixed = (0..count).map(|place| slice(start(place), start(place + 1))).chain([slice(start(count), usize::MAX)]);
-    let parts = if is_free { parts.collect() } else { fixed.collect() };
-    Cut { name, parts, is_free, count, width }
+    let fixed = (0..count)
+        .map(|place| slice(start(place), start(place + 1)))
+        .chain([slice(start(count), usize::MAX)]);
+    let parts = if is_free {
+        parts.collect()
+    } else {
+        fixed.collect()
+    };
+    Cut {
+        name,
+        parts,
+        is_free,
+        count,
+        width,
+    }
 }
 
 fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     if let Some(name) = statement(text, &INCLUDES) {
-        return Ok(Line { number, first: name.to_owned(), continues: false, data: Vec::new(), tag: String::new() });
+        return Ok(Line {
+            number,
+            first: name.to_owned(),
+            continues: false,
+            data: Vec::new(),
+            tag: String::new(),
+        });
     }
     let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
-    let Cut { name, mut parts, is_free, count, width } = cut(text);
+    let Cut {
+        name,
+        mut parts,
+        is_free,
+        count,
+        width,
+    } = cut(text);
     if let (false, Some(tag)) = (is_free, parts.last_mut()) {
         // What follows column 80 does not count.
         *tag = tag.chars().take(SMALL_FIELD).collect();
@@ -116,19 +183,42 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     if !continues && !first.starts_with(|c: char| c.is_ascii_alphabetic()) {
         return Err(wrong("a card's name or a continuation", first));
     }
-    let first = if continues { first.trim_start_matches(['+', '*']) } else { first.trim_end_matches('*') }.to_owned();
+    let first = if continues {
+        first.trim_start_matches(['+', '*'])
+    } else {
+        first.trim_end_matches('*')
+    }
+    .to_owned();
     if parts.len() > count + 1 {
         return Err(wrong("no more fields than a line has", text));
     }
-    let field = |part: &String| Field { text: part.trim().to_owned(), line: number };
+    let field = |part: &String| Field {
+        text: part.trim().to_owned(),
+        line: number,
+    };
     let mut data: Vec<Field> = parts.iter().map(field).collect();
-    data.resize(count + 1, Field { text: String::new(), line: number });
+    data.resize(
+        count + 1,
+        Field {
+            text: String::new(),
+            line: number,
+        },
+    );
     let tag = data.pop().map(|last| last.text).unwrap_or_default();
     if let Some(long) = data.iter().find(|field| field.text.chars().count() > width) {
-        return Err(wrong("a field of 8 characters, or of 16 with an asterisk", &long.text));
+        return Err(wrong(
+            "a field of 8 characters, or of 16 with an asterisk",
+            &long.text,
+        ));
     }
     let tag = tag.trim_start_matches(['+', '*']).to_owned();
-    Ok(Line { number, first, continues, data, tag })
+    Ok(Line {
+        number,
+        first,
+        continues,
+        data,
+        tag,
+    })
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.
@@ -160,7 +250,12 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
         if !line.continues {
             ends.push(line.tag.clone());
             open = line.tag.is_empty().then_some(cards.len());
-            cards.push(Card { file: file.clone(), line: line.number, name: line.first, fields: line.data });
+            cards.push(Card {
+                file: file.clone(),
+                line: line.number,
+                name: line.first,
+                fields: line.data,
+            });
         } else if line.first.is_empty() {
             let card = open.ok_or_else(|| no_parent(file, &line))?;
             append(&mut cards[card], &line);
@@ -171,7 +266,12 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
             let (tag, number) = (line.first.clone(), line.number);
             if let Some(first) = waiting.insert(tag.clone(), line) {
                 let found = format!("{tag}, which the one in line {} has", first.number);
-                return Err(FileError::line(file, number, "a continuation with a tag of its own", found));
+                return Err(FileError::line(
+                    file,
+                    number,
+                    "a continuation with a tag of its own",
+                    found,
+                ));
             }
         }
     }
@@ -185,7 +285,12 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
         }
         if let Some(first) = taken.get(&tag) {
             let found = format!("tag {tag}, which continues the card of line {first}");
-            return Err(FileError::line(file, card.line, "a card with continuations of its own", found));
+            return Err(FileError::line(
+                file,
+                card.line,
+                "a card with continuations of its own",
+                found,
+            ));
         }
     }
     match waiting.values().min_by_key(|line| line.number) {
@@ -206,7 +311,10 @@ fn append(card: &mut Card, line: &Line) {
     // The second half of a card of the large format may be missing.
     if line.data.len() == FIELDS_PER_LINE {
         let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
-        let blank = Field { text: String::new(), line: line.number };
+        let blank = Field {
+            text: String::new(),
+            line: line.number,
+        };
         card.fields.resize(whole, blank);
     }
     card.fields.extend(line.data.iter().cloned());

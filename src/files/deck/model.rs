@@ -43,8 +43,12 @@ pub struct PointMass {
 impl PointMass {
     /// The DOF it moves with.
     pub(crate) fn dof(&self) -> impl Iterator<Item = StructuralDof> + '_ {
-        let directions = (0..3).filter(|direction| self.direction.is_none_or(|own| own == *direction));
-        directions.map(|direction| StructuralDof { grid: self.grid, direction })
+        let directions =
+            (0..3).filter(|direction| self.direction.is_none_or(|own| own == *direction));
+        directions.map(|direction| StructuralDof {
+            grid: self.grid,
+            direction,
+        })
     }
 }
 
@@ -79,7 +83,12 @@ impl BulkData {
     /// A structure alone, without ties and point masses.
     pub fn of_structure(structure: &Structure) -> Self {
         let (grids, elements) = (structure.grids().to_vec(), structure.elements().to_vec());
-        Self { grids, elements, ties: Vec::new(), masses: Vec::new() }
+        Self {
+            grids,
+            elements,
+            ties: Vec::new(),
+            masses: Vec::new(),
+        }
     }
 
     /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
@@ -92,12 +101,23 @@ impl BulkData {
     /// # Errors
     /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
-    pub fn of(model: &FiniteElementModel, factors: &[f64], points: &[Vector3<f64>]) -> Result<Self, FileError> {
+    pub fn of(
+        model: &FiniteElementModel,
+        factors: &[f64],
+        points: &[Vector3<f64>],
+    ) -> Result<Self, FileError> {
         let structure = model.structure();
         let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
-        check_length("positions of dynamic points", points.len(), t.columns().len())?;
+        check_length(
+            "positions of dynamic points",
+            points.len(),
+            t.columns().len(),
+        )?;
         let mut all = Self::of_structure(structure);
-        let sizes = model.sizes(factors)?.into_iter().zip(model.mass_sizes(factors)?);
+        let sizes = model
+            .sizes(factors)?
+            .into_iter()
+            .zip(model.mass_sizes(factors)?);
         for (element, (size, mass_size)) in all.elements.iter_mut().zip(sizes) {
             element.size = size;
             element.material.density *= mass_size / size;
@@ -108,12 +128,31 @@ impl BulkData {
                 return Err(Error::CoupledMass(column).into());
             }
             let label = base + column;
-            all.grids.push(Grid { label, position, constrained: [0, 1, 2].map(|d| d != DYNAMIC_DIRECTION) });
-            let dependent = StructuralDof { grid: label, direction: DYNAMIC_DIRECTION };
-            let terms = t.columns()[column].iter().map(|&(row, factor)| (structure.free_dof()[row], factor)).collect();
-            all.ties.push(Tie { dependent, coefficient: -1.0, terms });
+            all.grids.push(Grid {
+                label,
+                position,
+                constrained: [0, 1, 2].map(|d| d != DYNAMIC_DIRECTION),
+            });
+            let dependent = StructuralDof {
+                grid: label,
+                direction: DYNAMIC_DIRECTION,
+            };
+            let terms = t.columns()[column]
+                .iter()
+                .map(|&(row, factor)| (structure.free_dof()[row], factor))
+                .collect();
+            all.ties.push(Tie {
+                dependent,
+                coefficient: -1.0,
+                terms,
+            });
             let own = mass[(column, column)];
-            let point = PointMass { label, grid: label, direction: Some(DYNAMIC_DIRECTION), mass: own };
+            let point = PointMass {
+                label,
+                grid: label,
+                direction: Some(DYNAMIC_DIRECTION),
+                mass: own,
+            };
             all.masses.extend((own != 0.0).then_some(point));
         }
         all.grids.sort_by_key(|grid| grid.label);
@@ -136,15 +175,26 @@ impl BulkData {
     /// [`FileError::TiedElement`] for an element at a dependent DOF; those of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, FileError> {
         let tied = self.tie_of();
-        let corners = self.elements.iter().flat_map(|element| element.grids.iter().map(|&grid| (element.label, grid)));
+        let corners = self
+            .elements
+            .iter()
+            .flat_map(|element| element.grids.iter().map(|&grid| (element.label, grid)));
         for (element, grid) in corners {
             if let Some(direction) = (0..3).find(|&d| tied.contains_key(&(grid, d))) {
-                return Err(FileError::TiedElement { element, grid, direction: DIRECTIONS[direction] });
+                return Err(FileError::TiedElement {
+                    element,
+                    grid,
+                    direction: DIRECTIONS[direction],
+                });
             }
         }
         let grids = self.grids.iter().map(|grid| {
-            let constrained = [0, 1, 2].map(|d| grid.constrained[d] || tied.contains_key(&(grid.label, d)));
-            Grid { constrained, ..grid.clone() }
+            let constrained =
+                [0, 1, 2].map(|d| grid.constrained[d] || tied.contains_key(&(grid.label, d)));
+            Grid {
+                constrained,
+                ..grid.clone()
+            }
         });
         Ok(Structure::new(grids.collect(), self.elements.clone())?)
     }
@@ -152,7 +202,8 @@ impl BulkData {
     /// The equation of every dependent DOF, by grid and direction.
     fn tie_of(&self) -> HashMap<(usize, usize), &Tie> {
         let ties = self.ties.iter();
-        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie)).collect()
+        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie))
+            .collect()
     }
 
     /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of
@@ -162,16 +213,27 @@ impl BulkData {
     ///
     /// # Errors
     /// [`Error::Empty`] when no mass can move; [`FileError::TooManyMasses`] for more than memory has room for.
-    pub fn mass_dof(&self, structure: &Structure, elements: &[ElementMatrix]) -> Result<MassDof, FileError> {
+    pub fn mass_dof(
+        &self,
+        structure: &Structure,
+        elements: &[ElementMatrix],
+    ) -> Result<MassDof, FileError> {
         let free = structure.free_dof();
         let moving = self.moving_masses(structure, elements)?;
         check_memory(moving.len(), free.len())?;
         let mut t = DMatrix::zeros(free.len(), moving.len());
         for (column, point) in moving.iter().enumerate() {
-            point.motion.iter().for_each(|&(row, coefficient)| t[(row, column)] += coefficient);
+            point
+                .motion
+                .iter()
+                .for_each(|&(row, coefficient)| t[(row, column)] += coefficient);
         }
         let mass = DVector::from_iterator(moving.len(), moving.iter().map(|point| point.mass));
-        Ok(MassDof { dof: moving.iter().map(|point| point.dof).collect(), load_distribution: t, mass })
+        Ok(MassDof {
+            dof: moving.iter().map(|point| point.dof).collect(),
+            load_distribution: t,
+            mass,
+        })
     }
 
     /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.
@@ -183,26 +245,47 @@ impl BulkData {
         let free = structure.free_dof();
         let lumped = lumped_mass(elements, &self.sizes(), free.len())?;
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
-        let mut mass: BTreeMap<(usize, usize), f64> = free.iter().map(at).zip(lumped.iter().copied()).collect();
+        let mut mass: BTreeMap<(usize, usize), f64> =
+            free.iter().map(at).zip(lumped.iter().copied()).collect();
         for point in &self.masses {
-            point.dof().for_each(|dof| *mass.entry(at(&dof)).or_default() += point.mass);
+            point
+                .dof()
+                .for_each(|dof| *mass.entry(at(&dof)).or_default() += point.mass);
         }
         mass.retain(|_, mass| *mass > 0.0);
         let motion_of = self.motions(structure);
         let moving = mass.into_iter().map(|((grid, direction), mass)| {
             let dof = StructuralDof { grid, direction };
-            MovingMass { dof, mass, motion: motion_of(dof) }
+            MovingMass {
+                dof,
+                mass,
+                motion: motion_of(dof),
+            }
         });
         let moving: Vec<MovingMass> = moving.filter(|point| !point.motion.is_empty()).collect();
-        if moving.is_empty() { Err(Error::Empty { what: "degrees of freedom with mass" }.into()) } else { Ok(moving) }
+        if moving.is_empty() {
+            Err(Error::Empty {
+                what: "degrees of freedom with mass",
+            }
+            .into())
+        } else {
+            Ok(moving)
+        }
     }
 
     /// How a DOF moves: the free DOF that it is or follows, by row and coefficient; none for a constrained one.
-    pub(crate) fn motions<'a>(&'a self, structure: &'a Structure) -> impl Fn(StructuralDof) -> Vec<(usize, f64)> + 'a {
+    pub(crate) fn motions<'a>(
+        &'a self,
+        structure: &'a Structure,
+    ) -> impl Fn(StructuralDof) -> Vec<(usize, f64)> + 'a {
         let tie_of = self.tie_of();
         move |own| {
             let terms = match tie_of.get(&(own.grid, own.direction)) {
-                Some(tie) => tie.terms.iter().map(|(dof, a)| (*dof, -a / tie.coefficient)).collect(),
+                Some(tie) => tie
+                    .terms
+                    .iter()
+                    .map(|(dof, a)| (*dof, -a / tie.coefficient))
+                    .collect(),
                 None => vec![(own, 1.0)],
             };
             // A constrained DOF does not move and adds nothing; one that stands in the equation twice counts twice.
@@ -212,7 +295,10 @@ impl BulkData {
                     *motion.entry(row).or_default() += coefficient;
                 }
             }
-            motion.into_iter().filter(|(_, coefficient)| *coefficient != 0.0).collect()
+            motion
+                .into_iter()
+                .filter(|(_, coefficient)| *coefficient != 0.0)
+                .collect()
         }
     }
 

@@ -51,7 +51,10 @@ pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
     if found.rigid_body == 0 && found.modes.len() < found.dof.len() {
         check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
     }
-    let (squared, shapes) = (found.modes.omega_squared.iter(), found.modes.shapes.column_iter());
+    let (squared, shapes) = (
+        found.modes.omega_squared.iter(),
+        found.modes.shapes.column_iter(),
+    );
     for (mode, (&squared, shape)) in squared.zip(shapes).enumerate() {
         let owner = || format!("mode {}", mode + 1);
         positive("squared frequency", owner, squared)?;
@@ -64,8 +67,17 @@ pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
 pub(super) fn check_memory(masses: usize, free: usize) -> Result<(), FileError> {
     let entries = masses as f64 * masses.max(free) as f64;
     let needed = DENSE_MATRICES * entries * size_of::<f64>() as f64 / BYTES_PER_GIB;
-    let refused = FileError::TooManyMasses { most: MOST_MEMORY, needed, masses, free };
-    if needed <= MOST_MEMORY { Ok(()) } else { Err(refused) }
+    let refused = FileError::TooManyMasses {
+        most: MOST_MEMORY,
+        needed,
+        masses,
+        free,
+    };
+    if needed <= MOST_MEMORY {
+        Ok(())
+    } else {
+        Err(refused)
+    }
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
@@ -81,11 +93,18 @@ fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<
         let unit = unit_stiffness(element.kind, &structure.corners(element), &element.material)?;
         let own = (element.size * unit.amax(), element.label);
         let [low, high] = extremes.unwrap_or([own; 2]);
-        extremes = Some([if own.0 < low.0 { own } else { low }, if own.0 > high.0 { own } else { high }]);
+        extremes = Some([
+            if own.0 < low.0 { own } else { low },
+            if own.0 > high.0 { own } else { high },
+        ]);
     }
     match extremes {
         Some([softest, stiffest]) if stiffest.0 > LARGEST_RATIO * softest.0 => {
-            Err(FileError::StiffnessRange { most: LARGEST_RATIO, softest, stiffest })
+            Err(FileError::StiffnessRange {
+                most: LARGEST_RATIO,
+                softest,
+                stiffest,
+            })
         }
         _ => Ok(()),
     }
@@ -93,13 +112,28 @@ fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<
 
 /// Refuses fewer modes than masses that move independently.
 fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
-    let place = |row: usize| format!("grid {} {}", at.dof[row].grid, DIRECTIONS[at.dof[row].direction]);
-    let [lightest, heaviest] = [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
+    let place = |row: usize| {
+        format!(
+            "grid {} {}",
+            at.dof[row].grid, DIRECTIONS[at.dof[row].direction]
+        )
+    };
+    let [lightest, heaviest] =
+        [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
     let mut motions = at.load_distribution;
     for mut motion in motions.column_iter_mut() {
         motion.normalize_mut();
     }
     let (values, _) = symmetric_eigen("motions of masses", &motions.tr_mul(&motions))?;
     let expected = values.iter().filter(|&&value| value > INDEPENDENT).count();
-    if found >= expected { Ok(()) } else { Err(FileError::LostModes { expected, found, lightest, heaviest }) }
+    if found >= expected {
+        Ok(())
+    } else {
+        Err(FileError::LostModes {
+            expected,
+            found,
+            lightest,
+            heaviest,
+        })
+    }
 }

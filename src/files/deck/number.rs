@@ -14,21 +14,29 @@ const ALL_DIGITS: usize = 17;
 pub fn parse_real(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| *c != ' ').collect();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(&text);
-    let mantissa_end = unsigned.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(unsigned.len());
+    let mantissa_end = unsigned
+        .find(|c: char| !c.is_ascii_digit() && c != '.')
+        .unwrap_or(unsigned.len());
     let (mantissa, exponent) = unsigned.split_at(mantissa_end);
     let (whole, fraction) = mantissa.split_once('.')?;
     let exponent = if exponent.is_empty() { "0" } else { exponent };
-    let exponent = exponent.strip_prefix(['E', 'D', 'e', 'd']).unwrap_or(exponent);
+    let exponent = exponent
+        .strip_prefix(['E', 'D', 'e', 'd'])
+        .unwrap_or(exponent);
     // What is wrong with the digits on either side, the parser of Rust's own reals finds.
     let sign = if text.starts_with('-') { "-" } else { "" };
-    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}").parse().ok()?;
+    let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}")
+        .parse()
+        .ok()?;
     value.is_finite().then_some(value)
 }
 
 /// The reals of a line in columns of one width, or `None` unless each of them holds one; the last may be narrower.
 pub(in crate::files) fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
     let columns = line.as_bytes().chunks(width);
-    columns.map(|column| parse_real(std::str::from_utf8(column).ok()?.trim())).collect()
+    columns
+        .map(|column| parse_real(std::str::from_utf8(column).ok()?.trim()))
+        .collect()
 }
 
 /// The shortest NASTRAN real that reads back as exactly `value`, if it has at most `width` characters.
@@ -52,7 +60,9 @@ pub fn large_real(value: f64) -> Option<String> {
 
 /// The nearest number that a 16-character field can hold; `value` itself if there is none.
 pub fn nearest_in_field(value: f64) -> f64 {
-    large_real(value).and_then(|text| parse_real(&text)).unwrap_or(value)
+    large_real(value)
+        .and_then(|text| parse_real(&text))
+        .unwrap_or(value)
 }
 
 /// The shortest NASTRAN form of a number given as `d.ddde±x`, plain where that is no longer than with an exponent.
@@ -80,5 +90,8 @@ fn layout(scientific: &str) -> Option<String> {
         let (whole, fraction) = digits.split_at(point as usize);
         format!("{whole}.{fraction}{:+}", power - point)
     });
-    std::iter::once(plain).chain(with_exponent).min_by_key(String::len).map(|text| format!("{sign}{text}"))
+    std::iter::once(plain)
+        .chain(with_exponent)
+        .min_by_key(String::len)
+        .map(|text| format!("{sign}{text}"))
 }

@@ -34,22 +34,36 @@ pub struct Deck {
 /// [`FileError::DeckField`] name file, line, card and field; [`FileError::Input`] for the name of a card to be ignored that is
 /// read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
-    let ignored: Vec<String> = ignored.iter().map(|card| card.trim().to_ascii_uppercase()).collect();
+    let ignored: Vec<String> = ignored
+        .iter()
+        .map(|card| card.trim().to_ascii_uppercase())
+        .collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
-        return Err(FileError::input("--ignore", "a card that is not read here", card));
+        return Err(FileError::input(
+            "--ignore",
+            "a card that is not read here",
+            card,
+        ));
     }
     let (selected, lines) = sections(file, &decoded(text))?;
-    let (cards, others): (Vec<Card>, Vec<Card>) =
-        join(&file.into(), lines)?.into_iter().partition(|card| is_read(&name(card)));
+    let (cards, others): (Vec<Card>, Vec<Card>) = join(&file.into(), lines)?
+        .into_iter()
+        .partition(|card| is_read(&name(card)));
     let why = |card: &Card| match name(card) {
         name if WITHOUT_PART.contains(&name.as_str()) => Reason::WithoutPart,
         name if ignored.contains(&name) => Reason::Ignored,
         _ => Reason::Unknown,
     };
-    let mut unread: Vec<_> = others.iter().map(|card| one_unread(card, why(card))).collect();
+    let mut unread: Vec<_> = others
+        .iter()
+        .map(|card| one_unread(card, why(card)))
+        .collect();
     let unknown = counted(unread.iter().filter(|card| card.reason == Reason::Unknown));
     if !unknown.is_empty() {
-        return Err(FileError::DeckCards { file: file.to_owned(), cards: unknown });
+        return Err(FileError::DeckCards {
+            file: file.to_owned(),
+            cards: unknown,
+        });
     }
     let mut default: Option<Card> = None;
     let mut weight: Option<Card> = None;
@@ -61,9 +75,23 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         match card.name.as_str() {
             "GRID" => card.keep(2, (), &mut grids)?,
             "GRDSET" if default.is_none() => default = Some(card),
-            "GRDSET" => return Err(FileError::line(file, card.line, "one GRDSET card at most", "another")),
+            "GRDSET" => {
+                return Err(FileError::line(
+                    file,
+                    card.line,
+                    "one GRDSET card at most",
+                    "another",
+                ));
+            }
             "PARAM" if weight.is_none() => weight = Some(card),
-            "PARAM" => return Err(FileError::line(file, card.line, "one PARAM,WTMASS at most", "another")),
+            "PARAM" => {
+                return Err(FileError::line(
+                    file,
+                    card.line,
+                    "one PARAM,WTMASS at most",
+                    "another",
+                ));
+            }
             "CMASS2" | "CONM2" => card.keep(2, point_mass(&card)?, &mut masses)?,
             "SPC1" | "SPCADD" | "MPC" | "MPCADD" => constraints.take(card)?,
             _ => elements.take(&card)?,
@@ -71,23 +99,47 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     }
     let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
     let left_out = constraints.select(file, selected, may_lack)?;
-    unread.extend(left_out.iter().map(|card| one_unread(card, Reason::NotSelected)));
-    let grids = grids.iter().map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
+    unread.extend(
+        left_out
+            .iter()
+            .map(|card| one_unread(card, Reason::NotSelected)),
+    );
+    let grids = grids
+        .iter()
+        .map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
     let mut grids = grids.collect::<Result<BTreeMap<usize, Grid>, FileError>>()?;
     constraints.constrain(&mut grids)?;
     let masses = masses.into_values().map(|kept| {
-        kept.card.referred(if kept.card.name == "CMASS2" { 4 } else { 3 }, &grids, "GRID")?;
+        kept.card.referred(
+            if kept.card.name == "CMASS2" { 4 } else { 3 },
+            &grids,
+            "GRID",
+        )?;
         Ok(kept.value)
     });
     let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
     let (mut elements, members) = elements.elements(&grids)?;
     let ties = constraints.ties(&grids)?;
     if let Some(card) = weight {
-        let densities = elements.iter_mut().map(|element| &mut element.material.density);
-        scale(&card, densities.chain(masses.iter_mut().map(|point| &mut point.mass)))?;
+        let densities = elements
+            .iter_mut()
+            .map(|element| &mut element.material.density);
+        scale(
+            &card,
+            densities.chain(masses.iter_mut().map(|point| &mut point.mass)),
+        )?;
     }
-    let model = BulkData { grids: grids.into_values().collect(), elements, ties, masses };
-    Ok(Deck { model, members, unread: counted(&unread) })
+    let model = BulkData {
+        grids: grids.into_values().collect(),
+        elements,
+        ties,
+        masses,
+    };
+    Ok(Deck {
+        model,
+        members,
+        unread: counted(&unread),
+    })
 }
 
 /// Multiplies masses by `PARAM,WTMASS`, and rounds them to what a deck can hold, so that writing them loses nothing.
@@ -95,17 +147,31 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     let factor = card.positive(3)?;
     for mass in masses.filter(|mass| **mass > 0.0) {
         *mass = nearest_in_field(factor * *mass);
-        card.require(mass.is_normal(), 3, "a factor that leaves every mass within the range of numbers")?;
+        card.require(
+            mass.is_normal(),
+            3,
+            "a factor that leaves every mass within the range of numbers",
+        )?;
     }
     Ok(())
 }
 
 /// A grid; what GRDSET says counts where its own card has blanks.
 fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
-    let chosen = |field: usize| default.filter(|_| card.text(field).is_empty()).unwrap_or(card);
-    [3, 7].iter().try_for_each(|&field| chosen(field).absent(field, "coordinate systems but the basic one"))?;
+    let chosen = |field: usize| {
+        default
+            .filter(|_| card.text(field).is_empty())
+            .unwrap_or(card)
+    };
+    [3, 7].iter().try_for_each(|&field| {
+        chosen(field).absent(field, "coordinate systems but the basic one")
+    })?;
     let position = Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?);
-    Ok(Grid { label, position, constrained: chosen(8).directions(8)? })
+    Ok(Grid {
+        label,
+        position,
+        constrained: chosen(8).directions(8)?,
+    })
 }
 
 /// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
@@ -165,25 +231,41 @@ impl Unread {
 /// The name that decides about a card: its own, with the parameter behind it for a PARAM that changes the model.
 pub(super) fn name(card: &Card) -> String {
     let (parameter, value) = (card.text(2), card.text(3));
-    let is_off = parameter == "COUPMASS" && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
+    let is_off = parameter == "COUPMASS"
+        && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
     let changes = card.name == "PARAM" && OF_THE_MODEL.contains(&parameter) && !is_off;
-    if changes { format!("PARAM {parameter}") } else { card.name.clone() }
+    if changes {
+        format!("PARAM {parameter}")
+    } else {
+        card.name.clone()
+    }
 }
 
 /// Whether cards of this [`name`] are read.
 fn is_read(name: &str) -> bool {
-    READ.contains(&name) || ELEMENT_CARDS.iter().any(|known| name == known.0 || name == known.1)
+    READ.contains(&name)
+        || ELEMENT_CARDS
+            .iter()
+            .any(|known| name == known.0 || name == known.1)
 }
 
 fn one_unread(card: &Card, reason: Reason) -> Unread {
-    Unread { card: name(card), line: card.line, count: 1, reason }
+    Unread {
+        card: name(card),
+        line: card.line,
+        count: 1,
+        reason,
+    }
 }
 
 /// Cards put together by name and reason, in the order of the file.
 fn counted<'a>(cards: impl IntoIterator<Item = &'a Unread>) -> Vec<Unread> {
     let mut groups: BTreeMap<(&str, Reason), Unread> = BTreeMap::new();
     for card in cards {
-        let group = groups.entry((&card.card, card.reason)).or_insert(Unread { count: 0, ..card.clone() });
+        let group = groups.entry((&card.card, card.reason)).or_insert(Unread {
+            count: 0,
+            ..card.clone()
+        });
         group.count += 1;
         group.line = group.line.min(card.line);
     }

@@ -51,11 +51,17 @@ pub fn rewrite(file: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
     }
     // No name of a continuation, and no remark in field 10, begins with letters that the deck has nowhere.
     let capitals = text.to_ascii_uppercase();
-    let prefix = (1..).map(|count| "Z".repeat(count)).find(|prefix| !capitals.contains(prefix)).unwrap_or_default();
+    let prefix = (1..)
+        .map(|count| "Z".repeat(count))
+        .find(|prefix| !capitals.contains(prefix))
+        .unwrap_or_default();
     let mut changes = Changes {
         fields: BTreeMap::new(),
         added: BTreeMap::new(),
-        writer: Cards { prefix, ..Cards::default() },
+        writer: Cards {
+            prefix,
+            ..Cards::default()
+        },
         materials: HashMap::new(),
         known: &known,
         weight,
@@ -80,15 +86,27 @@ pub fn rewrite(file: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
     }
     // Text that is not in UTF-8 was read as Latin-1, which has no character above 255.
     let is_utf_8 = std::str::from_utf8(bytes).is_ok();
-    let written = if is_utf_8 { written.into_bytes() } else { written.chars().map(|c| u32::from(c) as u8).collect() };
-    let mark = bytes.len() - bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes).len();
+    let written = if is_utf_8 {
+        written.into_bytes()
+    } else {
+        written.chars().map(|c| u32::from(c) as u8).collect()
+    };
+    let mark = bytes.len()
+        - bytes
+            .strip_prefix("\u{feff}".as_bytes())
+            .unwrap_or(bytes)
+            .len();
     Ok([&bytes[..mark], &written].concat())
 }
 
 /// The number after the largest of the cards whose names begin alike; parameters have none.
 fn next_number(cards: &[Card], start: &str) -> usize {
     let alike = cards.iter().filter(|card| card.name.starts_with(start));
-    alike.flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0))).max().unwrap_or(0) + 1
+    alike
+        .flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0)))
+        .max()
+        .unwrap_or(0)
+        + 1
 }
 
 impl Changes<'_> {
@@ -98,26 +116,53 @@ impl Changes<'_> {
         let mut wanted: HashMap<usize, Target> = HashMap::new();
         for element in elements {
             if !known.connections.contains_key(&element.label) {
-                return Err(Error::Unknown { owner: file.to_owned(), what: "element", label: element.label }.into());
+                return Err(Error::Unknown {
+                    owner: file.to_owned(),
+                    what: "element",
+                    label: element.label,
+                }
+                .into());
             }
-            wanted.insert(element.label, (element.size.to_bits(), element.material.density.to_bits()));
+            wanted.insert(
+                element.label,
+                (element.size.to_bits(), element.material.density.to_bits()),
+            );
         }
         // By kind and number of the property, or of the element that has none.
         let mut users: BTreeMap<_, (Holder, Target, Groups)> = BTreeMap::new();
         for (label, kept) in &known.connections {
             let holder = known.holder(kept)?;
-            let number = kept.value.map_or(Ok(*label), |_| kept.card.label(kept.start + 1))?;
+            let number = kept
+                .value
+                .map_or(Ok(*label), |_| kept.card.label(kept.start + 1))?;
             let own = (holder.size.to_bits(), self.density(&holder)?.to_bits());
-            let (.., groups) = users.entry((kept.value, number)).or_insert((holder, own, BTreeMap::new()));
-            groups.entry(wanted.get(label).copied().unwrap_or(own)).or_default().push(kept);
+            let (.., groups) =
+                users
+                    .entry((kept.value, number))
+                    .or_insert((holder, own, BTreeMap::new()));
+            groups
+                .entry(wanted.get(label).copied().unwrap_or(own))
+                .or_default()
+                .push(kept);
         }
         for (holder, own, groups) in users.into_values() {
-            let Holder { card, size_field, material_field, .. } = holder;
-            let most = groups.iter().max_by_key(|(target, members)| (**target == own, members.len()));
+            let Holder {
+                card,
+                size_field,
+                material_field,
+                ..
+            } = holder;
+            let most = groups
+                .iter()
+                .max_by_key(|(target, members)| (**target == own, members.len()));
             let stays = most.map_or(own, |(target, _)| *target);
             if stays.0 != own.0 {
                 let text = large_real(f64::from_bits(stays.0));
-                self.set(card, size_field, text.ok_or_else(|| card.error(size_field, "a finite new number"))?)?;
+                self.set(
+                    card,
+                    size_field,
+                    text.ok_or_else(|| card.error(size_field, "a finite new number"))?,
+                )?;
             }
             if stays.1 != own.1 {
                 let material = self.material(&holder, own.1, stays.1)?;
@@ -127,7 +172,9 @@ impl Changes<'_> {
                 let (label, size) = (self.next_property, f64::from_bits(target.0));
                 let material = self.material(&holder, own.1, target.1)?;
                 let last = if card.name == "PROD" { 3 } else { 1 };
-                let rest: String = (1..=last).map(|field| format!(",{}", card.text(size_field + field))).collect();
+                let rest: String = (1..=last)
+                    .map(|field| format!(",{}", card.text(size_field + field)))
+                    .collect();
                 self.add(card, &format!("{label},{material},{size:?}{rest}"))?;
                 for member in members {
                     self.set(&member.card, member.start + 1, label.to_string())?;
@@ -139,8 +186,21 @@ impl Changes<'_> {
     }
 
     /// The density of the material of an element, as the reader gives it to elements.
-    fn density(&self, Holder { card, material_field, .. }: &Holder) -> Result<f64, FileError> {
-        Ok(nearest_in_field(self.weight * card.referred(*material_field, &self.known.materials, "MAT1")?.value.density))
+    fn density(
+        &self,
+        Holder {
+            card,
+            material_field,
+            ..
+        }: &Holder,
+    ) -> Result<f64, FileError> {
+        Ok(nearest_in_field(
+            self.weight
+                * card
+                    .referred(*material_field, &self.known.materials, "MAT1")?
+                    .value
+                    .density,
+        ))
     }
 
     /// The number of the material of an element for another density: of a new one, or its own if the density is the same.
@@ -152,7 +212,10 @@ impl Changes<'_> {
         if let Some(label) = self.materials.get(&(first, density)) {
             return Ok(label.to_string());
         }
-        let card = &holder.card.referred(holder.material_field, &self.known.materials, "MAT1")?.card;
+        let card = &holder
+            .card
+            .referred(holder.material_field, &self.known.materials, "MAT1")?
+            .card;
         let label = self.next_material;
         let mut entries: Vec<String> = card.fields.iter().map(|field| field.text.clone()).collect();
         entries[0] = label.to_string();
@@ -167,8 +230,16 @@ impl Changes<'_> {
     fn add(&mut self, card: &Card, entries: &str) -> Result<(), FileError> {
         self.writer.text.clear();
         self.writer.put(&card.name, entries)?;
-        let line = card.fields.iter().map(|field| field.line).max().unwrap_or(card.line);
-        self.added.entry(line).or_default().push_str(&self.writer.text);
+        let line = card
+            .fields
+            .iter()
+            .map(|field| field.line)
+            .max()
+            .unwrap_or(card.line);
+        self.added
+            .entry(line)
+            .or_default()
+            .push_str(&self.writer.text);
         Ok(())
     }
 
@@ -176,7 +247,10 @@ impl Changes<'_> {
     fn set(&mut self, card: &Card, field: usize, text: String) -> Result<(), FileError> {
         let place = FIELDS_PER_LINE * (field / 10) + field % 10 - 2;
         let own = card.fields.get(place..).unwrap_or_default();
-        let line = own.first().ok_or_else(|| card.error(field, "a field to write in"))?.line;
+        let line = own
+            .first()
+            .ok_or_else(|| card.error(field, "a field to write in"))?
+            .line;
         let from_last = own.iter().take_while(|other| other.line == line).count();
         self.fields.entry(line).or_default().insert(from_last, text);
         Ok(())
@@ -188,11 +262,22 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
     let body = line.trim_end_matches(['\r', '\n']);
     let end = &line[body.len()..];
     let (code, comment) = body.split_at(body.find('$').unwrap_or(body.len()));
-    let Cut { name, mut parts, is_free, count, width } = cut(code);
+    let Cut {
+        name,
+        mut parts,
+        is_free,
+        count,
+        width,
+    } = cut(code);
     let given = parts.len();
     parts.resize(given.max(count), String::new());
     for (from_last, text) in texts {
-        let Some(part) = count.checked_sub(*from_last).and_then(|place| parts.get_mut(place)) else { continue };
+        let Some(part) = count
+            .checked_sub(*from_last)
+            .and_then(|place| parts.get_mut(place))
+        else {
+            continue;
+        };
         let old = part.chars().count();
         // A number stays at the side of its field where it was.
         *part = match part.starts_with(' ') {
@@ -203,15 +288,38 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
     }
     if texts.values().all(|text| text.len() <= width) {
         let separator = if is_free { "," } else { "" };
-        return [&name, separator, &parts[..given].join(separator), comment, end].concat();
+        return [
+            &name,
+            separator,
+            &parts[..given].join(separator),
+            comment,
+            end,
+        ]
+        .concat();
     }
     writer.tag += 1;
     let tag = format!("*{}{}", writer.prefix, writer.tag);
-    let last = parts.get(count).map_or("", |rest| if is_free { rest.trim() } else { rest });
-    let half = |parts: &[String]| parts.iter().map(|part| format!("{:LARGE_FIELD$}", part.trim())).collect::<String>();
+    let last = parts
+        .get(count)
+        .map_or("", |rest| if is_free { rest.trim() } else { rest });
+    let half = |parts: &[String]| {
+        parts
+            .iter()
+            .map(|part| format!("{:LARGE_FIELD$}", part.trim()))
+            .collect::<String>()
+    };
     let name = format!("{}*", name.trim());
     let (first, second) = parts[..count].split_at(LARGE_FIELDS_PER_LINE);
-    let first = format!("{name:SMALL_FIELD$}{}{tag:SMALL_FIELD$}{comment}", half(first));
+    let first = format!(
+        "{name:SMALL_FIELD$}{}{tag:SMALL_FIELD$}{comment}",
+        half(first)
+    );
     let second = format!("{tag:SMALL_FIELD$}{}{last}", half(second));
-    [first.trim_end(), if end.is_empty() { "\n" } else { end }, second.trim_end(), end].concat()
+    [
+        first.trim_end(),
+        if end.is_empty() { "\n" } else { end },
+        second.trim_end(),
+        end,
+    ]
+    .concat()
 }

@@ -38,20 +38,31 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
     let (count, [lower, upper], alter, output) = match task {
         Task::Modes { count, range_hz } => (*count, *range_hz, "", "DISPLACEMENT = ALL\n"),
         Task::Matrices => {
-            let alter = "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n";
+            let alter =
+                "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n";
             (1, [1.0, 2.0], alter, "")
         }
     };
-    let ties = if model.ties.is_empty() { String::new() } else { format!("MPC = {SET}\n") };
+    let ties = if model.ties.is_empty() {
+        String::new()
+    } else {
+        format!("MPC = {SET}\n")
+    };
     let text = format!(
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n\
          {alter}CEND\n\
          TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
         title.to_ascii_uppercase()
     );
-    let mut cards = Cards { text, ..Cards::default() };
+    let mut cards = Cards {
+        text,
+        ..Cards::default()
+    };
     cards.model(model)?;
-    cards.put("EIGR", &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"))?;
+    cards.put(
+        "EIGR",
+        &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"),
+    )?;
     cards.text.push_str("ENDDATA\n");
     Ok(cards.text)
 }
@@ -82,11 +93,26 @@ pub(super) struct Cards {
 
 impl Cards {
     fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
-        for Grid { label, position: at, .. } in &model.grids {
-            self.put("GRID", &format!("{label},,{:?},{:?},{:?}", at.x, at.y, at.z))?;
+        for Grid {
+            label,
+            position: at,
+            ..
+        } in &model.grids
+        {
+            self.put(
+                "GRID",
+                &format!("{label},,{:?},{:?},{:?}", at.x, at.y, at.z),
+            )?;
         }
         let mut materials: Vec<Material> = Vec::new();
-        for Element { label, kind, grids, size, material } in &model.elements {
+        for Element {
+            label,
+            kind,
+            grids,
+            size,
+            material,
+        } in &model.elements
+        {
             let known = materials.iter().position(|other| other == material);
             let row = known.unwrap_or_else(|| {
                 materials.push(*material);
@@ -99,19 +125,46 @@ impl Cards {
             }
         }
         for (row, material) in (1..).zip(materials) {
-            let Material { youngs_modulus: e, poissons_ratio: nu, shear_modulus: g, density } = material;
+            let Material {
+                youngs_modulus: e,
+                poissons_ratio: nu,
+                shear_modulus: g,
+                density,
+            } = material;
             let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-            let shear = if is_derived { String::new() } else { format!("{g:?}") };
-            let density = if density == 0.0 { String::new() } else { format!(",{density:?}") };
+            let shear = if is_derived {
+                String::new()
+            } else {
+                format!("{g:?}")
+            };
+            let density = if density == 0.0 {
+                String::new()
+            } else {
+                format!(",{density:?}")
+            };
             self.put("MAT1", &format!("{row},{e:?},{shear},{nu:?}{density}"))?;
         }
-        for PointMass { label, grid, direction, mass } in &model.masses {
+        for PointMass {
+            label,
+            grid,
+            direction,
+            mass,
+        } in &model.masses
+        {
             match direction {
-                Some(direction) => self.put("CMASS2", &format!("{label},{mass:?},{grid},{}", direction + 1)),
+                Some(direction) => self.put(
+                    "CMASS2",
+                    &format!("{label},{mass:?},{grid},{}", direction + 1),
+                ),
                 None => self.put("CONM2", &format!("{label},{grid},,{mass:?}")),
             }?;
         }
-        for Tie { dependent, coefficient, terms } in &model.ties {
+        for Tie {
+            dependent,
+            coefficient,
+            terms,
+        } in &model.ties
+        {
             let mut entries = SET.to_string();
             let own = std::iter::once((*dependent, *coefficient));
             for (row, (dof, coefficient)) in own.chain(terms.iter().copied()).enumerate() {
@@ -125,10 +178,22 @@ impl Cards {
         for run in model.grids.chunk_by(alike) {
             let (first, last) = (&run[0], run[run.len() - 1].label); // A run has at least one.
             // The rotations of every grid are constrained, for nothing here resists them.
-            let named = ["1", "2", "3", "456"].into_iter().zip(first.constrained.into_iter().chain([true]));
-            let components: String = named.filter(|(_, is_constrained)| *is_constrained).map(|named| named.0).collect();
-            let through = if run.len() > 1 { format!(",THRU,{last}") } else { String::new() };
-            self.put("SPC1", &format!("{SET},{components},{}{through}", first.label))?;
+            let named = ["1", "2", "3", "456"]
+                .into_iter()
+                .zip(first.constrained.into_iter().chain([true]));
+            let components: String = named
+                .filter(|(_, is_constrained)| *is_constrained)
+                .map(|named| named.0)
+                .collect();
+            let through = if run.len() > 1 {
+                format!(",THRU,{last}")
+            } else {
+                String::new()
+            };
+            self.put(
+                "SPC1",
+                &format!("{SET},{components},{}{through}", first.label),
+            )?;
         }
         Ok(())
     }
@@ -144,12 +209,22 @@ impl Cards {
             fields.push(match (label, real) {
                 (Ok(label), _) if label > LARGEST_LABEL => {
                     let what = "number of a grid or element in a deck";
-                    return Err(Error::TooMany { what, available: LARGEST_LABEL, requested: label }.into());
+                    return Err(Error::TooMany {
+                        what,
+                        available: LARGEST_LABEL,
+                        requested: label,
+                    }
+                    .into());
                 }
                 (Err(_), Ok(value)) => {
                     is_large |= exact_real(value, SMALL_FIELD).is_none();
                     let what = "number on a bulk data card";
-                    large_real(value).ok_or(Error::NotFinite { what, row: 0, column, value })?
+                    large_real(value).ok_or(Error::NotFinite {
+                        what,
+                        row: 0,
+                        column,
+                        value,
+                    })?
                 }
                 _ => entry.to_owned(),
             });

@@ -12,43 +12,103 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The model of a job whose matrices these files hold.
-pub(super) fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
+pub(super) fn from_matrices(
+    job: &Job,
+    stiffness: &Path,
+    mass: &Path,
+) -> Result<ModelSource, FileError> {
     let stiffness = matrix(job, stiffness)?;
     let count = stiffness.matrix.rows();
-    let own: Option<Vec<_>> = stiffness.rows.as_ref().map(|labels| labels.iter().map(degree_of_freedom).collect());
+    let own: Option<Vec<_>> = stiffness
+        .rows
+        .as_ref()
+        .map(|labels| labels.iter().map(degree_of_freedom).collect());
     let (labels, places) = match (&job.model.rows, &own) {
         (Some(file), _) => rows(&job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
-        (None, None) => return Err(job.wrong("model.rows for matrices that do not name their rows", "none")),
+        (None, None) => {
+            return Err(job.wrong(
+                "model.rows for matrices that do not name their rows",
+                "none",
+            ));
+        }
     };
     let other = Some(labels.len()).filter(|rows| *rows != count);
-    job.refuse(other, format!("{count} rows in model.rows, one a row of the stiffness"))?;
+    job.refuse(
+        other,
+        format!("{count} rows in model.rows, one a row of the stiffness"),
+    )?;
     let other = own.filter(|own| *own != labels).map(|_| "another");
-    job.refuse(other, "model.rows in the order of the stiffness, which names its own")?;
-    let row_of: BTreeMap<_, usize> = labels.iter().enumerate().map(|(row, label)| (*label, row)).collect();
+    job.refuse(
+        other,
+        "model.rows in the order of the stiffness, which names its own",
+    )?;
+    let row_of: BTreeMap<_, usize> = labels
+        .iter()
+        .enumerate()
+        .map(|(row, label)| (*label, row))
+        .collect();
     let twice = (row_of.len() != count).then_some("one in two");
     job.refuse(twice, "every grid and direction in one row of the matrices")?;
     let mass = on_rows(job, mass, &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
-        let ParameterRule { name, elements, properties, materials, masses, .. } = rule;
-        let is_of_deck = !(elements.is_empty() && properties.is_empty() && materials.is_empty() && masses.is_empty());
-        let file = rule.matrix.as_ref().filter(|_| !is_of_deck && !rule.each).ok_or_else(|| {
-            let found = if rule.matrix.is_none() { "no matrix" } else { "entries of a deck" };
-            job.wrong(format!("a matrix, and nothing of a deck, in parameter {name}"), found)
-        })?;
+        let ParameterRule {
+            name,
+            elements,
+            properties,
+            materials,
+            masses,
+            ..
+        } = rule;
+        let is_of_deck = !(elements.is_empty()
+            && properties.is_empty()
+            && materials.is_empty()
+            && masses.is_empty());
+        let file = rule
+            .matrix
+            .as_ref()
+            .filter(|_| !is_of_deck && !rule.each)
+            .ok_or_else(|| {
+                let found = if rule.matrix.is_none() {
+                    "no matrix"
+                } else {
+                    "entries of a deck"
+                };
+                job.wrong(
+                    format!("a matrix, and nothing of a deck, in parameter {name}"),
+                    found,
+                )
+            })?;
         let matrix = on_rows(job, file, &row_of)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
         };
-        parameters.push(WholeParameter { name: name.clone(), share, range: range(job, rule, &[])? });
+        parameters.push(WholeParameter {
+            name: name.clone(),
+            share,
+            range: range(job, rule, &[])?,
+        });
     }
     let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
-    let motions = labels.into_iter().enumerate().map(|(row, at)| (at, vec![(row, 1.0)])).collect();
-    let geometry = Geometry { places, elements: Vec::new() };
+    let motions = labels
+        .into_iter()
+        .enumerate()
+        .map(|(row, at)| (at, vec![(row, 1.0)]))
+        .collect();
+    let geometry = Geometry {
+        places,
+        elements: Vec::new(),
+    };
     let members = vec![Vec::new(); whole.parameters().len()];
-    Ok(ModelSource { whole, geometry, motions, members, deck: None })
+    Ok(ModelSource {
+        whole,
+        geometry,
+        motions,
+        members,
+        deck: None,
+    })
 }
 
 /// Grid and direction of a grid and component.
@@ -59,25 +119,49 @@ fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
 /// A matrix of a file, its columns those of its rows; behind a `#` in its name stands which of several.
 fn matrix(job: &Job, file: &Path) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
-    let (file, wanted) = text.rsplit_once('#').map_or((&*text, None), |(file, name)| (file, Some(name)));
+    let (file, wanted) = text
+        .rsplit_once('#')
+        .map_or((&*text, None), |(file, name)| (file, Some(name)));
     let file = job.beside(Path::new(file));
     let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
     let others = (found.columns != found.rows).then_some("others");
-    job.refuse(others, format!("rows and columns of the same names in {text}"))?;
+    job.refuse(
+        others,
+        format!("rows and columns of the same names in {text}"),
+    )?;
     Ok(found)
 }
 
 /// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
-fn on_rows(job: &Job, file: &Path, row_of: &BTreeMap<(usize, usize), usize>) -> Result<SparseMatrix, FileError> {
+fn on_rows(
+    job: &Job,
+    file: &Path,
+    row_of: &BTreeMap<(usize, usize), usize>,
+) -> Result<SparseMatrix, FileError> {
     let LabeledMatrix { rows, matrix, .. } = matrix(job, file)?;
-    let Some(labels) = &rows else { return Ok(matrix) };
-    let stranger = labels.iter().find(|label| !row_of.contains_key(&degree_of_freedom(label)));
+    let Some(labels) = &rows else {
+        return Ok(matrix);
+    };
+    let stranger = labels
+        .iter()
+        .find(|label| !row_of.contains_key(&degree_of_freedom(label)));
     let stranger = stranger.map(|(grid, component)| format!("grid {grid} component {component}"));
-    job.refuse(stranger, format!("rows of the stiffness in {}", file.display()))?;
+    job.refuse(
+        stranger,
+        format!("rows of the stiffness in {}", file.display()),
+    )?;
     let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
-    let entries = matrix.entries().iter().map(|&(row, column, value)| (place(row), place(column), value));
-    Ok(SparseMatrix::new("matrix by labels", row_of.len(), row_of.len(), entries.collect())?)
+    let entries = matrix
+        .entries()
+        .iter()
+        .map(|&(row, column, value)| (place(row), place(column), value));
+    Ok(SparseMatrix::new(
+        "matrix by labels",
+        row_of.len(),
+        row_of.len(),
+        entries.collect(),
+    )?)
 }
 
 /// Grid and direction.
@@ -87,16 +171,29 @@ type Rows = (Vec<Label>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn rows(file: &Path) -> Result<Rows, FileError> {
-    let text = decoded(&std::fs::read(file).map_err(FileError::of_file(file, "read"))?).into_owned();
-    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
+    let text =
+        decoded(&std::fs::read(file).map_err(FileError::of_file(file, "read"))?).into_owned();
+    let lines = (1..)
+        .zip(text.lines())
+        .filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {
         let cells = cells(line, separator(line));
-        if labels.is_empty() && cells.first().is_some_and(|cell| cell.eq_ignore_ascii_case("grid")) {
+        if labels.is_empty()
+            && cells
+                .first()
+                .is_some_and(|cell| cell.eq_ignore_ascii_case("grid"))
+        {
             continue;
         }
         let found = || format!("line {number}: {line}");
-        let wrong = || FileError::input(file.display(), "lines of grid, direction and perhaps x, y, z", found());
+        let wrong = || {
+            FileError::input(
+                file.display(),
+                "lines of grid, direction and perhaps x, y, z",
+                found(),
+            )
+        };
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
         places.extend(place.map(|place| (label.0, place)));
@@ -106,8 +203,13 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
 
 /// Grid and direction of a row, and its place if it has one.
 fn row(cells: &[String]) -> Option<(Label, Option<Vector3<f64>>)> {
-    let [grid, direction, place @ ..] = cells else { return None };
-    let label = (grid.parse().ok()?, DIRECTIONS.iter().position(|name| name == direction)?);
+    let [grid, direction, place @ ..] = cells else {
+        return None;
+    };
+    let label = (
+        grid.parse().ok()?,
+        DIRECTIONS.iter().position(|name| name == direction)?,
+    );
     if place.iter().all(String::is_empty) {
         return Some((label, None));
     }

@@ -197,19 +197,32 @@ const MOST_LABELS: usize = 10_000_000;
 /// [`FileError::File`] when it cannot be read; [`FileError::Input`] naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
-    let job = toml::from_str(&text).map(|job| Job { path: path.to_owned(), ..job });
-    job.map_err(|error| FileError::input(path.display(), "a job as corfem init explains it", error.to_string()))
+    let job = toml::from_str(&text).map(|job| Job {
+        path: path.to_owned(),
+        ..job
+    });
+    job.map_err(|error| {
+        FileError::input(
+            path.display(),
+            "a job as corfem init explains it",
+            error.to_string(),
+        )
+    })
 }
 
 impl Job {
     /// A path that the job names, from the job's own folder.
     fn beside(&self, named: &Path) -> PathBuf {
-        self.path.parent().map_or_else(|| named.to_owned(), |folder| folder.join(named))
+        self.path
+            .parent()
+            .map_or_else(|| named.to_owned(), |folder| folder.join(named))
     }
 
     /// Its file's name.
     pub(crate) fn stem(&self) -> String {
-        self.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+        self.path
+            .file_stem()
+            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     }
 
     fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {
@@ -217,15 +230,26 @@ impl Job {
     }
 
     /// Refuses what is found instead of what is expected, if anything is.
-    fn refuse(&self, found: Option<impl ToString>, expected: impl Into<String>) -> Result<(), FileError> {
+    fn refuse(
+        &self,
+        found: Option<impl ToString>,
+        expected: impl Into<String>,
+    ) -> Result<(), FileError> {
         found.map_or(Ok(()), |found| Err(self.wrong(expected, found.to_string())))
     }
 
     /// Refuses what is named a second time.
-    fn once(&self, mut all: impl Iterator<Item = impl Copy + Ord + ToString>, what: &str) -> Result<(), FileError> {
+    fn once(
+        &self,
+        mut all: impl Iterator<Item = impl Copy + Ord + ToString>,
+        what: &str,
+    ) -> Result<(), FileError> {
         let mut seen = BTreeSet::new();
         let again = all.find(|one| !seen.insert(*one));
-        self.refuse(again.map(|one| one.to_string() + " again"), format!("every {what} once"))
+        self.refuse(
+            again.map(|one| one.to_string() + " again"),
+            format!("every {what} once"),
+        )
     }
 
     /// The numbers that a list names.
@@ -237,9 +261,15 @@ impl Job {
                 Labels::One(label) => (*label, *label),
                 Labels::Range(text) => {
                     let number = |text: &str| text.trim().parse::<usize>().ok();
-                    let ends = text.split_once('-').and_then(|(first, last)| number(first).zip(number(last)));
+                    let ends = text
+                        .split_once('-')
+                        .and_then(|(first, last)| number(first).zip(number(last)));
                     let ends = ends.filter(|(first, last)| first <= last && last - first < room);
-                    let expected = || format!("a range of numbers such as \"10-19\", in all at most {MOST_LABELS}");
+                    let expected = || {
+                        format!(
+                            "a range of numbers such as \"10-19\", in all at most {MOST_LABELS}"
+                        )
+                    };
                     ends.ok_or_else(|| self.wrong(expected(), text))?
                 }
             };

@@ -40,7 +40,10 @@ pub struct ModelSource {
 
 /// Reads the model of a job.
 pub(super) fn load(job: &Job) -> Result<ModelSource, FileError> {
-    job.refuse(job.parameters.is_empty().then_some("none"), "at least one [[parameter]]")?;
+    job.refuse(
+        job.parameters.is_empty().then_some("none"),
+        "at least one [[parameter]]",
+    )?;
     let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
         (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
         (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
@@ -48,7 +51,10 @@ pub(super) fn load(job: &Job) -> Result<ModelSource, FileError> {
         (Some(_), ..) => "a deck and matrices",
         _ => "one matrix alone",
     };
-    Err(job.wrong("either model.deck, or model.stiffness and model.mass", found))
+    Err(job.wrong(
+        "either model.deck, or model.stiffness and model.mass",
+        found,
+    ))
 }
 
 fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
@@ -58,39 +64,74 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let structure = bulk.structure()?;
     let elements = element_matrices(&structure)?;
     let count = structure.free_dof().len();
-    let row_of: BTreeMap<usize, usize> = elements.iter().enumerate().map(|(row, e)| (e.label, row)).collect();
-    let stiffness = (0..elements.len()).flat_map(|row| stiffness_entries(&elements[row], bulk.elements[row].size));
+    let row_of: BTreeMap<usize, usize> = elements
+        .iter()
+        .enumerate()
+        .map(|(row, e)| (e.label, row))
+        .collect();
+    let stiffness = (0..elements.len())
+        .flat_map(|row| stiffness_entries(&elements[row], bulk.elements[row].size));
     let stiffness = sum_of(count, stiffness)?;
     let moving = bulk.moving_masses(&structure, &elements)?;
-    let mass =
-        sum_of(count, moving.iter().flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass)))?;
+    let mass = sum_of(
+        count,
+        moving
+            .iter()
+            .flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass)),
+    )?;
     let motion_of = bulk.motions(&structure);
     let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
-        job.refuse(rule.matrix.as_ref().map(|_| "a matrix"), "parameters of a deck by elements or masses")?;
-        for Group { name, elements: labels, masses } in groups(job, rule, &deck)? {
+        job.refuse(
+            rule.matrix.as_ref().map(|_| "a matrix"),
+            "parameters of a deck by elements or masses",
+        )?;
+        for Group {
+            name,
+            elements: labels,
+            masses,
+        } in groups(job, rule, &deck)?
+        {
             let unknown = labels.iter().find(|label| !row_of.contains_key(label));
             job.refuse(unknown, format!("elements of the deck in parameter {name}"))?;
             for &element in &labels {
-                if let Some(first) = owner.insert((rule.scales == Scales::Mass, element), name.clone()) {
-                    return Err(Error::SharedElement { element, first, second: name }.into());
+                if let Some(first) =
+                    owner.insert((rule.scales == Scales::Mass, element), name.clone())
+                {
+                    return Err(Error::SharedElement {
+                        element,
+                        first,
+                        second: name,
+                    }
+                    .into());
                 }
             }
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
                 Scales::Stiffness => {
-                    let found = (!masses.is_empty()).then(|| format!("stiffness in parameter {name}"));
+                    let found =
+                        (!masses.is_empty()).then(|| format!("stiffness in parameter {name}"));
                     job.refuse(found, "scales = \"mass\" for point masses")?;
                     let member = |&row: &usize| (elements[row].clone(), bulk.elements[row].size);
                     WholeShare::Elements(rows.iter().map(member).collect())
                 }
                 Scales::Mass => {
-                    let lumped = rows.iter().flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
+                    let lumped = rows
+                        .iter()
+                        .flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
                     let mut entries: Vec<_> = lumped.collect();
-                    let is_known = |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
+                    let is_known =
+                        |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
                     let unknown = masses.iter().find(|label| !is_known(label));
-                    job.refuse(unknown, format!("point masses of the deck in parameter {name}"))?;
-                    for point in bulk.masses.iter().filter(|point| masses.contains(&point.label)) {
+                    job.refuse(
+                        unknown,
+                        format!("point masses of the deck in parameter {name}"),
+                    )?;
+                    for point in bulk
+                        .masses
+                        .iter()
+                        .filter(|point| masses.contains(&point.label))
+                    {
                         for dof in point.dof() {
                             let motion = motion_of(dof);
                             entries.extend(moving_mass_entries(&motion, &motion, point.mass));
@@ -100,21 +141,45 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
                 }
             };
             let sizes: Vec<f64> = rows.iter().map(|&row| bulk.elements[row].size).collect();
-            parameters.push(WholeParameter { name, share, range: range(job, rule, &sizes)? });
+            parameters.push(WholeParameter {
+                name,
+                share,
+                range: range(job, rule, &sizes)?,
+            });
             members.push(labels);
         }
     }
     let whole = WholeModel::new(stiffness, mass, parameters)?;
     let grids = bulk.grids.iter();
-    let motions = grids.clone().flat_map(|grid| (0..3).map(move |direction| (grid.label, direction)));
-    let motions = motions.map(|at| (at, motion_of(StructuralDof { grid: at.0, direction: at.1 })));
+    let motions = grids
+        .clone()
+        .flat_map(|grid| (0..3).map(move |direction| (grid.label, direction)));
+    let motions = motions.map(|at| {
+        (
+            at,
+            motion_of(StructuralDof {
+                grid: at.0,
+                direction: at.1,
+            }),
+        )
+    });
     let motions = motions.filter(|(_, motion)| !motion.is_empty()).collect();
     let geometry = Geometry {
         places: grids.map(|grid| (grid.label, grid.position)).collect(),
-        elements: bulk.elements.iter().map(|element| element.grids.clone()).collect(),
+        elements: bulk
+            .elements
+            .iter()
+            .map(|element| element.grids.clone())
+            .collect(),
     };
     drop(motion_of);
-    Ok(ModelSource { whole, geometry, motions, members, deck: Some((bytes, deck)) })
+    Ok(ModelSource {
+        whole,
+        geometry,
+        motions,
+        members,
+        deck: Some((bytes, deck)),
+    })
 }
 
 /// One parameter of a deck, its elements and point masses ascending.
@@ -126,45 +191,113 @@ struct Group {
 
 /// The parameters that a rule makes of a deck.
 fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, FileError> {
-    let ParameterRule { name, properties, materials, each, .. } = rule;
+    let ParameterRule {
+        name,
+        properties,
+        materials,
+        each,
+        ..
+    } = rule;
     let (mut elements, masses) = (job.labels(&rule.elements)?, job.labels(&rule.masses)?);
-    let is_of =
-        |of: &Membership| of.property.is_some_and(|p| properties.contains(&p)) || materials.contains(&of.material);
-    elements.extend(deck.members.iter().filter(|(_, of)| is_of(of)).map(|(label, _)| *label));
+    let is_of = |of: &Membership| {
+        of.property.is_some_and(|p| properties.contains(&p)) || materials.contains(&of.material)
+    };
+    elements.extend(
+        deck.members
+            .iter()
+            .filter(|(_, of)| is_of(of))
+            .map(|(label, _)| *label),
+    );
     let members = || deck.members.values();
-    let property = properties.iter().find(|label| members().all(|of| of.property != Some(**label)));
-    let material = materials.iter().find(|label| members().all(|of| of.material != **label));
-    job.refuse(property.or(material), format!("properties and materials of the deck's elements in parameter {name}"))?;
+    let property = properties
+        .iter()
+        .find(|label| members().all(|of| of.property != Some(**label)));
+    let material = materials
+        .iter()
+        .find(|label| members().all(|of| of.material != **label));
+    job.refuse(
+        property.or(material),
+        format!("properties and materials of the deck's elements in parameter {name}"),
+    )?;
     let none = (elements.is_empty() && masses.is_empty()).then_some("none that the deck has");
     job.refuse(none, format!("elements or masses in parameter {name}"))?;
     if !each {
         let [elements, masses] = [elements, masses].map(|labels| labels.into_iter().collect());
-        return Ok(vec![Group { name: name.clone(), elements, masses }]);
+        return Ok(vec![Group {
+            name: name.clone(),
+            elements,
+            masses,
+        }]);
     }
-    let of_element = |label| Group { name: format!("{name} {label}"), elements: vec![label], masses: Vec::new() };
-    let of_mass = |label| Group { name: format!("{name} mass {label}"), elements: Vec::new(), masses: vec![label] };
-    Ok(elements.into_iter().map(of_element).chain(masses.into_iter().map(of_mass)).collect())
+    let of_element = |label| Group {
+        name: format!("{name} {label}"),
+        elements: vec![label],
+        masses: Vec::new(),
+    };
+    let of_mass = |label| Group {
+        name: format!("{name} mass {label}"),
+        elements: Vec::new(),
+        masses: vec![label],
+    };
+    Ok(elements
+        .into_iter()
+        .map(of_element)
+        .chain(masses.into_iter().map(of_mass))
+        .collect())
 }
 
 /// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within its bounds on these.
-pub(super) fn range(job: &Job, rule: &ParameterRule, sizes: &[f64]) -> Result<Option<Range>, FileError> {
+pub(super) fn range(
+    job: &Job,
+    rule: &ParameterRule,
+    sizes: &[f64],
+) -> Result<Option<Range>, FileError> {
     let name = &rule.name;
     let both = |[lower, upper]: [Option<f64>; 2], names: &str, what: &str| match (lower, upper) {
         (None, None) => Ok(None),
-        (Some(lower), Some(upper)) => Ok(Some(Range::positive(&format!("{what} of parameter {name}"), lower, upper)?)),
+        (Some(lower), Some(upper)) => Ok(Some(Range::positive(
+            &format!("{what} of parameter {name}"),
+            lower,
+            upper,
+        )?)),
         _ => Err(job.wrong(format!("both {names} in parameter {name}"), "one of them")),
     };
     let own = both([rule.lower, rule.upper], "lower and upper", "factor")?;
-    let of_sizes = both([rule.lower_size, rule.upper_size], "lower_size and upper_size", "sizes")?;
-    let Some(of_sizes) = of_sizes else { return Ok(own) };
+    let of_sizes = both(
+        [rule.lower_size, rule.upper_size],
+        "lower_size and upper_size",
+        "sizes",
+    )?;
+    let Some(of_sizes) = of_sizes else {
+        return Ok(own);
+    };
     let another = (sizes.is_empty() || rule.scales == Scales::Mass).then_some("another");
-    job.refuse(another, format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes"))?;
+    job.refuse(
+        another,
+        format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes"),
+    )?;
     let (lower, upper) = own.map_or((0.0, f64::INFINITY), |own| (own.lower, own.upper));
-    let lower = sizes.iter().fold(lower, |lower, size| lower.max(of_sizes.lower / size));
-    let upper = sizes.iter().fold(upper, |upper, size| upper.min(of_sizes.upper / size));
-    Ok(Some(Range::positive(&format!("factor of parameter {name}"), lower, upper)?))
+    let lower = sizes
+        .iter()
+        .fold(lower, |lower, size| lower.max(of_sizes.lower / size));
+    let upper = sizes
+        .iter()
+        .fold(upper, |upper, size| upper.min(of_sizes.upper / size));
+    Ok(Some(Range::positive(
+        &format!("factor of parameter {name}"),
+        lower,
+        upper,
+    )?))
 }
 
-fn sum_of(count: usize, entries: impl Iterator<Item = (usize, usize, f64)>) -> Result<SparseMatrix, FileError> {
-    Ok(SparseMatrix::new("matrix of elements", count, count, entries.collect())?)
+fn sum_of(
+    count: usize,
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> Result<SparseMatrix, FileError> {
+    Ok(SparseMatrix::new(
+        "matrix of elements",
+        count,
+        count,
+        entries.collect(),
+    )?)
 }

@@ -69,16 +69,37 @@ impl Prepared {
     }
 
     /// The same with all files read, for a test or a choice of it that no file holds.
-    pub(super) fn with(job: Job, data: TestData, source: Arc<ModelSource>) -> Result<Self, FileError> {
+    pub(super) fn with(
+        job: Job,
+        data: TestData,
+        source: Arc<ModelSource>,
+    ) -> Result<Self, FileError> {
         let (placed, sensors) = place(&job, &data, &source)?;
         let available = data.frequencies_hz.len();
-        let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=available).collect());
+        let numbers = job
+            .test
+            .modes
+            .clone()
+            .unwrap_or_else(|| (1..=available).collect());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
         job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
         job.once(numbers.iter(), "mode of test.modes")?;
-        job.once(source.whole.parameters().iter().map(|parameter| &parameter.name), "name of a parameter")?;
-        let several = job.compare.starts.filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
-        job.refuse(several, "one of compare.starts where the method is \"paper\"")?;
+        job.once(
+            source
+                .whole
+                .parameters()
+                .iter()
+                .map(|parameter| &parameter.name),
+            "name of a parameter",
+        )?;
+        let several = job
+            .compare
+            .starts
+            .filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
+        job.refuse(
+            several,
+            "one of compare.starts where the method is \"paper\"",
+        )?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
@@ -113,10 +134,21 @@ impl Prepared {
     /// counts as held, so that nothing is balanced.
     fn orthogonalize(&mut self) -> Result<(), FileError> {
         let (_, mass) = self.source.whole.condensed(&self.ones(), &self.sensors)?;
-        let examined = examine(&self.test, &mass, Supports::Held, &MovementLimits::default())?;
+        let examined = examine(
+            &self.test,
+            &mass,
+            Supports::Held,
+            &MovementLimits::default(),
+        )?;
         let reports = self.modes.iter().copied().zip(examined.reports);
-        self.deleted = reports.filter(|(_, report)| report.verdict != ModeVerdict::Kept).collect();
-        self.modes = examined.kept.into_iter().map(|mode| self.modes[mode]).collect();
+        self.deleted = reports
+            .filter(|(_, report)| report.verdict != ModeVerdict::Kept)
+            .collect();
+        self.modes = examined
+            .kept
+            .into_iter()
+            .map(|mode| self.modes[mode])
+            .collect();
         self.test = examined.modes;
         Ok(())
     }
@@ -125,7 +157,11 @@ impl Prepared {
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let mut first = self.analyze(&self.ones());
         // Half as many again as test modes may be more than the model has.
-        if let Err(Error::TooMany { what: FINITE, available, .. }) = first
+        if let Err(Error::TooMany {
+            what: FINITE,
+            available,
+            ..
+        }) = first
             && self.job.compare.analysis_modes.is_none()
             && available > 0
         {
@@ -135,8 +171,14 @@ impl Prepared {
         let shapes = match &first {
             Ok(first) => first.exact.modes.shapes.clone(),
             // More test modes than the model has are still to be looked at.
-            Err(Error::TooMany { what: "test modes", .. }) => {
-                let modes = self.source.whole.modes(&self.ones(), self.analysis_modes)?.vibrations;
+            Err(Error::TooMany {
+                what: "test modes", ..
+            }) => {
+                let modes = self
+                    .source
+                    .whole
+                    .modes(&self.ones(), self.analysis_modes)?
+                    .vibrations;
                 self.sensors.times(&modes.shapes)?
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
@@ -144,15 +186,26 @@ impl Prepared {
         let assurance = modal_assurance(&shapes, &self.test.shapes)?;
         let floor = self.job.compare.floor.unwrap_or(FLOOR);
         let partners = pair_optimally(&assurance, floor)?;
-        let kept: Vec<usize> = (0..partners.len()).filter(|&mode| partners[mode].is_some()).collect();
+        let kept: Vec<usize> = (0..partners.len())
+            .filter(|&mode| partners[mode].is_some())
+            .collect();
         let left = (0..partners.len()).filter(|&mode| partners[mode].is_none());
-        self.unpaired = left.map(|mode| (self.modes[mode], assurance.column(mode).max())).collect();
-        let best = kept.is_empty().then(|| format!("{:.3} at most", assurance.max()));
+        self.unpaired = left
+            .map(|mode| (self.modes[mode], assurance.column(mode).max()))
+            .collect();
+        let best = kept
+            .is_empty()
+            .then(|| format!("{:.3} at most", assurance.max()));
         let expected = "a mode of the model with a modal assurance of";
-        self.job.refuse(best, format!("{expected} {floor} or more for one test mode at least"))?;
+        self.job.refuse(
+            best,
+            format!("{expected} {floor} or more for one test mode at least"),
+        )?;
         if self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
-            self.first = first.ok().map(|first| (compare, self.analysis_modes, test, first));
+            self.first = first
+                .ok()
+                .map(|first| (compare, self.analysis_modes, test, first));
         }
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
@@ -167,7 +220,12 @@ impl Prepared {
         let lowest = shapes.columns(0, count.min(self.test.len())).into_owned();
         let identity = DMatrix::identity(lowest.ncols(), lowest.ncols());
         let apart = |mass: &DMatrix<f64>| (lowest.tr_mul(&(mass * &lowest)) - &identity).amax();
-        let condensed = self.source.whole.condensed(&self.ones(), &self.sensors).ok().map(|(_, mass)| mass);
+        let condensed = self
+            .source
+            .whole
+            .condensed(&self.ones(), &self.sensors)
+            .ok()
+            .map(|(_, mass)| mass);
         let fitting = condensed.filter(|mass| apart(mass) <= LARGEST_OVERLAP);
         fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
     }
@@ -188,18 +246,29 @@ impl Prepared {
         {
             return Ok(first.clone());
         }
-        let (whole, sensors, test, count) = (&self.source.whole, &self.sensors, &self.test, self.analysis_modes);
+        let (whole, sensors, test, count) = (
+            &self.source.whole,
+            &self.sensors,
+            &self.test,
+            self.analysis_modes,
+        );
         let pair: Pair = match self.job.compare.pairing {
             PairingRule::Closest => pair_modes,
             PairingRule::Optimal => pair_by_assignment,
         };
         let model = match self.job.compare.modes {
             ComparedModes::Whole => whole.analyze(factors, sensors, (test, pair), count),
-            ComparedModes::Condensed => whole.analyze_condensed(factors, sensors, test, Some(count)),
+            ComparedModes::Condensed => {
+                whole.analyze_condensed(factors, sensors, test, Some(count))
+            }
         };
         // Gauss-Newton steps have weights of their own.
         let is_paper = self.job.compare.method == Method::Paper;
-        if is_paper { model?.weighted(&self.own_weights()) } else { model }
+        if is_paper {
+            model?.weighted(&self.own_weights())
+        } else {
+            model
+        }
     }
 }
 
@@ -207,8 +276,14 @@ impl Prepared {
 fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result<ModeSet, Error> {
     let rows: Vec<usize> = placed.iter().map(|sensor| sensor.row).collect();
     let mut shapes = data.shapes.select_rows(&rows).select_columns(modes);
-    shapes.row_iter_mut().zip(placed).for_each(|(mut row, sensor)| row *= sensor.sign);
-    let frequencies: Vec<f64> = modes.iter().map(|&mode| data.frequencies_hz[mode]).collect();
+    shapes
+        .row_iter_mut()
+        .zip(placed)
+        .for_each(|(mut row, sensor)| row *= sensor.sign);
+    let frequencies: Vec<f64> = modes
+        .iter()
+        .map(|&mode| data.frequencies_hz[mode])
+        .collect();
     ModeSet::from_measured(&frequencies, &shapes)
 }
 
@@ -217,7 +292,18 @@ fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
     let (available, requested) = cross.shape();
     let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
-    let analysis_mode = analysis_mode.ok_or(Error::TooMany { what: "test modes", available, requested })?;
-    let sign = analysis_mode.iter().enumerate().map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 }).collect();
-    Ok(Pairing { analysis_mode, sign })
+    let analysis_mode = analysis_mode.ok_or(Error::TooMany {
+        what: "test modes",
+        available,
+        requested,
+    })?;
+    let sign = analysis_mode
+        .iter()
+        .enumerate()
+        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
+        .collect();
+    Ok(Pairing {
+        analysis_mode,
+        sign,
+    })
 }

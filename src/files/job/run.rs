@@ -53,25 +53,47 @@ impl Prepared {
     /// [`FileError::Input`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Vec<ModeWeight>, FileError> {
         let compare = &self.job.compare;
-        let named = self.job.test.modes.as_ref().map_or(self.data.frequencies_hz.len(), Vec::len);
-        let lists = [("frequency_weights", &compare.frequency_weights), ("shape_weights", &compare.shape_weights)];
+        let named = self
+            .job
+            .test
+            .modes
+            .as_ref()
+            .map_or(self.data.frequencies_hz.len(), Vec::len);
+        let lists = [
+            ("frequency_weights", &compare.frequency_weights),
+            ("shape_weights", &compare.shape_weights),
+        ];
         for (what, list) in lists {
             let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
-            self.job.refuse(other, format!("{named} {what}, one a test mode of the job"))?;
+            self.job
+                .refuse(other, format!("{named} {what}, one a test mode of the job"))?;
         }
         let weight = |(own, &mode): (ModeWeight, &usize)| {
             let noise = self.deviations(mode);
-            ModeWeight { frequency: own.frequency / noise.frequency, shape: own.shape / noise.shape }
+            ModeWeight {
+                frequency: own.frequency / noise.frequency,
+                shape: own.shape / noise.shape,
+            }
         };
-        Ok(self.own_weights().into_iter().zip(&self.modes).map(weight).collect())
+        Ok(self
+            .own_weights()
+            .into_iter()
+            .zip(&self.modes)
+            .map(weight)
+            .collect())
     }
 
     /// The job's own weights of the test modes, ones where it has none.
     pub(super) fn own_weights(&self) -> Vec<ModeWeight> {
         let (numbers, compare) = (&self.job.test.modes, &self.job.compare);
         let of = |list: &Option<Vec<f64>>, mode: usize| {
-            let place = numbers.as_ref().map_or(Some(mode), |all| all.iter().position(|number| *number == mode + 1));
-            list.as_ref().zip(place).and_then(|(list, place)| list.get(place).copied()).unwrap_or(1.0)
+            let place = numbers.as_ref().map_or(Some(mode), |all| {
+                all.iter().position(|number| *number == mode + 1)
+            });
+            list.as_ref()
+                .zip(place)
+                .and_then(|(list, place)| list.get(place).copied())
+                .unwrap_or(1.0)
         };
         let weight = |&mode: &usize| ModeWeight {
             frequency: of(&compare.frequency_weights, mode),
@@ -83,12 +105,23 @@ impl Prepared {
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.
     pub fn deviations(&self, mode: usize) -> Noise {
         let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64| {
-            own.as_ref().and_then(|own| own.get(mode).copied()).or(given).unwrap_or(usual)
+            own.as_ref()
+                .and_then(|own| own.get(mode).copied())
+                .or(given)
+                .unwrap_or(usual)
         };
         let (data, compare) = (&self.data, &self.job.compare);
         Noise {
-            frequency: of(&data.frequency_deviation, compare.frequency_deviation, DEVIATIONS.frequency),
-            shape: of(&data.shape_deviation, compare.shape_deviation, DEVIATIONS.shape),
+            frequency: of(
+                &data.frequency_deviation,
+                compare.frequency_deviation,
+                DEVIATIONS.frequency,
+            ),
+            shape: of(
+                &data.shape_deviation,
+                compare.shape_deviation,
+                DEVIATIONS.shape,
+            ),
         }
     }
 
@@ -99,17 +132,34 @@ impl Prepared {
     /// # Errors
     /// Those of [`rewrite`]; [`FileError::Input`] for factors of point masses, which are not rewritten.
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
-        let Some((bytes, deck)) = &self.source.deck else { return Ok(None) };
+        let Some((bytes, deck)) = &self.source.deck else {
+            return Ok(None);
+        };
         let mut elements = deck.model.elements.clone();
-        let parameters = self.source.whole.parameters().iter().zip(&self.source.members);
+        let parameters = self
+            .source
+            .whole
+            .parameters()
+            .iter()
+            .zip(&self.source.members);
         for ((WholeParameter { name, share, .. }, members), &factor) in parameters.zip(factors) {
             let has_masses = |rule: &ParameterRule| rule.name == *name && !rule.masses.is_empty();
             let is_of_masses = members.is_empty() || self.job.parameters.iter().any(has_masses);
             let refused = (is_of_masses && factor != 1.0).then(|| format!("a factor of {factor}"));
             let expected = "parameters of elements for a corrected deck";
-            self.job.refuse(refused, format!("{expected}; {name} is one of point masses"))?;
-            for element in elements.iter_mut().filter(|element| members.binary_search(&element.label).is_ok()) {
-                let Element { size, material: Material { density, .. }, .. } = element;
+            self.job.refuse(
+                refused,
+                format!("{expected}; {name} is one of point masses"),
+            )?;
+            for element in elements
+                .iter_mut()
+                .filter(|element| members.binary_search(&element.label).is_ok())
+            {
+                let Element {
+                    size,
+                    material: Material { density, .. },
+                    ..
+                } = element;
                 match share {
                     WholeShare::Stiffness(_) | WholeShare::Elements(_) => {
                         (*size, *density) = (*size * factor, *density / factor)
@@ -118,7 +168,12 @@ impl Prepared {
                 }
             }
         }
-        let name = self.job.model.deck.as_ref().map_or_else(String::new, |path| path.display().to_string());
+        let name = self
+            .job
+            .model
+            .deck
+            .as_ref()
+            .map_or_else(String::new, |path| path.display().to_string());
         rewrite(&name, bytes, &elements).map(Some)
     }
 }
@@ -151,7 +206,13 @@ pub(super) fn run_from(
         prepared.analyze(factors)
     };
     let first = analyze(start)?;
-    let analyze = |factors: &[f64]| if factors == start { Ok(first.clone()) } else { analyze(factors) };
+    let analyze = |factors: &[f64]| {
+        if factors == start {
+            Ok(first.clone())
+        } else {
+            analyze(factors)
+        }
+    };
     let is_interrupted = std::cell::Cell::new(false);
     let may_go_on = || {
         is_interrupted.set(is_interrupted.get() || !go_on());
@@ -161,17 +222,34 @@ pub(super) fn run_from(
         Method::Paper => {
             let mut told = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
-                let (frequency, shape) = (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
-                progress(&format!("pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"));
+                let (frequency, shape) =
+                    (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
+                progress(&format!(
+                    "pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"
+                ));
                 may_go_on()
             };
             // The loops count factors from one: the start is their first model.
-            let total = |factors: &[f64]| factors.iter().zip(start).map(|(a, b)| a * b).collect::<Vec<f64>>();
+            let total = |factors: &[f64]| {
+                factors
+                    .iter()
+                    .zip(start)
+                    .map(|(a, b)| a * b)
+                    .collect::<Vec<f64>>()
+            };
             let seen = |(range, start): (&Option<Range>, &f64)| {
-                range.map(|range| Range { lower: range.lower / start, upper: range.upper / start })
+                range.map(|range| Range {
+                    lower: range.lower / start,
+                    upper: range.upper / start,
+                })
             };
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
-            let run = correlate_while(&mut |factors| analyze(&total(factors)), &ranges, settings, &mut told)?;
+            let run = correlate_while(
+                &mut |factors| analyze(&total(factors)),
+                &ranges,
+                settings,
+                &mut told,
+            )?;
             let factors = total(&run.best_factors);
             (History::Paper(run), factors)
         }
@@ -185,18 +263,29 @@ pub(super) fn run_from(
                     best = Some((objective, factors.to_vec()));
                     progress(&format!("sum of squares {objective:.4e}"));
                 }
-                if may_go_on() { Ok(model) } else { Err(FileError::Interrupted) }
+                if may_go_on() {
+                    Ok(model)
+                } else {
+                    Err(FileError::Interrupted)
+                }
             };
             let found = match start == ones {
-                true => from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed),
-                false => gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1)),
+                true => {
+                    from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed)
+                }
+                false => {
+                    gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1))
+                }
             };
             match found {
                 Ok((run, reached)) => {
                     let factors = run.factors.clone();
                     (History::GaussNewton(Some((run, reached))), factors)
                 }
-                Err(FileError::Interrupted) => (History::GaussNewton(None), best.map_or(ones, |(_, factors)| factors)),
+                Err(FileError::Interrupted) => (
+                    History::GaussNewton(None),
+                    best.map_or(ones, |(_, factors)| factors),
+                ),
                 Err(error) => return Err(error),
             }
         }
@@ -206,20 +295,37 @@ pub(super) fn run_from(
         History::Paper(run) => run.verdict.clone(),
         History::GaussNewton(run) => {
             let is_within = meets(&last.exact.errors, settings);
-            let outcome = match run.as_ref().map(|(run, _)| (run.stop, run.iterations.is_empty())) {
+            let outcome = match run
+                .as_ref()
+                .map(|(run, _)| (run.stop, run.iterations.is_empty()))
+            {
                 _ if is_within => Outcome::Tolerance,
                 Some((_, true)) => Outcome::Nothing,
                 None | Some((WeightedStop::Trials, _)) => Outcome::Cap,
                 _ => Outcome::LocalMinimum,
             };
             let errors = mode_errors(&last.exact.modes, &last.exact.pairing, &last.test)?;
-            let seen: Vec<f64> = first.test_shares.iter().map(|share| share.diagonal().amax()).collect();
+            let seen: Vec<f64> = first
+                .test_shares
+                .iter()
+                .map(|share| share.diagonal().amax())
+                .collect();
             let sum = last.exact.errors.sum();
             Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
         }
     };
-    let sees = |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
+    let sees =
+        |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
     let seen = [sees(&first)?, sees(&last)?];
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
-    Ok(Finished { history, factors, verdict, seen, first, last, analyses, is_interrupted })
+    Ok(Finished {
+        history,
+        factors,
+        verdict,
+        seen,
+        first,
+        last,
+        analyses,
+        is_interrupted,
+    })
 }

@@ -57,7 +57,11 @@ impl Samples {
     /// # Errors
     /// [`FileError::File`]; [`FileError::DeckLine`] for a line of another study or of none, and a sample again with other numbers.
     pub fn read(path: &Path, study: &Study) -> Result<Self, FileError> {
-        let mut samples = Self { path: path.to_owned(), places: BTreeMap::new(), whole: 0 };
+        let mut samples = Self {
+            path: path.to_owned(),
+            places: BTreeMap::new(),
+            whole: 0,
+        };
         let failed = FileError::of_file(path, "read");
         let mut reader = BufReader::new(File::open(path).map_err(&failed)?);
         let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
@@ -82,12 +86,17 @@ impl Samples {
                 return wrong("a sample of this job, seed and choice of what varies");
             }
             let is_number = |cell: &&str| cell.parse::<f64>().is_ok_and(f64::is_finite);
-            let is_run = ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
+            let is_run =
+                ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
             if cells[1] != FAILED && !is_run {
                 return wrong("true or false, and error sum, analyses and factors as numbers");
             }
             let digest = digest(text.trim_end().as_bytes(), 0);
-            if samples.places.insert(sample, (at, digest)).is_some_and(|(_, before)| before != digest) {
+            if samples
+                .places
+                .insert(sample, (at, digest))
+                .is_some_and(|(_, before)| before != digest)
+            {
                 return wrong("a sample once, or again as it was");
             }
         }
@@ -105,7 +114,12 @@ impl Samples {
     /// # Errors
     /// [`FileError::File`].
     pub fn summary(&self, study: &Study, last: u64) -> Result<Summary, FileError> {
-        let mut summary = Summary { spreads: Vec::new(), within: 0, outside: 0, failed: Vec::new() };
+        let mut summary = Summary {
+            spreads: Vec::new(),
+            within: 0,
+            outside: 0,
+            failed: Vec::new(),
+        };
         self.each(last, |sample, cells| match cells[1..3] {
             [FAILED, _] => summary.failed.push(sample),
             [_, "true"] => summary.within += 1,
@@ -114,7 +128,9 @@ impl Samples {
         for (place, name) in study.parameters().enumerate() {
             let mut values = Vec::new();
             // What failed has no number.
-            self.each(last, |_, cells| values.extend(cells[place + 5].parse::<f64>().ok()))?;
+            self.each(last, |_, cells| {
+                values.extend(cells[place + 5].parse::<f64>().ok())
+            })?;
             summary.spreads.push((name.to_owned(), spread(values)));
         }
         Ok(summary)
@@ -127,7 +143,9 @@ impl Samples {
         let (mut now, mut line) = (0, String::new());
         for (&sample, &(at, _)) in self.places.range(..=last) {
             // Within what is read already nothing is read again.
-            reader.seek_relative(at as i64 - now as i64).map_err(&failed)?;
+            reader
+                .seek_relative(at as i64 - now as i64)
+                .map_err(&failed)?;
             line.clear();
             now = at + reader.read_line(&mut line).map_err(&failed)? as u64;
             with(sample, &line.trim_end().split(',').collect::<Vec<_>>());
@@ -154,5 +172,11 @@ fn spread(mut values: Vec<f64>) -> Option<Spread> {
         bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
     }
     let deviation = (squares / count.saturating_sub(1).max(1) as f64).sqrt();
-    Some(Spread { mean, deviation, quantiles: PARTS.map(quantile), ends, bars })
+    Some(Spread {
+        mean,
+        deviation,
+        quantiles: PARTS.map(quantile),
+        ends,
+        bars,
+    })
 }

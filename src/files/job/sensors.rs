@@ -34,12 +34,25 @@ type Placed = (Vec<PlacedSensor>, SparseMatrix);
 /// Finds every sensor that is used on the model.
 pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<Placed, FileError> {
     let rules = &job.sensors;
-    let named = rules.leave_out.iter().chain(rules.place.iter().map(|place| &place.sensor));
-    let unknown = named.into_iter().find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
+    let named = rules
+        .leave_out
+        .iter()
+        .chain(rules.place.iter().map(|place| &place.sensor));
+    let unknown = named
+        .into_iter()
+        .find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
     job.refuse(unknown, "names of sensors that the test has")?;
-    job.once(rules.place.iter().map(|place| &place.sensor), "sensor of sensors.place")?;
+    job.once(
+        rules.place.iter().map(|place| &place.sensor),
+        "sensor of sensors.place",
+    )?;
     let mut placed = Vec::new();
-    for (row, sensor) in data.sensors.iter().enumerate().filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name)) {
+    for (row, sensor) in data
+        .sensors
+        .iter()
+        .enumerate()
+        .filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name))
+    {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
         // A place of its own has an axis of the model's.
         let measured = sensor.axis.filter(|_| own.is_none());
@@ -48,13 +61,27 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
                 let turned = own.direction.strip_prefix('-');
                 let letters = turned.unwrap_or(&own.direction).trim();
                 let direction = DIRECTIONS.iter().position(|name| *name == letters);
-                let expected = || format!("a direction x, y, z or -x, -y, -z of sensor {}", sensor.name);
+                let expected = || {
+                    format!(
+                        "a direction x, y, z or -x, -y, -z of sensor {}",
+                        sensor.name
+                    )
+                };
                 let direction = direction.ok_or_else(|| job.wrong(expected(), &own.direction))?;
-                (own.grid, direction, if turned.is_some() { -1.0 } else { 1.0 })
+                (
+                    own.grid,
+                    direction,
+                    if turned.is_some() { -1.0 } else { 1.0 },
+                )
             }
             (None, SensorRule::Name) => continue,
             (None, SensorRule::Grid) => {
-                let none = || job.wrong(format!("a grid for sensor {}", sensor.name), "none in the test");
+                let none = || {
+                    job.wrong(
+                        format!("a grid for sensor {}", sensor.name),
+                        "none in the test",
+                    )
+                };
                 (sensor.grid.ok_or_else(none)?, sensor.direction, 1.0)
             }
             (None, SensorRule::Nearest) => (nearest(job, sensor, source)?, sensor.direction, 1.0),
@@ -62,26 +89,65 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         let axis = measured.unwrap_or_else(|| Vector3::ith(direction % 3, 1.0));
         let is_still = motion(source, grid, direction, axis).next().is_none();
         let still = is_still.then(|| format!("grid {grid} {}", DIRECTIONS[direction]));
-        job.refuse(still, format!("a degree of freedom of the model that moves for sensor {}", sensor.name))?;
+        job.refuse(
+            still,
+            format!(
+                "a degree of freedom of the model that moves for sensor {}",
+                sensor.name
+            ),
+        )?;
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);
-        let far = distance.filter(|at| !(0.0..=most).contains(at)).map(|at| format!("grid {grid} at {at:.4}"));
-        job.refuse(far, format!("sensor {} within {most} of a grid", sensor.name))?;
-        placed.push(PlacedSensor { row, name: sensor.name.clone(), grid, direction, axis, sign, place, distance });
+        let far = distance
+            .filter(|at| !(0.0..=most).contains(at))
+            .map(|at| format!("grid {grid} at {at:.4}"));
+        job.refuse(
+            far,
+            format!("sensor {} within {most} of a grid", sensor.name),
+        )?;
+        placed.push(PlacedSensor {
+            row,
+            name: sensor.name.clone(),
+            grid,
+            direction,
+            axis,
+            sign,
+            place,
+            distance,
+        });
     }
     let mut first: BTreeMap<(usize, usize), &str> = BTreeMap::new();
-    for PlacedSensor { name, grid, direction, .. } in &placed {
+    for PlacedSensor {
+        name,
+        grid,
+        direction,
+        ..
+    } in &placed
+    {
         let other = first.insert((*grid, *direction), name);
-        let both = other.map(|other| format!("{other} and {name} at grid {grid} {}", DIRECTIONS[*direction]));
+        let both = other.map(|other| {
+            format!(
+                "{other} and {name} at grid {grid} {}",
+                DIRECTIONS[*direction]
+            )
+        });
         job.refuse(both, "one sensor a degree of freedom")?;
     }
-    job.refuse(placed.is_empty().then_some("none"), "sensors of the test on the model")?;
+    job.refuse(
+        placed.is_empty().then_some("none"),
+        "sensors of the test on the model",
+    )?;
     let entries = placed.iter().enumerate().flat_map(|(row, sensor)| {
         let motion = motion(source, sensor.grid, sensor.direction, sensor.axis);
         motion.map(move |(dof, coefficient)| (row, dof, coefficient))
     });
-    let reading = SparseMatrix::new("sensors", placed.len(), source.whole.dof_count(), entries.collect())?;
+    let reading = SparseMatrix::new(
+        "sensors",
+        placed.len(),
+        source.whole.dof_count(),
+        entries.collect(),
+    )?;
     Ok((placed, reading))
 }
 
@@ -94,18 +160,35 @@ fn motion(
 ) -> impl Iterator<Item = (usize, f64)> {
     let along = (0..3).filter(move |&component| axis[component] != 0.0);
     along.flat_map(move |component| {
-        let motion = source.motions.get(&(grid, direction / 3 * 3 + component)).into_iter().flatten();
+        let motion = source
+            .motions
+            .get(&(grid, direction / 3 * 3 + component))
+            .into_iter()
+            .flatten();
         motion.map(move |&(dof, coefficient)| (dof, coefficient * axis[component]))
     })
 }
 
 /// The nearest grid that moves in a sensor's direction; of two as near the one with the lower number.
 fn nearest(job: &Job, sensor: &Sensor, source: &ModelSource) -> Result<usize, FileError> {
-    let missing = |what| job.wrong(format!("a place of sensor {} and of the model's grids", sensor.name), what);
+    let missing = |what| {
+        job.wrong(
+            format!("a place of sensor {} and of the model's grids", sensor.name),
+            what,
+        )
+    };
     let at = sensor.place.ok_or_else(|| missing("none in the test"))?;
-    let axis = sensor.axis.unwrap_or_else(|| Vector3::ith(sensor.direction % 3, 1.0));
+    let axis = sensor
+        .axis
+        .unwrap_or_else(|| Vector3::ith(sensor.direction % 3, 1.0));
     let places = source.geometry.places.iter();
-    let moving = places.filter(|(grid, _)| motion(source, **grid, sensor.direction, axis).next().is_some());
+    let moving = places.filter(|(grid, _)| {
+        motion(source, **grid, sensor.direction, axis)
+            .next()
+            .is_some()
+    });
     let nearest = moving.min_by(|a, b| (a.1 - at).norm().total_cmp(&(b.1 - at).norm()));
-    nearest.map(|(grid, _)| *grid).ok_or_else(|| missing("none in the model"))
+    nearest
+        .map(|(grid, _)| *grid)
+        .ok_or_else(|| missing("none in the model"))
 }

@@ -46,29 +46,56 @@ impl Study {
         vary.sort_unstable();
         vary.dedup();
         let job = &prepared.job;
-        let mut identity = digest(format!("{} {seed} {vary:?}", env!("CARGO_PKG_VERSION")).as_bytes(), 0);
-        let model = [&job.model.deck, &job.model.stiffness, &job.model.mass, &job.model.rows];
-        let named = model.into_iter().chain(job.parameters.iter().map(|rule| &rule.matrix)).flatten();
+        let mut identity = digest(
+            format!("{} {seed} {vary:?}", env!("CARGO_PKG_VERSION")).as_bytes(),
+            0,
+        );
+        let model = [
+            &job.model.deck,
+            &job.model.stiffness,
+            &job.model.mass,
+            &job.model.rows,
+        ];
+        let named = model
+            .into_iter()
+            .chain(job.parameters.iter().map(|rule| &rule.matrix))
+            .flatten();
         let named = named.chain([&job.test.file]).map(|file| job.beside(file));
         for file in named.chain([path.to_owned()]) {
             // Behind a # may stand which matrix of the file.
             let text = file.to_string_lossy();
-            let of_matrix = |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
-            let bytes = std::fs::read(&file).or_else(of_matrix).map_err(FileError::of_file(&file, "read"))?;
+            let of_matrix =
+                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
+            let bytes = std::fs::read(&file)
+                .or_else(of_matrix)
+                .map_err(FileError::of_file(&file, "read"))?;
             identity = digest(&bytes, identity);
         }
-        Ok(Self { prepared, seed, vary, identity })
+        Ok(Self {
+            prepared,
+            seed,
+            vary,
+            identity,
+        })
     }
 
     /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
-        self.prepared.source.whole.parameters().iter().map(|parameter| parameter.name.as_str())
+        self.prepared
+            .source
+            .whole
+            .parameters()
+            .iter()
+            .map(|parameter| parameter.name.as_str())
     }
 
     /// The line above the samples.
     pub fn header(&self) -> String {
         let names: Vec<String> = self.parameters().map(quoted).collect();
-        format!("sample,outcome,within,error_sum,analyses,{},study\n", names.join(","))
+        format!(
+            "sample,outcome,within,error_sum,analyses,{},study\n",
+            names.join(",")
+        )
     }
 
     /// The job of a sample, and its first factors.
@@ -76,20 +103,32 @@ impl Study {
     /// # Errors
     /// Those of [`with_noise_by_mode`] and [`Prepared::new`].
     pub fn draw(&self, sample: u64) -> Result<(Prepared, Vec<f64>), FileError> {
-        let Prepared { job, data, source, .. } = &self.prepared;
+        let Prepared {
+            job, data, source, ..
+        } = &self.prepared;
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
         // A generator for each purpose: what varies beside it changes nothing of it.
         let generator = |what: Vary| {
             let parts = [self.seed, sample, what as u64];
-            let state = parts.into_iter().fold(0, |state, part| split_mix_64(&mut (state ^ part)));
+            let state = parts
+                .into_iter()
+                .fold(0, |state, part| split_mix_64(&mut (state ^ part)));
             self.vary.contains(&what).then_some(state)
         };
         if let Some(seed) = generator(Vary::Noise) {
-            let noise: Vec<Noise> = (0..data.frequencies_hz.len()).map(|mode| self.prepared.deviations(mode)).collect();
-            let noisy = with_noise_by_mode(&ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?, &noise, seed)?;
+            let noise: Vec<Noise> = (0..data.frequencies_hz.len())
+                .map(|mode| self.prepared.deviations(mode))
+                .collect();
+            let noisy = with_noise_by_mode(
+                &ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?,
+                &noise,
+                seed,
+            )?;
             (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes);
         }
-        generator(Vary::Subset).into_iter().for_each(|state| self.leave_out(&mut job, state));
+        generator(Vary::Subset)
+            .into_iter()
+            .for_each(|state| self.leave_out(&mut job, state));
         let mut start = self.prepared.ones();
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
@@ -104,22 +143,44 @@ impl Study {
     fn leave_out(&self, job: &mut Job, mut state: u64) {
         let mut uniform = || uniform(&mut state);
         let is_sensors = uniform() < 0.5;
-        let numbers = job.test.modes.clone().unwrap_or_else(|| (1..=self.prepared.data.frequencies_hz.len()).collect());
-        let count = if is_sensors { self.prepared.placed.len() } else { numbers.len() };
+        let numbers = job
+            .test
+            .modes
+            .clone()
+            .unwrap_or_else(|| (1..=self.prepared.data.frequencies_hz.len()).collect());
+        let count = if is_sensors {
+            self.prepared.placed.len()
+        } else {
+            numbers.len()
+        };
         let mut places: Vec<usize> = (0..count).collect();
-        let out = (0.5 * uniform() * count as f64).ceil().min(count.saturating_sub(1) as f64) as usize;
+        let out = (0.5 * uniform() * count as f64)
+            .ceil()
+            .min(count.saturating_sub(1) as f64) as usize;
         for place in 0..out {
             places.swap(place, place + (uniform() * (count - place) as f64) as usize);
         }
         let (out, kept) = places.split_at_mut(out);
         kept.sort_unstable();
         if is_sensors {
-            job.sensors.leave_out.extend(out.iter().map(|&row| self.prepared.placed[row].name.clone()));
+            job.sensors.leave_out.extend(
+                out.iter()
+                    .map(|&row| self.prepared.placed[row].name.clone()),
+            );
             return;
         }
         job.test.modes = Some(kept.iter().map(|&place| numbers[place]).collect());
-        for weights in [&mut job.compare.frequency_weights, &mut job.compare.shape_weights].into_iter().flatten() {
-            *weights = kept.iter().filter_map(|&place| weights.get(place).copied()).collect();
+        for weights in [
+            &mut job.compare.frequency_weights,
+            &mut job.compare.shape_weights,
+        ]
+        .into_iter()
+        .flatten()
+        {
+            *weights = kept
+                .iter()
+                .filter_map(|&place| weights.get(place).copied())
+                .collect();
         }
     }
 
@@ -128,11 +189,25 @@ impl Study {
     ///
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.
-    pub fn run(&self, sample: u64, go_on: impl Fn() -> bool) -> Result<(String, Option<FileError>), FileError> {
-        let run = |(prepared, start): (Prepared, Vec<f64>)| run_from(&prepared, &start, &mut |_| {}, &go_on);
+    pub fn run(
+        &self,
+        sample: u64,
+        go_on: impl Fn() -> bool,
+    ) -> Result<(String, Option<FileError>), FileError> {
+        let run = |(prepared, start): (Prepared, Vec<f64>)| {
+            run_from(&prepared, &start, &mut |_| {}, &go_on)
+        };
         let (numbers, failure) = match self.draw(sample).and_then(run) {
-            Ok(Finished { is_interrupted: true, .. }) => return Err(FileError::Interrupted),
-            Ok(Finished { verdict, analyses, factors, .. }) => {
+            Ok(Finished {
+                is_interrupted: true,
+                ..
+            }) => return Err(FileError::Interrupted),
+            Ok(Finished {
+                verdict,
+                analyses,
+                factors,
+                ..
+            }) => {
                 let outcome = match verdict.outcome {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
@@ -140,11 +215,23 @@ impl Study {
                     Outcome::Nothing => "nothing",
                 };
                 let factors: String = factors.iter().map(|factor| format!(",{factor}")).collect();
-                (format!("{outcome},{},{},{analyses}{factors}", verdict.is_within, verdict.error_sum), None)
+                (
+                    format!(
+                        "{outcome},{},{},{analyses}{factors}",
+                        verdict.is_within, verdict.error_sum
+                    ),
+                    None,
+                )
             }
-            Err(error) => (format!("{FAILED},,,{}", ",".repeat(self.parameters().count())), Some(error)),
+            Err(error) => (
+                format!("{FAILED},,,{}", ",".repeat(self.parameters().count())),
+                Some(error),
+            ),
         };
-        Ok((format!("{sample},{numbers},{:016x}\n", self.identity), failure))
+        Ok((
+            format!("{sample},{numbers},{:016x}\n", self.identity),
+            failure,
+        ))
     }
 }
 

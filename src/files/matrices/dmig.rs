@@ -15,41 +15,80 @@ type Label = (usize, usize);
 /// Rows and columns of a square or symmetric matrix have one list of labels; those that no card names are not in it. A
 /// symmetric matrix has every pair of places on one card alone, in either triangle.
 pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
-    let cards: Vec<Card> = cards(file, text)?.into_iter().filter(|card| card.name == "DMIG").collect();
-    let (headers, others): (Vec<&Card>, Vec<&Card>) = cards.iter().partition(|card| card.text(3) == "0");
-    let mut columns: BTreeMap<&str, Vec<&Card>> = headers.iter().map(|header| (header.text(2), Vec::new())).collect();
+    let cards: Vec<Card> = cards(file, text)?
+        .into_iter()
+        .filter(|card| card.name == "DMIG")
+        .collect();
+    let (headers, others): (Vec<&Card>, Vec<&Card>) =
+        cards.iter().partition(|card| card.text(3) == "0");
+    let mut columns: BTreeMap<&str, Vec<&Card>> = headers
+        .iter()
+        .map(|header| (header.text(2), Vec::new()))
+        .collect();
     for card in others {
-        let own = columns.get_mut(card.text(2)).ok_or_else(|| card.error(2, "the name of a matrix with a header"))?;
+        let own = columns
+            .get_mut(card.text(2))
+            .ok_or_else(|| card.error(2, "the name of a matrix with a header"))?;
         own.push(card);
     }
-    let names = headers.iter().map(|header| header.text(2).to_owned()).collect();
-    let chosen = headers.iter().filter(|header| is_wanted(header.text(2), wanted));
-    let matrices = chosen.map(|header| matrix(header, &columns[header.text(2)])).collect::<Result<_, _>>()?;
+    let names = headers
+        .iter()
+        .map(|header| header.text(2).to_owned())
+        .collect();
+    let chosen = headers
+        .iter()
+        .filter(|header| is_wanted(header.text(2), wanted));
+    let matrices = chosen
+        .map(|header| matrix(header, &columns[header.text(2)]))
+        .collect::<Result<_, _>>()?;
     Ok((names, matrices))
 }
 
 fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     let is_symmetric = header.text(4) == "6";
     let is_square = is_symmetric || header.text(4) == "1";
-    header.require(is_square || ["2", "9"].contains(&header.text(4)), 4, "form 1, 2, 6 or 9")?;
-    header.require(["1", "2"].contains(&header.text(5)), 5, "type 1 or 2, a real matrix")?;
+    header.require(
+        is_square || ["2", "9"].contains(&header.text(4)),
+        4,
+        "form 1, 2, 6 or 9",
+    )?;
+    header.require(
+        ["1", "2"].contains(&header.text(5)),
+        5,
+        "type 1 or 2, a real matrix",
+    )?;
     let (mut entries, mut places) = (Vec::new(), HashSet::new());
     let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
     for card in cards {
         let column = label(card, 3)?;
         let last = card.filled().pop().unwrap_or(0);
-        let starts = std::iter::once(6).chain((10..).step_by(10).flat_map(|line| [line + 2, line + 6]));
+        let starts =
+            std::iter::once(6).chain((10..).step_by(10).flat_map(|line| [line + 2, line + 6]));
         for start in starts.take_while(|&start| start <= last) {
             if (start..start + 4).all(|field| card.text(field).is_empty()) {
                 continue;
             }
             let row = label(card, start)?;
-            let value = card.optional_real(start + 2)?.ok_or_else(|| card.error(start + 2, "a real number"))?;
+            let value = card
+                .optional_real(start + 2)?
+                .ok_or_else(|| card.error(start + 2, "a real number"))?;
             card.absent(start + 3, "complex matrices")?;
-            let place = if is_symmetric { (row.min(column), row.max(column)) } else { (row, column) };
-            card.require(places.insert(place), start, "a place of the matrix that no other entry has")?;
+            let place = if is_symmetric {
+                (row.min(column), row.max(column))
+            } else {
+                (row, column)
+            };
+            card.require(
+                places.insert(place),
+                start,
+                "a place of the matrix that no other entry has",
+            )?;
             rows.extend(if is_square { [row, column] } else { [row; 2] });
-            columns.extend(if is_square { [row, column] } else { [column; 2] });
+            columns.extend(if is_square {
+                [row, column]
+            } else {
+                [column; 2]
+            });
             entries.push((row, column, value));
             if is_symmetric && row != column {
                 entries.push((column, row, value));
@@ -59,9 +98,16 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     let [rows, columns] = [rows, columns].map(|labels| labels.into_iter().collect::<Vec<Label>>());
     // Every label was put in its list above.
     let place = |labels: &[Label], label| labels.partition_point(|other| *other < label);
-    let entries = entries.iter().map(|&(row, column, value)| (place(&rows, row), place(&columns, column), value));
+    let entries = entries
+        .iter()
+        .map(|&(row, column, value)| (place(&rows, row), place(&columns, column), value));
     let matrix = SparseMatrix::new("DMIG matrix", rows.len(), columns.len(), entries.collect())?;
-    Ok(LabeledMatrix { name: Some(header.text(2).to_owned()), rows: Some(rows), columns: Some(columns), matrix })
+    Ok(LabeledMatrix {
+        name: Some(header.text(2).to_owned()),
+        rows: Some(rows),
+        columns: Some(columns),
+        matrix,
+    })
 }
 
 /// A grid in a field and its component, blank or 0 for a scalar point, in the next.
@@ -70,5 +116,8 @@ fn label(card: &Card, field: usize) -> Result<Label, FileError> {
         "" => Some(0),
         text => text.parse().ok().filter(|component| *component <= 6),
     };
-    Ok((card.label(field)?, component.ok_or_else(|| card.error(field + 1, "a component from 0 to 6"))?))
+    Ok((
+        card.label(field)?,
+        component.ok_or_else(|| card.error(field + 1, "a component from 0 to 6"))?,
+    ))
 }

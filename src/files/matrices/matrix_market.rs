@@ -8,69 +8,145 @@ use std::fmt::Write;
 pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let wrong = |line: usize, expected, found: &str| FileError::line(file, line, expected, found);
     let end = text.lines().count() + 1;
-    let mut lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, line)| !line.is_empty());
+    let mut lines = (1..)
+        .zip(text.lines().map(str::trim))
+        .filter(|(_, line)| !line.is_empty());
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let words = banner.to_ascii_lowercase();
     // The factor on the triangle that the file has gives the other one.
-    let (is_array, mirror): (bool, Option<f64>) = match words.split_whitespace().collect::<Vec<_>>()[..] {
-        [_, "matrix", format @ ("array" | "coordinate"), "real" | "integer", symmetry] => {
-            let mirror = match symmetry {
-                "general" => None,
-                "symmetric" => Some(1.0),
-                "skew-symmetric" => Some(-1.0),
-                _ => return Err(wrong(first, "a general, symmetric or skew-symmetric matrix", symmetry)),
-            };
-            (format == "array", mirror)
-        }
-        _ => return Err(wrong(first, "a matrix, array or coordinate, real or integer, and its symmetry", banner)),
-    };
+    let (is_array, mirror): (bool, Option<f64>) =
+        match words.split_whitespace().collect::<Vec<_>>()[..] {
+            [
+                _,
+                "matrix",
+                format @ ("array" | "coordinate"),
+                "real" | "integer",
+                symmetry,
+            ] => {
+                let mirror = match symmetry {
+                    "general" => None,
+                    "symmetric" => Some(1.0),
+                    "skew-symmetric" => Some(-1.0),
+                    _ => {
+                        return Err(wrong(
+                            first,
+                            "a general, symmetric or skew-symmetric matrix",
+                            symmetry,
+                        ));
+                    }
+                };
+                (format == "array", mirror)
+            }
+            _ => {
+                return Err(wrong(
+                    first,
+                    "a matrix, array or coordinate, real or integer, and its symmetry",
+                    banner,
+                ));
+            }
+        };
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
-    let (at, sizes) = lines.next().ok_or_else(|| wrong(end, "the line of sizes", "the end of the file"))?;
-    let numbers: Option<Vec<usize>> = sizes.split_whitespace().map(|word| word.parse().ok()).collect();
+    let (at, sizes) = lines
+        .next()
+        .ok_or_else(|| wrong(end, "the line of sizes", "the end of the file"))?;
+    let numbers: Option<Vec<usize>> = sizes
+        .split_whitespace()
+        .map(|word| word.parse().ok())
+        .collect();
     let (rows, columns, count) = match numbers.as_deref() {
-        Some(&[rows, columns]) if is_array && rows > 0 && columns > 0 => (rows, columns, usize::MAX),
-        Some(&[rows, columns, count]) if !is_array && rows > 0 && columns > 0 => (rows, columns, count),
-        _ => return Err(wrong(at, "rows, columns and, in the coordinate format, the number of entries", sizes)),
+        Some(&[rows, columns]) if is_array && rows > 0 && columns > 0 => {
+            (rows, columns, usize::MAX)
+        }
+        Some(&[rows, columns, count]) if !is_array && rows > 0 && columns > 0 => {
+            (rows, columns, count)
+        }
+        _ => {
+            return Err(wrong(
+                at,
+                "rows, columns and, in the coordinate format, the number of entries",
+                sizes,
+            ));
+        }
     };
     if mirror.is_some() && rows != columns {
-        return Err(wrong(at, "as many rows as columns of a symmetric matrix", sizes));
+        return Err(wrong(
+            at,
+            "as many rows as columns of a symmetric matrix",
+            sizes,
+        ));
     }
     // The first row of a column that the file holds.
     let first_row = |column: usize| mirror.map_or(0, |factor| column + usize::from(factor == -1.0));
-    let mut places = (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
+    let mut places =
+        (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
     let (mut entries, mut read) = (Vec::new(), 0);
     for (number, line) in lines {
         let words: Vec<&str> = line.split_whitespace().collect();
         let (row, column, word) = match words[..] {
             [value] if is_array => {
-                let place = places.next().ok_or_else(|| wrong(number, "no more entries than places", line))?;
+                let place = places
+                    .next()
+                    .ok_or_else(|| wrong(number, "no more entries than places", line))?;
                 (place.0, place.1, value)
             }
             [row, column, value] if !is_array && read < count => {
-                let place = |word: &str, most| word.parse::<usize>().ok().filter(|n| (1..=most).contains(n));
+                let place = |word: &str, most| {
+                    word.parse::<usize>()
+                        .ok()
+                        .filter(|n| (1..=most).contains(n))
+                };
                 match (place(row, rows), place(column, columns)) {
-                    (Some(row), Some(column)) if row > first_row(column - 1) => (row - 1, column - 1, value),
-                    _ => return Err(wrong(number, "a row and column in the part of the matrix that is stored", line)),
+                    (Some(row), Some(column)) if row > first_row(column - 1) => {
+                        (row - 1, column - 1, value)
+                    }
+                    _ => {
+                        return Err(wrong(
+                            number,
+                            "a row and column in the part of the matrix that is stored",
+                            line,
+                        ));
+                    }
                 }
             }
-            [_, _, _] if !is_array => return Err(wrong(number, "no more entries than the line of sizes says", line)),
+            [_, _, _] if !is_array => {
+                return Err(wrong(
+                    number,
+                    "no more entries than the line of sizes says",
+                    line,
+                ));
+            }
             _ if is_array => return Err(wrong(number, "a value", line)),
             _ => return Err(wrong(number, "a row, a column and a value", line)),
         };
         let value: Option<f64> = word.replace(['d', 'D'], "e").parse().ok();
-        let value = value.filter(|value| value.is_finite()).ok_or_else(|| wrong(number, "a real number", word))?;
+        let value = value
+            .filter(|value| value.is_finite())
+            .ok_or_else(|| wrong(number, "a real number", word))?;
         entries.push((row, column, value));
         if let Some(factor) = mirror.filter(|_| row != column) {
             entries.push((column, row, factor * value));
         }
         read += 1;
     }
-    let is_cut_off = if is_array { places.next().is_some() } else { read < count };
+    let is_cut_off = if is_array {
+        places.next().is_some()
+    } else {
+        read < count
+    };
     if is_cut_off {
         let found = format!("the end of the file after {read}");
-        return Err(wrong(end, "as many entries as the line of sizes says", &found));
+        return Err(wrong(
+            end,
+            "as many entries as the line of sizes says",
+            &found,
+        ));
     }
-    Ok(SparseMatrix::new("matrix of a file", rows, columns, entries)?)
+    Ok(SparseMatrix::new(
+        "matrix of a file",
+        rows,
+        columns,
+        entries,
+    )?)
 }
 
 /// A matrix in the coordinate format, every number by the fewest digits that read back as exactly that number; of a
@@ -81,7 +157,8 @@ pub fn write_matrix_market(matrix: &SparseMatrix) -> String {
     let entries: Vec<_> = matrix.entries().iter().filter(stored).collect();
     let symmetry = if is_symmetric { "symmetric" } else { "general" };
     let (rows, columns, count) = (matrix.rows(), matrix.columns(), entries.len());
-    let mut text = format!("%%MatrixMarket matrix coordinate real {symmetry}\n{rows} {columns} {count}\n");
+    let mut text =
+        format!("%%MatrixMarket matrix coordinate real {symmetry}\n{rows} {columns} {count}\n");
     for (row, column, value) in entries {
         let _ = writeln!(text, "{} {} {value:e}", row + 1, column + 1);
     }

@@ -36,15 +36,28 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
     let text = decoded(bytes);
     if begins(text.trim_start(), "%%MatrixMarket") {
         let matrix = matrix_market::read(name, &text)?;
-        return Ok(LabeledMatrix { name: None, rows: None, columns: None, matrix });
+        return Ok(LabeledMatrix {
+            name: None,
+            rows: None,
+            columns: None,
+            matrix,
+        });
     }
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
     let read = if is_dmig { dmig::read } else { output4::read };
     let (names, mut found) = read(name, &text, wanted)?;
     let names = names.join(", ");
-    let expected = "one matrix of the name asked for, which may be left out where there is one alone";
+    let expected =
+        "one matrix of the name asked for, which may be left out where there is one alone";
     let one = found.pop().filter(|_| found.is_empty());
-    one.ok_or_else(|| FileError::line(name, 1, expected, if names.is_empty() { "none" } else { &names }))
+    one.ok_or_else(|| {
+        FileError::line(
+            name,
+            1,
+            expected,
+            if names.is_empty() { "none" } else { &names },
+        )
+    })
 }
 
 /// Names of all matrices of a file, and those among them that are wanted.
@@ -55,5 +68,6 @@ fn is_wanted(name: &str, wanted: Option<&str>) -> bool {
 }
 
 fn begins(text: &str, word: &str) -> bool {
-    text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+    text.get(..word.len())
+        .is_some_and(|start| start.eq_ignore_ascii_case(word))
 }

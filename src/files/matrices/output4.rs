@@ -26,22 +26,37 @@ struct Lines<'a> {
 ///
 /// NASTRAN gives both triangles of a symmetric matrix (form 6). Where all entries stand in one, it is mirrored.
 pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
-    let lines = Lines { file, lines: text.lines().map(str::trim_end).collect() };
+    let lines = Lines {
+        file,
+        lines: text.lines().map(str::trim_end).collect(),
+    };
     let (mut names, mut matrices, mut at) = (Vec::new(), Vec::new(), 0);
     while let Some(header) = lines.lines.get(at) {
         if header.is_empty() {
             at += 1;
             continue;
         }
-        let name = header.get(4 * INTEGER..).map(|rest| rest.get(..INTEGER).unwrap_or(rest).trim().to_owned());
+        let name = header
+            .get(4 * INTEGER..)
+            .map(|rest| rest.get(..INTEGER).unwrap_or(rest).trim().to_owned());
         let name = name.ok_or_else(|| lines.wrong(at, "the header of a matrix"))?;
         if is_wanted(&name, wanted) {
             let matrix = lines.matrix(&mut at)?;
-            matrices.push(LabeledMatrix { name: Some(name.clone()), rows: None, columns: None, matrix });
+            matrices.push(LabeledMatrix {
+                name: Some(name.clone()),
+                rows: None,
+                columns: None,
+                matrix,
+            });
         } else {
             // Only a header has a name behind four integers.
-            let goes_on = |line: &&str| line.len() <= 4 * INTEGER || line.as_bytes()[..4 * INTEGER].contains(&b'.');
-            at += 1 + lines.lines[at + 1..].iter().take_while(|line| goes_on(line)).count();
+            let goes_on = |line: &&str| {
+                line.len() <= 4 * INTEGER || line.as_bytes()[..4 * INTEGER].contains(&b'.')
+            };
+            at += 1 + lines.lines[at + 1..]
+                .iter()
+                .take_while(|line| goes_on(line))
+                .count();
         }
         names.push(name);
     }
@@ -54,7 +69,11 @@ impl Lines<'_> {
     }
 
     fn require(&self, is_met: bool, at: usize, expected: &'static str) -> Result<(), FileError> {
-        if is_met { Ok(()) } else { Err(self.wrong(at, expected)) }
+        if is_met {
+            Ok(())
+        } else {
+            Err(self.wrong(at, expected))
+        }
     }
 
     /// One of the integers of a header.
@@ -67,22 +86,44 @@ impl Lines<'_> {
     }
 
     fn is_string(&self, at: usize) -> bool {
-        self.lines.get(at).is_some_and(|line| !line.contains('.') && line.len() <= STRING_HEADER)
+        self.lines
+            .get(at)
+            .is_some_and(|line| !line.contains('.') && line.len() <= STRING_HEADER)
     }
 
     /// The matrix with its header at this line, which then is the next matrix's.
     fn matrix(&self, at: &mut usize) -> Result<SparseMatrix, FileError> {
         let header = self.lines.get(*at).copied().unwrap_or_default();
-        let (columns, form, kind) = (self.integer(*at, 0)?, self.integer(*at, 2)?, self.integer(*at, 3)?);
-        let rows: Option<i64> = header.get(INTEGER..2 * INTEGER).and_then(|text| text.trim().parse().ok());
-        let rows = rows.filter(|rows| *rows != 0).ok_or_else(|| self.wrong(*at, "a number of rows"))?;
+        let (columns, form, kind) = (
+            self.integer(*at, 0)?,
+            self.integer(*at, 2)?,
+            self.integer(*at, 3)?,
+        );
+        let rows: Option<i64> = header
+            .get(INTEGER..2 * INTEGER)
+            .and_then(|text| text.trim().parse().ok());
+        let rows = rows
+            .filter(|rows| *rows != 0)
+            .ok_or_else(|| self.wrong(*at, "a number of rows"))?;
         let is_large = !(0..ROWS_IN_HEADER as i64).contains(&rows);
         let rows = rows.unsigned_abs() as usize;
         let has_form = [1, 2, 6, 9].contains(&form) && (form != 6 || rows == columns);
-        self.require(has_form, *at, "a matrix of form 1, 2, 6 or 9, square if it is 6")?;
-        self.require([1, 2].contains(&kind), *at, "a matrix of type 1 or 2, which is real")?;
-        let format = header.get(5 * INTEGER..).and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
-        let width = format.and_then(|(_, width)| width.split('.').next()?.parse().ok()).filter(|width| *width > 0);
+        self.require(
+            has_form,
+            *at,
+            "a matrix of form 1, 2, 6 or 9, square if it is 6",
+        )?;
+        self.require(
+            [1, 2].contains(&kind),
+            *at,
+            "a matrix of type 1 or 2, which is real",
+        )?;
+        let format = header
+            .get(5 * INTEGER..)
+            .and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
+        let width = format
+            .and_then(|(_, width)| width.split('.').next()?.parse().ok())
+            .filter(|width| *width > 0);
         let width = width.ok_or_else(|| self.wrong(*at, "a format such as 1P,5E16.9"))?;
         let (mut entries, mut last_column) = (Vec::new(), 0);
         loop {
@@ -106,7 +147,8 @@ impl Lines<'_> {
                     (self.integer(string, 0)?, self.integer(string, 1)?)
                 } else {
                     let both = line.trim().parse::<usize>().ok();
-                    let both = both.ok_or_else(|| self.wrong(string, "the one integer of a string"))?;
+                    let both =
+                        both.ok_or_else(|| self.wrong(string, "the one integer of a string"))?;
                     (both / ROWS_IN_HEADER, both % ROWS_IN_HEADER)
                 };
                 self.require(row >= next_row, string, "a string after the one before")?;
@@ -115,20 +157,38 @@ impl Lines<'_> {
                 strings.push((string, words, count));
             }
             let all = entries.len() - before;
-            let is_whole = if first > 0 { all == words } else { !strings.is_empty() };
+            let is_whole = if first > 0 {
+                all == words
+            } else {
+                !strings.is_empty()
+            };
             self.require(is_whole, head, "a column with as many numbers as it says")?;
             // A number has one word or two. Some programs count one in any case, or all of the column for every string.
             let counts = |count: usize| [count, 2 * count, 2 * all].map(|words| words + 1);
-            if let Some((string, ..)) = strings.iter().find(|(_, words, count)| !counts(*count).contains(words)) {
+            if let Some((string, ..)) = strings
+                .iter()
+                .find(|(_, words, count)| !counts(*count).contains(words))
+            {
                 return Err(self.wrong(*string, "a string with as many numbers as it says"));
             }
         }
-        let mirrored = entries.iter().map(|&(row, column, value)| (column, row, value));
-        let mirrored: Vec<_> = mirrored.filter(|entry| form == 6 && entry.0 != entry.1).collect();
-        if mirrored.iter().all(|entry| entry.0 < entry.1) || mirrored.iter().all(|entry| entry.0 > entry.1) {
+        let mirrored = entries
+            .iter()
+            .map(|&(row, column, value)| (column, row, value));
+        let mirrored: Vec<_> = mirrored
+            .filter(|entry| form == 6 && entry.0 != entry.1)
+            .collect();
+        if mirrored.iter().all(|entry| entry.0 < entry.1)
+            || mirrored.iter().all(|entry| entry.0 > entry.1)
+        {
             entries.extend(mirrored);
         }
-        Ok(SparseMatrix::new("matrix of OUTPUT4", rows, columns, entries)?)
+        Ok(SparseMatrix::new(
+            "matrix of OUTPUT4",
+            rows,
+            columns,
+            entries,
+        )?)
     }
 
     /// Takes the numbers after this line from a row of a column on, and returns how many there are.
@@ -143,7 +203,9 @@ impl Lines<'_> {
         while let Some(line) = self.lines.get(*at + 1).filter(|line| line.contains('.')) {
             *at += 1;
             let reals = parse_reals(line, width);
-            for value in reals.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))? {
+            for value in
+                reals.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))?
+            {
                 self.require(row <= rows, *at, "no more numbers than rows")?;
                 entries.push((row - 1, column - 1, value));
                 row += 1;

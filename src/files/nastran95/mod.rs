@@ -45,7 +45,9 @@ const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
 
 /// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
 pub fn default_folder() -> PathBuf {
-    std::env::home_dir().unwrap_or_default().join(".cache/nastran95/nastran95/_data")
+    std::env::home_dir()
+        .unwrap_or_default()
+        .join(".cache/nastran95/nastran95/_data")
 }
 
 /// What a run leaves.
@@ -75,13 +77,20 @@ impl Nastran95 {
     /// # Errors
     /// [`FileError::SolverMissing`] if the folder does not hold them.
     pub fn in_folder(home: &Path) -> Result<Self, FileError> {
-        let missing = || FileError::SolverMissing { path: home.to_owned() };
+        let missing = || FileError::SolverMissing {
+            path: home.to_owned(),
+        };
         // A relative path would mean another folder once the program runs in its scratch folder.
         let home = home.canonicalize().map_err(|_| missing())?;
         if !home.join(process::PROGRAM).is_file() || !home.join(process::RIGID_FORMATS).is_dir() {
             return Err(missing());
         }
-        Ok(Self { home, time_limit: TIME_LIMIT, output_limit: OUTPUT_LIMIT, stop: Arc::default() })
+        Ok(Self {
+            home,
+            time_limit: TIME_LIMIT,
+            output_limit: OUTPUT_LIMIT,
+            stop: Arc::default(),
+        })
     }
 
     /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
@@ -90,8 +99,15 @@ impl Nastran95 {
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str, numbers: usize) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
-        let found = || format!("none; printed last: {}", process::last_lines(&answer.printed));
-        let unit_15 = answer.unit_15.ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?;
+        let found = || {
+            format!(
+                "none; printed last: {}",
+                process::last_lines(&answer.printed)
+            )
+        };
+        let unit_15 = answer
+            .unit_15
+            .ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?;
         read_output5(&unit_15, numbers)
     }
 
@@ -100,7 +116,11 @@ impl Nastran95 {
     /// # Errors
     /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
     /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
-    pub fn elements(&self, model: &FiniteElementModel, factors: &[f64]) -> Result<FiniteElementModel, FileError> {
+    pub fn elements(
+        &self,
+        model: &FiniteElementModel,
+        factors: &[f64],
+    ) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::of(model, factors, &points)?;
@@ -120,14 +140,26 @@ impl Nastran95 {
 fn with_single_elements(bulk: &BulkData) -> BulkData {
     let mut all = bulk.clone();
     let base = bulk.first_free_label();
-    let position: HashMap<usize, _> = bulk.grids.iter().map(|grid| (grid.label, grid.position)).collect();
+    let position: HashMap<usize, _> = bulk
+        .grids
+        .iter()
+        .map(|grid| (grid.label, grid.position))
+        .collect();
     for (row, element) in bulk.elements.iter().enumerate() {
         let first = base + all.grids.len() - bulk.grids.len();
         let corners = element.grids.iter().filter_map(|grid| position.get(grid));
         let corners = (first..).zip(corners);
-        all.grids.extend(corners.map(|(label, &position)| Grid { label, position, constrained: [true; 3] }));
+        all.grids.extend(corners.map(|(label, &position)| Grid {
+            label,
+            position,
+            constrained: [true; 3],
+        }));
         let grids = (first..).take(element.grids.len()).collect();
-        all.elements.push(Element { label: base + row, grids, ..element.clone() });
+        all.elements.push(Element {
+            label: base + row,
+            grids,
+            ..element.clone()
+        });
     }
     all
 }
@@ -147,12 +179,22 @@ fn unit_stiffness(
     let kgg = matrix(answer, "KGG", start)?;
     let structure = model.structure();
     let unit = |element: &Element| {
-        let unknown = || Error::Unknown { owner: "the deck".into(), what: "element", label: element.label };
+        let unknown = || Error::Unknown {
+            owner: "the deck".into(),
+            what: "element",
+            label: element.label,
+        };
         let &(start, size) = block_of.get(&element.label).ok_or_else(unknown)?;
         let dof = (0..3 * element.grids.len()).map(|dof| (dof / 3, dof % 3));
-        let is_free = |corner: usize, direction| structure.free_dof_index(element.grids[corner], direction).is_some();
+        let is_free = |corner: usize, direction| {
+            structure
+                .free_dof_index(element.grids[corner], direction)
+                .is_some()
+        };
         let free = dof.filter(|&(corner, direction)| is_free(corner, direction));
-        let rows: Vec<usize> = free.map(|(corner, direction)| start + GRID_DOF * corner + direction).collect();
+        let rows: Vec<usize> = free
+            .map(|(corner, direction)| start + GRID_DOF * corner + direction)
+            .collect();
         Ok(kgg.select_rows(&rows).select_columns(&rows) / size)
     };
     structure.elements().iter().map(unit).collect()
@@ -160,12 +202,20 @@ fn unit_stiffness(
 
 /// Refuses an answer whose assembled matrices are not those of the model it was asked about: elements are told apart by
 /// their place in KGG alone, and this check is what makes that safe.
-fn check_assembled(model: &FiniteElementModel, factors: &[f64], answer: &Matrices) -> Result<(), FileError> {
+fn check_assembled(
+    model: &FiniteElementModel,
+    factors: &[f64],
+    answer: &Matrices,
+) -> Result<(), FileError> {
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
     let t = model.load_distribution().dense();
-    let lumped = lumped_mass(model.element_matrices(), &model.mass_sizes(factors)?, free.len())?;
+    let lumped = lumped_mass(
+        model.element_matrices(),
+        &model.mass_sizes(factors)?,
+        free.len(),
+    )?;
     let mass = &t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
@@ -178,15 +228,32 @@ fn check_assembled(model: &FiniteElementModel, factors: &[f64], answer: &Matrice
         let wrong = || FileError::answer(expected(), format!("them {difference:.1e} apart"));
         (difference <= limit).then_some(()).ok_or_else(wrong)
     };
-    same("KAA", "the sum of its element matrices", stiffness, LARGEST_STIFFNESS_DIFFERENCE)?;
-    same("MAA", "the masses the MPC equations distribute", mass, LARGEST_MASS_DIFFERENCE)
+    same(
+        "KAA",
+        "the sum of its element matrices",
+        stiffness,
+        LARGEST_STIFFNESS_DIFFERENCE,
+    )?;
+    same(
+        "MAA",
+        "the masses the MPC equations distribute",
+        mass,
+        LARGEST_MASS_DIFFERENCE,
+    )
 }
 
-fn matrix<'a>(answer: &'a Matrices, name: &str, size: usize) -> Result<&'a DMatrix<f64>, FileError> {
+fn matrix<'a>(
+    answer: &'a Matrices,
+    name: &str,
+    size: usize,
+) -> Result<&'a DMatrix<f64>, FileError> {
     let found = match answer.get(name) {
         Some(matrix) if matrix.shape() == (size, size) => return Ok(matrix),
         Some(matrix) => format!("{} x {}", matrix.nrows(), matrix.ncols()),
         None => "none".to_owned(),
     };
-    Err(FileError::answer(format!("a matrix {name} of {size} rows and columns"), found))
+    Err(FileError::answer(
+        format!("a matrix {name} of {size} rows and columns"),
+        found,
+    ))
 }

@@ -28,7 +28,12 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, expected: &str| {
         let expected = format!("{expected} in line {} of the OUTPUT5 file", line + 1);
-        FileError::answer(expected, lines.get(line).map_or("its end".to_owned(), |l| shown(l.trim())))
+        FileError::answer(
+            expected,
+            lines
+                .get(line)
+                .map_or("its end".to_owned(), |l| shown(l.trim())),
+        )
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         let field = lines.get(line).and_then(|l| l.get(start..start + INTEGER));
@@ -47,8 +52,12 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
             if kind != 2 {
                 return Err(wrong(at, "the header of a real double precision matrix"));
             }
-            let fewer = columns.checked_mul(rows).and_then(|entries| left.checked_sub(entries));
-            left = fewer.ok_or_else(|| wrong(at, &format!("matrices of at most {numbers} entries in all")))?;
+            let fewer = columns
+                .checked_mul(rows)
+                .and_then(|entries| left.checked_sub(entries));
+            left = fewer.ok_or_else(|| {
+                wrong(at, &format!("matrices of at most {numbers} entries in all"))
+            })?;
             name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
             matrices.insert(name.to_owned(), DMatrix::zeros(rows, columns));
             at += 1;
@@ -61,11 +70,18 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
         }
         let mut row = first - 1;
         while row < last {
-            let line = lines.get(at).map(|line| line.trim_end()).filter(|line| !line.is_empty());
+            let line = lines
+                .get(at)
+                .map(|line| line.trim_end())
+                .filter(|line| !line.is_empty());
             let reals = parse_reals(line.ok_or_else(|| wrong(at, "reals"))?, REAL);
             let reals = reals.filter(|reals| reals.len() <= last - row);
-            let reals = reals.ok_or_else(|| wrong(at, "reals of the format D26.17, as many as rows"))?;
-            matrix.column_mut(column - 1).rows_mut(row, reals.len()).copy_from_slice(&reals);
+            let reals =
+                reals.ok_or_else(|| wrong(at, "reals of the format D26.17, as many as rows"))?;
+            matrix
+                .column_mut(column - 1)
+                .rows_mut(row, reals.len())
+                .copy_from_slice(&reals);
             (at, row) = (at + 1, row + reals.len());
         }
     }

@@ -54,7 +54,8 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     let path = |name: &str| scratch.join(name);
     std::fs::write(path("deck"), deck).map_err(FileError::of_file(&path("deck"), "write"))?;
     let open = |name: &str| File::open(path(name)).map_err(FileError::of_file(&path(name), "read"));
-    let create = |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
+    let create =
+        |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
     let program = solver.home.join(PROGRAM);
     let mut command = Command::new(&program);
     command
@@ -66,14 +67,22 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
         .env("RFDIR", solver.home.join(RIGID_FORMATS))
         .env("DIRCTY", scratch)
         .env("OPTPNM", "none");
-    let files = [("LOGNM", "log"), ("NPTPNM", "nptp"), ("DICTNM", "dict"), ("PLTNM", "plt"), ("PUNCHNM", "punch")];
+    let files = [
+        ("LOGNM", "log"),
+        ("NPTPNM", "nptp"),
+        ("DICTNM", "dict"),
+        ("PLTNM", "plt"),
+        ("PUNCHNM", "punch"),
+    ];
     command.envs(files.map(|(variable, name)| (variable, path(name))));
     command.envs((1..*UNITS.start()).map(|unit| (format!("SOF{unit}"), "none")));
     command.envs(UNITS.map(|unit| (format!("FTN{unit}"), path(&format!("ftn{unit}")))));
     // The program and what it may start are stopped together.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
-    let child = command.spawn().map_err(FileError::of_file(&program, "run"))?;
+    let child = command
+        .spawn()
+        .map_err(FileError::of_file(&program, "run"))?;
     let status = wait(solver, child, &program, scratch)?;
     let printed = read(scratch, PRINTED, solver.output_limit)?.unwrap_or_default();
     if let Some(message) = fatal_message(&printed) {
@@ -82,7 +91,10 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     if !status.success() {
         let errors = read(scratch, ERRORS, solver.output_limit)?.unwrap_or_default();
         let message = last_lines(&format!("{printed}\n{errors}"));
-        return Err(FileError::SolverCrashed { status: status.to_string(), message });
+        return Err(FileError::SolverCrashed {
+            status: status.to_string(),
+            message,
+        });
     }
     let unit_15 = read(scratch, ANSWER, solver.output_limit)?;
     Ok(Answer { printed, unit_15 })
@@ -90,28 +102,42 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
 
 /// Waits for the end of the program, but not for ever, and ends what is left of it: nothing of it writes into the
 /// folder that is read and removed next.
-fn wait(solver: &Nastran95, mut child: Child, program: &Path, scratch: &Path) -> Result<ExitStatus, FileError> {
+fn wait(
+    solver: &Nastran95,
+    mut child: Child,
+    program: &Path,
+    scratch: &Path,
+) -> Result<ExitStatus, FileError> {
     let ended = watch(solver, &mut child, program, scratch);
     // What it started is in its group, whose number is not given to others before the program is waited for.
     #[cfg(unix)]
-    let _ = rustix::process::kill_process_group(Pid::from_child(&child), rustix::process::Signal::KILL);
+    let _ =
+        rustix::process::kill_process_group(Pid::from_child(&child), rustix::process::Signal::KILL);
     let _ = child.kill();
     let status = child.wait().map_err(FileError::of_file(program, "run"))?;
     ended.map(|()| status)
 }
 
 /// Returns when the program has ended, or an error when it is to be stopped.
-fn watch(solver: &Nastran95, child: &mut Child, program: &Path, scratch: &Path) -> Result<(), FileError> {
+fn watch(
+    solver: &Nastran95,
+    child: &mut Child,
+    program: &Path,
+    scratch: &Path,
+) -> Result<(), FileError> {
     let start = Instant::now();
     while !has_ended(child).map_err(FileError::of_file(program, "run"))? {
         if solver.stop.load(Ordering::Relaxed) {
             return Err(FileError::SolverInterrupted);
         }
         if start.elapsed() >= solver.time_limit {
-            return Err(FileError::SolverTimeLimit { seconds: solver.time_limit.as_secs_f64() });
+            return Err(FileError::SolverTimeLimit {
+                seconds: solver.time_limit.as_secs_f64(),
+            });
         }
         for name in [PRINTED, ERRORS, ANSWER] {
-            let bytes = std::fs::symlink_metadata(scratch.join(name)).map_or(0, |found| found.len());
+            let bytes =
+                std::fs::symlink_metadata(scratch.join(name)).map_or(0, |found| found.len());
             within_limit(name, bytes, solver.output_limit)?;
         }
         std::thread::sleep(POLL);
@@ -136,15 +162,27 @@ fn fatal_message(printed: &str) -> Option<String> {
     let mut lines = printed.lines().skip_while(|line| !line.contains("FATAL"));
     let first = lines.next()?;
     // A message ends with a blank line, or where the next one begins.
-    let rest = lines.take(MESSAGE_LINES - 1).take_while(|line| !line.trim().is_empty() && !line.contains("***"));
-    let words: Vec<&str> = [first].into_iter().chain(rest).flat_map(str::split_whitespace).collect();
+    let rest = lines
+        .take(MESSAGE_LINES - 1)
+        .take_while(|line| !line.trim().is_empty() && !line.contains("***"));
+    let words: Vec<&str> = [first]
+        .into_iter()
+        .chain(rest)
+        .flat_map(str::split_whitespace)
+        .collect();
     // The first column is the printer's carriage control.
-    Some(shown(words.join(" ").trim_start_matches(['0', '1', '*', ' '])))
+    Some(shown(
+        words.join(" ").trim_start_matches(['0', '1', '*', ' ']),
+    ))
 }
 
 /// The last lines that are not blank.
 pub(super) fn last_lines(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
     match &lines[lines.len().saturating_sub(MESSAGE_LINES)..] {
         [] => "nothing printed".to_owned(),
         last => shown(&last.join(" / ")),
@@ -166,7 +204,10 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
         found => found.map_err(FileError::of_file(&path, "read"))?,
     };
     if !found.is_file() {
-        return Err(FileError::answer(format!("a regular file {name}"), "something else in its place"));
+        return Err(FileError::answer(
+            format!("a regular file {name}"),
+            "something else in its place",
+        ));
     }
     within_limit(name, found.len(), limit)?;
     let mut bytes = Vec::new();
@@ -176,6 +217,13 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
 }
 
 fn within_limit(name: &str, bytes: u64, limit: u64) -> Result<(), FileError> {
-    let too_large = FileError::answer(format!("at most {limit} bytes in its file {name}"), bytes.to_string());
-    if bytes <= limit { Ok(()) } else { Err(too_large) }
+    let too_large = FileError::answer(
+        format!("at most {limit} bytes in its file {name}"),
+        bytes.to_string(),
+    );
+    if bytes <= limit {
+        Ok(())
+    } else {
+        Err(too_large)
+    }
 }

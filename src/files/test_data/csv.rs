@@ -23,7 +23,12 @@ use crate::files::error::FileError;
 use nalgebra::{DMatrix, Vector3};
 
 /// First cells of the rows with a number for every mode.
-const ROWS: [&str; 4] = ["frequency_hz", "frequency_deviation", "shape_deviation", "phase_collinearity"];
+const ROWS: [&str; 4] = [
+    "frequency_hz",
+    "frequency_deviation",
+    "shape_deviation",
+    "phase_collinearity",
+];
 /// Titles of columns that are no modes.
 const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
 
@@ -40,17 +45,28 @@ struct Row<'a> {
 
 impl Row<'_> {
     fn cell(&self, column: Option<usize>) -> &str {
-        column.and_then(|column| self.cells.get(column)).map_or("", String::as_str)
+        column
+            .and_then(|column| self.cells.get(column))
+            .map_or("", String::as_str)
     }
 
     fn wrong<T>(&self, expected: &'static str, found: &str) -> Result<T, FileError> {
-        Err(FileError::line(self.file, self.number, expected, if found.is_empty() { "nothing" } else { found }))
+        Err(FileError::line(
+            self.file,
+            self.number,
+            expected,
+            if found.is_empty() { "nothing" } else { found },
+        ))
     }
 
     fn numbers(&self, columns: &[usize]) -> Result<Vec<f64>, FileError> {
         let number = |&column: &usize| {
             let cell = self.cell(Some(column));
-            let value = real(&if self.separator == ',' { cell.to_owned() } else { cell.replace(',', ".") });
+            let value = real(&if self.separator == ',' {
+                cell.to_owned()
+            } else {
+                cell.replace(',', ".")
+            });
             value.map_or_else(|| self.wrong("a number", cell), Ok)
         };
         columns.iter().map(number).collect()
@@ -58,26 +74,44 @@ impl Row<'_> {
 
     fn header(&self) -> Result<Header, FileError> {
         let (mut titles, mut modes) = ([None; 7], Vec::new());
-        for (column, cell) in self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+        for (column, cell) in self
+            .cells
+            .iter()
+            .enumerate()
+            .filter(|(_, cell)| !cell.is_empty())
+        {
             let title = cell.to_lowercase();
             match TITLES.iter().position(|name| *name == title) {
                 Some(place) if titles[place].is_none() => titles[place] = Some(column),
                 None if title.starts_with("mode") => modes.push(column),
                 _ => {
-                    return self.wrong("a header with name, grid, direction, sign, x, y, z once each, and modes", cell);
+                    return self.wrong(
+                        "a header with name, grid, direction, sign, x, y, z once each, and modes",
+                        cell,
+                    );
                 }
             }
         }
         let axes = titles[4..].iter().flatten().count();
-        let complete = titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes) && !modes.is_empty();
+        let complete = titles[2].is_some()
+            && titles[..2] != [None; 2]
+            && [0, 3].contains(&axes)
+            && !modes.is_empty();
         let expected = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
-        if complete { Ok((titles, modes)) } else { self.wrong(expected, &self.cells.join(" ")) }
+        if complete {
+            Ok((titles, modes))
+        } else {
+            self.wrong(expected, &self.cells.join(" "))
+        }
     }
 
     /// The sensor of the row, and -1 if it points against its axis.
     fn sensor(&self, titles: &[Option<usize>; 7]) -> Result<(Sensor, f64), FileError> {
         let [name, grid, word, sign, x, y, z] = titles.map(|column| self.cell(column));
-        let Some(direction) = DIRECTIONS.iter().position(|name| *name == word.to_lowercase()) else {
+        let Some(direction) = DIRECTIONS
+            .iter()
+            .position(|name| *name == word.to_lowercase())
+        else {
             return self.wrong("a direction x, y, z, rx, ry or rz", word);
         };
         let sign = match sign {
@@ -86,7 +120,11 @@ impl Row<'_> {
             other => return self.wrong("a sign + or -", other),
         };
         let number = |text: &str| text.parse().or_else(|_| self.wrong("a grid number", text));
-        let grid = if grid.is_empty() { None } else { Some(number(grid)?) };
+        let grid = if grid.is_empty() {
+            None
+        } else {
+            Some(number(grid)?)
+        };
         let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
         let is_placed = [x, y, z] != [""; 3];
         let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
@@ -96,17 +134,40 @@ impl Row<'_> {
             Some(grid) if name.is_empty() => default_name(grid, direction),
             _ => name.to_owned(),
         };
-        Ok((Sensor { name, grid, direction, axis: None, place }, sign))
+        Ok((
+            Sensor {
+                name,
+                grid,
+                direction,
+                axis: None,
+                place,
+            },
+            sign,
+        ))
     }
 }
 
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
-    let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    let separator = separator(lines().find(|(_, line)| !is_comment(line)).map_or("", |(_, line)| line));
-    let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) = Default::default();
+    let lines = || {
+        (1..)
+            .zip(text.lines())
+            .filter(|(_, line)| !line.trim().is_empty())
+    };
+    let separator = separator(
+        lines()
+            .find(|(_, line)| !is_comment(line))
+            .map_or("", |(_, line)| line),
+    );
+    let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) =
+        Default::default();
     for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
-        let row = Row { file, number, cells: cells(line, separator), separator };
+        let row = Row {
+            file,
+            number,
+            cells: cells(line, separator),
+            separator,
+        };
         let name = row.cell(Some(0)).to_lowercase();
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
@@ -126,8 +187,16 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let (end, expected) = (text.lines().count(), "a header and a row frequency_hz");
     let missing = || FileError::line(file, end, expected, "the end of the file");
     let (titles, modes) = header.ok_or_else(missing)?;
-    let list = |place: usize| by_mode[place].as_ref().map(|row: &Row| row.numbers(&modes)).transpose();
-    let mut data = TestData { frequencies_hz: list(0)?.ok_or_else(missing)?, ..TestData::default() };
+    let list = |place: usize| {
+        by_mode[place]
+            .as_ref()
+            .map(|row: &Row| row.numbers(&modes))
+            .transpose()
+    };
+    let mut data = TestData {
+        frequencies_hz: list(0)?.ok_or_else(missing)?,
+        ..TestData::default()
+    };
     (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
     data.phase_collinearity = list(3)?.unwrap_or_default();
     let mut shapes = Vec::new();
@@ -142,7 +211,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
 
 /// What separates the cells of a line.
 pub(crate) fn separator(line: &str) -> char {
-    ['\t', ';'].into_iter().find(|separator| line.contains(*separator)).unwrap_or(',')
+    ['\t', ';']
+        .into_iter()
+        .find(|separator| line.contains(*separator))
+        .unwrap_or(',')
 }
 
 /// Cuts a line at its separators, those within quotation marks excepted.
@@ -163,5 +235,8 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
 
 /// A name as one cell on one line: line ends become blanks.
 pub(crate) fn quoted(name: &str) -> String {
-    format!("\"{}\"", name.replace(['\n', '\r'], " ").replace('"', "\"\""))
+    format!(
+        "\"{}\"",
+        name.replace(['\n', '\r'], " ").replace('"', "\"\"")
+    )
 }

@@ -72,25 +72,56 @@ impl TestData {
         let mut seen = HashSet::new();
         for (row, sensor) in self.sensors.iter().enumerate() {
             let numbers = sensor.place.iter().chain(&sensor.axis).flatten();
-            if let Some((column, &value)) = numbers.enumerate().find(|(_, value)| !value.is_finite()) {
-                return Err(Error::NotFinite { what: "place and axis of a sensor", row, column, value });
+            if let Some((column, &value)) =
+                numbers.enumerate().find(|(_, value)| !value.is_finite())
+            {
+                return Err(Error::NotFinite {
+                    what: "place and axis of a sensor",
+                    row,
+                    column,
+                    value,
+                });
             }
-            let names = ["sensor x", "sensor y", "sensor z", "sensor rx", "sensor ry", "sensor rz"];
-            let wrong = Error::TooMany { what: "direction", available: 5, requested: sensor.direction };
+            let names = [
+                "sensor x",
+                "sensor y",
+                "sensor z",
+                "sensor rx",
+                "sensor ry",
+                "sensor rz",
+            ];
+            let wrong = Error::TooMany {
+                what: "direction",
+                available: 5,
+                requested: sensor.direction,
+            };
             let what = names.get(sensor.direction).ok_or(wrong)?;
-            if let Some(label) = sensor.grid.filter(|grid| !seen.insert((*grid, sensor.direction))) {
+            if let Some(label) = sensor
+                .grid
+                .filter(|grid| !seen.insert((*grid, sensor.direction)))
+            {
                 return Err(Error::Duplicate { what, label });
             }
         }
-        let lists = [("frequency deviation", &self.frequency_deviation), ("shape deviation", &self.shape_deviation)];
-        for (what, list) in lists.into_iter().filter_map(|(what, list)| Some((what, list.as_ref()?))) {
+        let lists = [
+            ("frequency deviation", &self.frequency_deviation),
+            ("shape deviation", &self.shape_deviation),
+        ];
+        for (what, list) in lists
+            .into_iter()
+            .filter_map(|(what, list)| Some((what, list.as_ref()?)))
+        {
             check_length(what, list.len(), count)?;
             for (mode, &value) in list.iter().enumerate() {
                 positive(what, || format!("test mode {mode} (from zero)"), value)?;
             }
         }
         let phases = self.phase_collinearity.len();
-        check_length("phase collinearity", phases, if phases == 0 { 0 } else { count })
+        check_length(
+            "phase collinearity",
+            phases,
+            if phases == 0 { 0 } else { count },
+        )
     }
 }
 
@@ -101,7 +132,11 @@ impl TestData {
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     let text = decoded(bytes);
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());
-    let data = if first == Some("-1") { universal::read(name, &text)? } else { csv::read(name, &text)? };
+    let data = if first == Some("-1") {
+        universal::read(name, &text)?
+    } else {
+        csv::read(name, &text)?
+    };
     data.check()?;
     Ok(data)
 }
@@ -109,7 +144,11 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
 /// A finite number as Fortran or a spreadsheet writes it.
 fn real(text: &str) -> Option<f64> {
     let value = || text.parse().ok().filter(|value: &f64| value.is_finite());
-    if text.contains(' ') { None } else { parse_real(text).or_else(value) }
+    if text.contains(' ') {
+        None
+    } else {
+        parse_real(text).or_else(value)
+    }
 }
 
 /// A name for a sensor that has none.

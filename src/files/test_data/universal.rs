@@ -67,7 +67,11 @@ impl<'a> Block<'a> {
     }
 
     /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
-    pub fn reals(&mut self, expected: &'static str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
+    pub fn reals(
+        &mut self,
+        expected: &'static str,
+        widths: &[usize],
+    ) -> Result<Vec<f64>, FileError> {
         let line = self.line(expected)?;
         let mut start = 0;
         let column = |&width: &usize| {
@@ -76,14 +80,28 @@ impl<'a> Block<'a> {
             text.and_then(|text| real(text.trim()))
         };
         let by_columns: Option<Vec<f64>> = widths.iter().map(column).collect();
-        let by_blanks = || line.split_whitespace().take(widths.len()).map(real).collect::<Option<Vec<f64>>>();
-        let numbers = by_columns.or_else(by_blanks).filter(|numbers| numbers.len() == widths.len());
+        let by_blanks = || {
+            line.split_whitespace()
+                .take(widths.len())
+                .map(real)
+                .collect::<Option<Vec<f64>>>()
+        };
+        let numbers = by_columns
+            .or_else(by_blanks)
+            .filter(|numbers| numbers.len() == widths.len());
         numbers.ok_or_else(|| self.wrong(expected, line.trim()))
     }
 
-    pub fn integers(&mut self, expected: &'static str, count: usize) -> Result<Vec<usize>, FileError> {
+    pub fn integers(
+        &mut self,
+        expected: &'static str,
+        count: usize,
+    ) -> Result<Vec<usize>, FileError> {
         let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
-        numbers.into_iter().map(|number| integer(number).ok_or_else(|| self.wrong(expected, number))).collect()
+        numbers
+            .into_iter()
+            .map(|number| integer(number).ok_or_else(|| self.wrong(expected, number)))
+            .collect()
     }
 }
 
@@ -104,14 +122,29 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         if !is_mark(lines[at]) {
             return Err(wrong(at, "the mark of a dataset, -1 in columns 5 and 6"));
         }
-        let header = lines.get(at + 1).and_then(|line| line.split_whitespace().next()).unwrap_or_default();
-        let (number, binary) = header.strip_suffix(['b', 'B']).map_or((header, false), |number| (number, true));
-        let dataset: usize = number.parse().map_err(|_| wrong(at + 1, "the number of a dataset"))?;
+        let header = lines
+            .get(at + 1)
+            .and_then(|line| line.split_whitespace().next())
+            .unwrap_or_default();
+        let (number, binary) = header
+            .strip_suffix(['b', 'B'])
+            .map_or((header, false), |number| (number, true));
+        let dataset: usize = number
+            .parse()
+            .map_err(|_| wrong(at + 1, "the number of a dataset"))?;
         // Binary data have no last line end: their mark may stand behind them.
         let ends = |line: &&str| is_mark(line) || binary && line.trim_end().ends_with("    -1");
         let count = lines[at + 2..].iter().position(ends);
-        let end = at + 2 + count.ok_or_else(|| wrong(lines.len(), "the end of the dataset, -1 in columns 5 and 6"))?;
-        let mut block = Block { file, lines: &lines[at + 2..end], number: at + 3 };
+        let end = at
+            + 2
+            + count.ok_or_else(|| {
+                wrong(lines.len(), "the end of the dataset, -1 in columns 5 and 6")
+            })?;
+        let mut block = Block {
+            file,
+            lines: &lines[at + 2..end],
+            number: at + 3,
+        };
         match dataset {
             15 | 2411 => found.nodes(&mut block, dataset)?,
             18 => by_points(&mut block, &mut found.systems)?,
@@ -130,19 +163,27 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
 impl Found {
     /// Dataset 15 has a line for every node, dataset 2411 two with longer coordinates. A node may come again at its place.
     fn nodes(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
-        let expected = "the number of a node, two coordinate systems, a color, and three coordinates";
+        let expected =
+            "the number of a node, two coordinate systems, a color, and three coordinates";
         while !block.is_done() {
-            let mut numbers = block.reals(expected, if dataset == 15 { &NODE } else { &NODE[..4] })?;
+            let mut numbers =
+                block.reals(expected, if dataset == 15 { &NODE } else { &NODE[..4] })?;
             let node = integer(numbers[0]).ok_or_else(|| block.wrong(expected, numbers[0]))?;
             // The coordinates of dataset 2411 are global ones.
             let of_place = if dataset == 15 { numbers[1] } else { 0.0 };
-            let (systems, line) = ([of_place, numbers[2]].map(|number| integer(number).unwrap_or(0)), block.number - 1);
+            let (systems, line) = (
+                [of_place, numbers[2]].map(|number| integer(number).unwrap_or(0)),
+                block.number - 1,
+            );
             if dataset == 2411 {
                 numbers.extend(block.reals("three coordinates", &[LONG_REAL; 3])?);
             }
             let place = Vector3::from_column_slice(&numbers[4..]);
             if self.nodes.entry(node).or_insert((place, systems, line)).0 != place {
-                return Err(block.wrong("a node once, or again at the same place", format!("node {node} elsewhere")));
+                return Err(block.wrong(
+                    "a node once, or again at the same place",
+                    format!("node {node} elsewhere"),
+                ));
             }
         }
         Ok(())
@@ -151,12 +192,15 @@ impl Found {
     /// Dataset 82: nodes that a pen goes through, zero where it is lifted.
     fn trace(&mut self, block: &mut Block) -> Result<(), FileError> {
         while !block.is_done() {
-            let mut left = block.integers("number, count of nodes and color of a trace line", 3)?[1];
+            let mut left =
+                block.integers("number, count of nodes and color of a trace line", 3)?[1];
             block.line("the name of a trace line")?;
             let mut pen = 0;
             while left > 0 {
                 for node in block.integers("nodes of a trace line, eight to a line", left.min(8))? {
-                    self.data.lines.extend(Some([pen, node]).filter(|ends| !ends.contains(&0)));
+                    self.data
+                        .lines
+                        .extend(Some([pen, node]).filter(|ends| !ends.contains(&0)));
                     (pen, left) = (node, left - 1);
                 }
             }
@@ -168,25 +212,46 @@ impl Found {
     fn units(&mut self, block: &mut Block) -> Result<(), FileError> {
         let line = block.line("the code of a system of units and its description")?;
         let words: String = line.chars().skip(INTEGER).take(20).collect();
-        self.data.units = Some(if words.trim().is_empty() { line } else { &words }.trim().to_owned());
-        block.reals("three factors of units", &[LONG_REAL; 3]).map(drop)
+        self.data.units = Some(
+            if words.trim().is_empty() {
+                line
+            } else {
+                &words
+            }
+            .trim()
+            .to_owned(),
+        );
+        block
+            .reals("three factors of units", &[LONG_REAL; 3])
+            .map(drop)
     }
 
     /// Dataset 55, if it is a mode.
     fn mode(&mut self, block: &mut Block) -> Result<(), FileError> {
         (0..5).try_for_each(|_| block.line("five lines of identification").map(drop))?;
         let codes = block.integers("six codes of a dataset 55", 6)?;
-        let [analysis, characteristic, specific, data_type, count] = [1, 2, 3, 4, 5].map(|place| codes[place]);
-        if ![2, 3, 7].contains(&analysis) || ![2, 3].contains(&characteristic) || !SHAPES.contains(&specific) {
+        let [analysis, characteristic, specific, data_type, count] =
+            [1, 2, 3, 4, 5].map(|place| codes[place]);
+        if ![2, 3, 7].contains(&analysis)
+            || ![2, 3].contains(&characteristic)
+            || !SHAPES.contains(&specific)
+        {
             self.data.skipped.push(55);
             return Ok(());
         }
         if count != 3 * (characteristic - 1) || ![2, 5].contains(&data_type) {
-            let found = format!("characteristic {characteristic}, {count} values of type {data_type}");
-            return Err(block.wrong("a mode with three or six values a node, real (2) or complex (5)", found));
+            let found =
+                format!("characteristic {characteristic}, {count} values of type {data_type}");
+            return Err(block.wrong(
+                "a mode with three or six values a node, real (2) or complex (5)",
+                found,
+            ));
         }
         block.line("integers that describe a mode")?;
-        let root = block.reals("a frequency, or a complex eigenvalue", &VALUES[..if analysis == 2 { 1 } else { 2 }])?;
+        let root = block.reals(
+            "a frequency, or a complex eigenvalue",
+            &VALUES[..if analysis == 2 { 1 } else { 2 }],
+        )?;
         let frequency = match root[..] {
             [_, imaginary] if imaginary < 0.0 => return Ok(()),
             [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
@@ -209,7 +274,9 @@ impl Found {
             for (direction, value) in values.chunks(parts).enumerate() {
                 let value = Complex::new(value[0], value.get(1).copied().unwrap_or(0.0)) / divisor;
                 if shape.insert((node, direction), value).is_some() {
-                    return Err(block.wrong("each node once in a mode", format!("node {node} again")));
+                    return Err(
+                        block.wrong("each node once in a mode", format!("node {node} again"))
+                    );
                 }
             }
         }
@@ -220,27 +287,68 @@ impl Found {
     }
 
     fn into_data(mut self, file: &str) -> Result<TestData, FileError> {
-        let values = self.shapes.iter().flatten().filter(|(_, value)| **value != Complex::default());
-        let keys: Vec<(usize, usize)> = values.map(|(key, _)| *key).collect::<BTreeSet<_>>().into_iter().collect();
-        let value = |row: usize, mode: usize| self.shapes[mode].get(&keys[row]).copied().unwrap_or_default();
+        let values = self
+            .shapes
+            .iter()
+            .flatten()
+            .filter(|(_, value)| **value != Complex::default());
+        let keys: Vec<(usize, usize)> = values
+            .map(|(key, _)| *key)
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect();
+        let value = |row: usize, mode: usize| {
+            self.shapes[mode]
+                .get(&keys[row])
+                .copied()
+                .unwrap_or_default()
+        };
         let shapes = DMatrix::from_fn(keys.len(), self.shapes.len(), value);
         let data = &mut self.data;
-        (data.shapes, data.phase_collinearity) =
-            if self.complex { realize(&shapes)? } else { (shapes.map(|value| value.re), Vec::new()) };
+        (data.shapes, data.phase_collinearity) = if self.complex {
+            realize(&shapes)?
+        } else {
+            (shapes.map(|value| value.re), Vec::new())
+        };
         for (node, direction) in keys {
             let at = self.nodes.get(&node);
             let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
-            let is_other = [of_place, of_motion].iter().flatten().any(|axes| !axes.is_cartesian);
+            let is_other = [of_place, of_motion]
+                .iter()
+                .flatten()
+                .any(|axes| !axes.is_cartesian);
             if let (Some((.., line)), true) = (at, is_other) {
                 let found = "a cylindrical or spherical one";
-                return Err(FileError::line(file, *line, "a node with Cartesian coordinate systems", found));
+                return Err(FileError::line(
+                    file,
+                    *line,
+                    "a node with Cartesian coordinate systems",
+                    found,
+                ));
             }
-            let to_global = |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
+            let to_global =
+                |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
             // What six digits leave beside a global axis is none of a sensor's.
-            let snapped = |component: f64| if component.abs() < ROTATION { 0.0 } else { component };
-            let axis = of_motion.map(|axes| axes.rotation.column(direction % 3).map(snapped).normalize());
-            let (name, place) = (default_name(node, direction), at.map(|(place, ..)| to_global(*place)));
-            data.sensors.push(Sensor { name, grid: Some(node), direction, axis, place });
+            let snapped = |component: f64| {
+                if component.abs() < ROTATION {
+                    0.0
+                } else {
+                    component
+                }
+            };
+            let axis =
+                of_motion.map(|axes| axes.rotation.column(direction % 3).map(snapped).normalize());
+            let (name, place) = (
+                default_name(node, direction),
+                at.map(|(place, ..)| to_global(*place)),
+            );
+            data.sensors.push(Sensor {
+                name,
+                grid: Some(node),
+                direction,
+                axis,
+                place,
+            });
         }
         data.skipped.sort_unstable();
         data.skipped.dedup();

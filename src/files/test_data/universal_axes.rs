@@ -24,21 +24,42 @@ pub(super) type Systems = BTreeMap<usize, Axes>;
 pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     while !block.is_done() {
         let numbers = block.integers("number, type and reference of a coordinate system", 3)?;
-        let global = Axes { is_cartesian: true, origin: Vector3::zeros(), rotation: Matrix3::identity() };
+        let global = Axes {
+            is_cartesian: true,
+            origin: Vector3::zeros(),
+            rotation: Matrix3::identity(),
+        };
         let expected = "a reference that is zero or a Cartesian coordinate system of before";
-        let base = if numbers[2] == 0 { Some(&global) } else { systems.get(&numbers[2]) };
-        let base = *base.filter(|base| base.is_cartesian).ok_or_else(|| block.wrong(expected, numbers[2]))?;
+        let base = if numbers[2] == 0 {
+            Some(&global)
+        } else {
+            systems.get(&numbers[2])
+        };
+        let base = *base
+            .filter(|base| base.is_cartesian)
+            .ok_or_else(|| block.wrong(expected, numbers[2]))?;
         block.line("the name of a coordinate system")?;
         let mut points = block.reals("an origin and a point on the x axis", &VALUES)?;
         points.extend(block.reals("a point in the xz plane", &VALUES[..3])?);
-        let point = |at: usize| base.origin + base.rotation * Vector3::from_column_slice(&points[at..at + 3]);
+        let point = |at: usize| {
+            base.origin + base.rotation * Vector3::from_column_slice(&points[at..at + 3])
+        };
         let (origin, along) = (point(0), |at: usize| point(at) - point(0));
-        let x = along(3).try_normalize(0.0).ok_or_else(|| block.wrong("a point beside the origin", "the origin"))?;
+        let x = along(3)
+            .try_normalize(0.0)
+            .ok_or_else(|| block.wrong("a point beside the origin", "the origin"))?;
         let z = along(6) - x * x.dot(&along(6));
         let z = z.try_normalize(ROTATION * along(6).norm());
         let z = z.ok_or_else(|| block.wrong("a point beside the x axis", "one on it"))?;
         let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
-        systems.insert(numbers[0], Axes { is_cartesian: numbers[1] == 0, origin, rotation });
+        systems.insert(
+            numbers[0],
+            Axes {
+                is_cartesian: numbers[1] == 0,
+                origin,
+                rotation,
+            },
+        );
     }
     Ok(())
 }
@@ -56,7 +77,14 @@ pub(super) fn by_matrices(block: &mut Block, systems: &mut Systems) -> Result<()
         if (rotation.tr_mul(&rotation) - Matrix3::identity()).amax() > ROTATION {
             return Err(block.wrong("three unit vectors at right angles above it", "others"));
         }
-        systems.insert(numbers[0], Axes { is_cartesian: numbers[1] == 0, origin, rotation });
+        systems.insert(
+            numbers[0],
+            Axes {
+                is_cartesian: numbers[1] == 0,
+                origin,
+                rotation,
+            },
+        );
     }
     Ok(())
 }

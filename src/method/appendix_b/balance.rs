@@ -1,7 +1,9 @@
 //! Balance of forces and moments in each test mode (B.1 to B.4), and the rigid-body motions on which they do work.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_shape, check_symmetric, cholesky, finite, pencil_eigen};
+use crate::method::linear_algebra::{
+    check_finite, check_shape, check_symmetric, cholesky, finite, pencil_eigen,
+};
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, Unit, Vector3};
 
@@ -56,17 +58,35 @@ pub fn balance(
     check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
     at_least_one("rigid-body vectors", rigid_body.ncols())?;
-    check_shape("rigid-body vectors", rigid_body, mass.nrows(), rigid_body.ncols())?;
+    check_shape(
+        "rigid-body vectors",
+        rigid_body,
+        mass.nrows(),
+        rigid_body.ncols(),
+    )?;
     check_finite("rigid-body vectors", rigid_body)?;
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
     let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
         .map_err(|error| error.or_dependent("rigid-body vector"))?;
     // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
     let rigid_stiffness = rigid_body.tr_mul(&(stiffness * rigid_body));
-    let (suspension, from_suspension) = pencil_eigen("rigid-body stiffness", &rigid_stiffness, &lower, lower.ncols())?;
+    let (suspension, from_suspension) = pencil_eigen(
+        "rigid-body stiffness",
+        &rigid_stiffness,
+        &lower,
+        lower.ncols(),
+    )?;
     let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
-    if let Some(mode) = raw.omega_squared.iter().position(|omega_squared| stiffest > limit * omega_squared) {
-        return Err(Error::Supported { mode, ratio: stiffest / raw.omega_squared[mode], limit });
+    if let Some(mode) = raw
+        .omega_squared
+        .iter()
+        .position(|omega_squared| stiffest > limit * omega_squared)
+    {
+        return Err(Error::Supported {
+            mode,
+            ratio: stiffest / raw.omega_squared[mode],
+            limit,
+        });
     }
     let motions = rigid_body * &from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
@@ -76,8 +96,13 @@ pub fn balance(
         (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - suspension[k])
     });
     Ok(Balanced {
-        shapes: finite("balanced test mode shapes", &raw.shapes + motions * &amplitudes)?,
-        change: (0..raw.len()).map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt()).collect(),
+        shapes: finite(
+            "balanced test mode shapes",
+            &raw.shapes + motions * &amplitudes,
+        )?,
+        change: (0..raw.len())
+            .map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt())
+            .collect(),
         coefficients: from_suspension * amplitudes,
     })
 }
@@ -139,10 +164,15 @@ impl Motion {
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
 #[doc = include_str!("../../../paper/examples/appendix_b/rigid_body_vectors.md")]
-pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<DMatrix<f64>, Error> {
+pub fn rigid_body_vectors(
+    motions: &[Motion],
+    dofs: &[MeasuringPoint],
+) -> Result<DMatrix<f64>, Error> {
     at_least_one("rigid-body motions", motions.len())?;
     at_least_one("dynamic degrees of freedom", dofs.len())?;
     let displacement = |i: usize, j: usize| motions[j].displacement(dofs[i].position);
-    let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| dofs[i].direction.dot(&displacement(i, j)));
+    let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| {
+        dofs[i].direction.dot(&displacement(i, j))
+    });
     finite("rigid-body vectors", vectors)
 }

@@ -21,7 +21,11 @@ impl Default for MovementLimits {
     /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 %
     /// of frequency, several times what a resonance is measured to.
     fn default() -> Self {
-        Self { balance: 0.10, frequency: 0.02, shape: 0.10 }
+        Self {
+            balance: 0.10,
+            frequency: 0.02,
+            shape: 0.10,
+        }
     }
 }
 
@@ -106,9 +110,17 @@ pub fn examine(
 ) -> Result<Examination, Error> {
     limits.check()?;
     raw.generalized_masses(mass)?;
-    let unmoved = ModeReport { balance: None, movement: None, verdict: ModeVerdict::Kept };
+    let unmoved = ModeReport {
+        balance: None,
+        movement: None,
+        verdict: ModeVerdict::Kept,
+    };
     let (mut balanced, mut reports) = (raw.clone(), vec![unmoved; raw.len()]);
-    if let Supports::Free { stiffness, rigid_body } = supports {
+    if let Supports::Free {
+        stiffness,
+        rigid_body,
+    } = supports
+    {
         let Balanced { shapes, change, .. } = balance(raw, stiffness, mass, rigid_body)?;
         balanced.shapes = shapes;
         for (report, change) in reports.iter_mut().zip(change) {
@@ -118,23 +130,41 @@ pub fn examine(
             }
         }
     }
-    let mut kept: Vec<usize> = (0..raw.len()).filter(|&mode| reports[mode].verdict == ModeVerdict::Kept).collect();
+    let mut kept: Vec<usize> = (0..raw.len())
+        .filter(|&mode| reports[mode].verdict == ModeVerdict::Kept)
+        .collect();
     at_least_one("test modes within the limits", kept.len())?;
     loop {
         let result = orthogonalize(&balanced.select(&kept), mass).map_err(|error| match error {
-            Error::Dependent { what, index } => Error::Dependent { what, index: kept[index] },
+            Error::Dependent { what, index } => Error::Dependent {
+                what,
+                index: kept[index],
+            },
             other => other,
         })?;
         for (&mode, &movement) in kept.iter().zip(&result.movement) {
             reports[mode].movement = Some(movement);
         }
-        if !result.movement.iter().any(|movement| limits.excess(movement) > 1.0) {
-            return Ok(Examination { modes: result.modes, kept, reports });
+        if !result
+            .movement
+            .iter()
+            .any(|movement| limits.excess(movement) > 1.0)
+        {
+            return Ok(Examination {
+                modes: result.modes,
+                kept,
+                reports,
+            });
         }
         let moved = |i: usize| limits.excess(&result.movement[i]);
         let others = |i: usize| (0..kept.len()).filter(move |&j| j != i);
-        let overlaps = |i: usize| -> f64 { others(i).map(|j| result.overlap[(j, i)].powi(2)).sum() };
-        let order = |a: &usize, b: &usize| overlaps(*a).total_cmp(&overlaps(*b)).then(moved(*a).total_cmp(&moved(*b)));
+        let overlaps =
+            |i: usize| -> f64 { others(i).map(|j| result.overlap[(j, i)].powi(2)).sum() };
+        let order = |a: &usize, b: &usize| {
+            overlaps(*a)
+                .total_cmp(&overlaps(*b))
+                .then(moved(*a).total_cmp(&moved(*b)))
+        };
         let deleted = kept.remove((0..kept.len()).max_by(order).unwrap_or(0));
         reports[deleted].verdict = ModeVerdict::NotOrthogonal;
     }

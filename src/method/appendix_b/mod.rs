@@ -16,7 +16,8 @@ mod examine;
 mod orthogonalize;
 
 pub use balance::{
-    ANTISYMMETRIC, Balanced, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, SYMMETRIC, balance, rigid_body_vectors,
+    ANTISYMMETRIC, Balanced, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, SYMMETRIC, balance,
+    rigid_body_vectors,
 };
 pub use examine::{Examination, ModeReport, ModeVerdict, MovementLimits, Supports, examine};
 pub use orthogonalize::{Movement, Orthogonalized, generalized_mass, orthogonalize};

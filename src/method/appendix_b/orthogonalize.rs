@@ -63,17 +63,35 @@ pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalize
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;
     let mut overlap = symmetric_part(&generalized_mass(&unit, mass)?);
-    overlap.iter_mut().filter(|entry| entry.abs() < OVERLAP_ROUND_OFF).for_each(|entry| *entry = 0.0);
-    cholesky("overlap of the test shapes", &overlap, SMALLEST_INDEPENDENT_PART)
-        .map_err(|error| error.or_dependent("test mode"))?;
-    let combined = solve(&DMatrix::from_diagonal(&raw.omega_squared), &overlap, raw.len())?;
+    overlap
+        .iter_mut()
+        .filter(|entry| entry.abs() < OVERLAP_ROUND_OFF)
+        .for_each(|entry| *entry = 0.0);
+    cholesky(
+        "overlap of the test shapes",
+        &overlap,
+        SMALLEST_INDEPENDENT_PART,
+    )
+    .map_err(|error| error.or_dependent("test mode"))?;
+    let combined = solve(
+        &DMatrix::from_diagonal(&raw.omega_squared),
+        &overlap,
+        raw.len(),
+    )?;
     let combined = paired(&combined, &pair_modes(&combined.shapes.tr_mul(&overlap))?)?;
-    let modes = ModeSet { shapes: &unit * combined.shapes, omega_squared: combined.omega_squared };
+    let modes = ModeSet {
+        shapes: &unit * combined.shapes,
+        omega_squared: combined.omega_squared,
+    };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;
     let movement = |mode: usize| Movement {
         frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
         shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
     };
-    Ok(Orthogonalized { movement: (0..raw.len()).map(movement).collect(), modes, overlap })
+    Ok(Orthogonalized {
+        movement: (0..raw.len()).map(movement).collect(),
+        modes,
+        overlap,
+    })
 }

@@ -34,7 +34,11 @@ pub struct CloseRootsSettings {
 impl Default for CloseRootsSettings {
     /// Roots within 10 % (5 % in frequency) form a block; roots converged to 1e-13, 60 orders at most.
     fn default() -> Self {
-        Self { separation: 0.1, tolerance: 1e-13, orders: 60 }
+        Self {
+            separation: 0.1,
+            tolerance: 1e-13,
+            orders: 60,
+        }
     }
 }
 
@@ -59,10 +63,22 @@ pub struct SolvedInBlocks {
 /// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
 #[doc = include_str!("../../../paper/examples/appendix_c/close_roots.md")]
-pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> Result<SolvedInBlocks, Error> {
-    let CloseRootsSettings { separation, tolerance, orders } = settings;
+pub fn close_roots(
+    change: &ModalChange<f64>,
+    settings: CloseRootsSettings,
+) -> Result<SolvedInBlocks, Error> {
+    let CloseRootsSettings {
+        separation,
+        tolerance,
+        orders,
+    } = settings;
     check_order(orders)?;
-    setting("separation", "between 0 and 1", separation, (0.0..=1.0).contains(&separation))?;
+    setting(
+        "separation",
+        "between 0 and 1",
+        separation,
+        (0.0..=1.0).contains(&separation),
+    )?;
     let pencil = change.pencil()?;
     check_symmetric("generalized stiffness change", &change.beta)?;
     check_symmetric("generalized mass change", &change.alpha)?;
@@ -89,7 +105,10 @@ pub fn close_roots(change: &ModalChange<f64>, settings: CloseRootsSettings) -> R
     apply_sign_rule(&mut solved.shapes);
     settled.perturbed = solved;
     blocks.retain(|block| block.len() > 1);
-    Ok(SolvedInBlocks { settled: settled.check(tolerance, orders)?, blocks })
+    Ok(SolvedInBlocks {
+        settled: settled.check(tolerance, orders)?,
+        blocks,
+    })
 }
 
 /// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and $P$ outside blocks with the identity within.
@@ -99,9 +118,14 @@ fn recursion(
     settings: CloseRootsSettings,
 ) -> Result<Settled, Error> {
     let size = mass.nrows();
-    let together = |i: usize, j: usize| blocks.iter().any(|block| block.contains(&i) && block.contains(&j));
-    let coupling =
-        |matrix: &DMatrix<f64>| matrix.map_with_location(|i, j, entry| if together(i, j) { 0.0 } else { entry });
+    let together = |i: usize, j: usize| {
+        blocks
+            .iter()
+            .any(|block| block.contains(&i) && block.contains(&j))
+    };
+    let coupling = |matrix: &DMatrix<f64>| {
+        matrix.map_with_location(|i, j, entry| if together(i, j) { 0.0 } else { entry })
+    };
     let (stiffness_coupling, mass_coupling) = (coupling(stiffness), coupling(mass));
     // Γ of all blocks in one matrix, zero outside of blocks.
     let mut gamma = DMatrix::from_diagonal(&mass.diagonal().component_div(&stiffness.diagonal()));
@@ -121,14 +145,24 @@ fn recursion(
             let roots = within(&gamma);
             for i in (0..size).filter(|i| !block.contains(i)) {
                 let own = stiffness[(i, i)] * &roots;
-                let own_mass = DMatrix::from_diagonal_element(block.len(), block.len(), mass[(i, i)]);
+                let own_mass =
+                    DMatrix::from_diagonal_element(block.len(), block.len(), mass[(i, i)]);
                 let inverse = (&own - own_mass).try_inverse();
-                let separation = inverse.as_ref().map_or(0.0, |inverse| 1.0 / (own.amax() * inverse.amax()));
+                let separation = inverse
+                    .as_ref()
+                    .map_or(0.0, |inverse| 1.0 / (own.amax() * inverse.amax()));
                 let Some(inverse) = inverse.filter(|_| separation > SMALLEST_SEPARATION) else {
-                    return Err(Error::CoalescingModes { first: i, second: block[0], separation });
+                    return Err(Error::CoalescingModes {
+                        first: i,
+                        second: block[0],
+                        separation,
+                    });
                 };
                 let row = -sums.select_rows([&i]).select_columns(block) * inverse;
-                block.iter().zip(row.iter()).for_each(|(&mode, &entry)| shapes[(i, mode)] = entry);
+                block
+                    .iter()
+                    .zip(row.iter())
+                    .for_each(|(&mode, &entry)| shapes[(i, mode)] = entry);
             }
             change = change.max((within(&next) - &roots).amax() / roots.amax());
         }
@@ -137,10 +171,21 @@ fn recursion(
         // The first order makes the shapes and leaves the roots alone: its sums hold nothing of them yet.
         if order > 1 {
             last_change = change;
-            quiet_orders = if change < settings.tolerance { quiet_orders + 1 } else { 0 };
+            quiet_orders = if change < settings.tolerance {
+                quiet_orders + 1
+            } else {
+                0
+            };
         }
     }
-    Ok(Settled { perturbed: Perturbed { roots: gamma.diagonal(), shapes }, order, last_change })
+    Ok(Settled {
+        perturbed: Perturbed {
+            roots: gamma.diagonal(),
+            shapes,
+        },
+        order,
+        last_change,
+    })
 }
 
 /// Joins blocks that hold neighboring roots closer than `separation` of the larger; whether there were any.
@@ -153,7 +198,8 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
     for neighbors in ascending.windows(2) {
         let (smaller, larger) = (neighbors[0], neighbors[1]);
         if roots[larger] - roots[smaller] < separation * roots[larger] {
-            let is_joined = |block: &Vec<usize>| block.contains(&smaller) || block.contains(&larger);
+            let is_joined =
+                |block: &Vec<usize>| block.contains(&smaller) || block.contains(&larger);
             let (joined, apart): (Vec<_>, Vec<_>) = blocks.drain(..).partition(is_joined);
             *blocks = apart;
             blocks.push(joined.concat());
@@ -166,21 +212,35 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
 
 /// Roots and modes of every block's own symmetric pencil within the span of its columns of `shapes`: combinations of
 /// those columns, ascending in frequency and of unit generalized mass.
-fn solve_in(blocks: &[Vec<usize>], (stiffness, mass): &Pencil<f64>, shapes: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    let mut solved = Perturbed { roots: DVector::zeros(shapes.ncols()), shapes: shapes.clone() };
+fn solve_in(
+    blocks: &[Vec<usize>],
+    (stiffness, mass): &Pencil<f64>,
+    shapes: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
+    let mut solved = Perturbed {
+        roots: DVector::zeros(shapes.ncols()),
+        shapes: shapes.clone(),
+    };
     for block in blocks {
         let span = shapes.select_columns(block);
         let within = |matrix: &DMatrix<f64>| symmetric_part(&span.tr_mul(&(matrix * &span)));
-        let modes = solve(&within(stiffness), &within(mass), block.len()).map_err(|error| match error {
-            Error::NotAVibration { mode, value } => Error::LostRoot { mode: block[mode], value: value.recip() },
-            Error::NotPositiveDefinite { dof, .. } => {
-                Error::NotPositiveDefinite { what: "changed generalized mass", dof: block[dof] }
-            }
-            other => other,
-        })?;
+        let modes =
+            solve(&within(stiffness), &within(mass), block.len()).map_err(|error| match error {
+                Error::NotAVibration { mode, value } => Error::LostRoot {
+                    mode: block[mode],
+                    value: value.recip(),
+                },
+                Error::NotPositiveDefinite { dof, .. } => Error::NotPositiveDefinite {
+                    what: "changed generalized mass",
+                    dof: block[dof],
+                },
+                other => other,
+            })?;
         for (column, &mode) in block.iter().enumerate() {
             solved.roots[mode] = modes.omega_squared[column].recip();
-            solved.shapes.set_column(mode, &(&span * modes.shapes.column(column)));
+            solved
+                .shapes
+                .set_column(mode, &(&span * modes.shapes.column(column)));
         }
     }
     Ok(solved)

@@ -54,8 +54,16 @@ pub struct Perturbed<T = f64> {
 impl Perturbed {
     /// Refuses roots that are not positive and finite.
     pub(crate) fn check_roots(&self) -> Result<(), Error> {
-        let lost = self.roots.iter().position(|&root| !(root > 0.0 && root.is_finite()));
-        lost.map_or(Ok(()), |mode| Err(Error::LostRoot { mode, value: self.roots[mode] }))
+        let lost = self
+            .roots
+            .iter()
+            .position(|&root| !(root > 0.0 && root.is_finite()));
+        lost.map_or(Ok(()), |mode| {
+            Err(Error::LostRoot {
+                mode,
+                value: self.roots[mode],
+            })
+        })
     }
 }
 
@@ -77,7 +85,11 @@ impl<T: Number> Settled<T> {
         let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), self.last_change);
         // A change that is no number has not settled either.
         if last_change.is_nan() || last_change > largest {
-            return Err(Error::UnsettledRoots { largest, orders, last_change });
+            return Err(Error::UnsettledRoots {
+                largest,
+                orders,
+                last_change,
+            });
         }
         let Perturbed { roots, shapes } = &self.perturbed;
         for (second, shape) in shapes.column_iter().enumerate() {
@@ -85,7 +97,11 @@ impl<T: Number> Settled<T> {
                 let cosine = other.dotc(&shape).modulus() / (other.norm() * shape.norm());
                 let separation = (roots[second] / roots[first] - T::one()).modulus();
                 if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
-                    return Err(Error::CoalescingModes { first, second, separation });
+                    return Err(Error::CoalescingModes {
+                        first,
+                        second,
+                        separation,
+                    });
                 }
             }
         }
@@ -112,11 +128,18 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     for (j, mut shape) in continued.shapes.column_iter_mut().enumerate() {
         let own = shape[j];
         if own.abs() < SMALLEST_SEPARATION {
-            return Err(Error::CoalescingModes { first: j, second: j, separation: own.abs() });
+            return Err(Error::CoalescingModes {
+                first: j,
+                second: j,
+                separation: own.abs(),
+            });
         }
         shape /= own;
     }
-    let found = Perturbed { roots: continued.omega_squared.map(f64::recip), shapes: continued.shapes };
+    let found = Perturbed {
+        roots: continued.omega_squared.map(f64::recip),
+        shapes: continued.shapes,
+    };
     found.check_roots().map(|()| found)
 }
 
@@ -128,10 +151,19 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
 /// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
 #[doc = include_str!("../../../paper/examples/appendix_c/normalize_with_mass.md")]
 pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
-    check_shape("generalized mass change", alpha, shapes.nrows(), shapes.nrows())?;
+    check_shape(
+        "generalized mass change",
+        alpha,
+        shapes.nrows(),
+        shapes.nrows(),
+    )?;
     for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
         let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
-        positive("changed generalized mass", || format!("mode {mode} (from zero)"), mass)?;
+        positive(
+            "changed generalized mass",
+            || format!("mode {mode} (from zero)"),
+            mass,
+        )?;
         shape /= mass.sqrt();
     }
     Ok(())

@@ -21,11 +21,17 @@ use nalgebra::{DMatrix, DVector};
 /// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
 /// [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
 #[doc = include_str!("../../../paper/examples/appendix_c/first_order.md")]
-pub fn first_order(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
+pub fn first_order(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
     check_input(generalized_stiffness, beta)?;
     let size = generalized_stiffness.len();
     let roots = (generalized_stiffness + beta.diagonal()).map(f64::recip);
-    let mut now = Perturbed { roots, shapes: DMatrix::identity(size, size) };
+    let mut now = Perturbed {
+        roots,
+        shapes: DMatrix::identity(size, size),
+    };
     now.check_roots()?;
     update_shapes(generalized_stiffness, beta, beta, &mut now)?;
     Ok(now)
@@ -67,7 +73,12 @@ pub fn recursive_1_converged(
     settle(generalized_stiffness, beta, tolerance, orders)?.check(tolerance, orders)
 }
 
-fn settle(k: &DVector<f64>, beta: &DMatrix<f64>, tolerance: f64, orders: usize) -> Result<Settled, Error> {
+fn settle(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    tolerance: f64,
+    orders: usize,
+) -> Result<Settled, Error> {
     check_order(orders)?;
     let mut now = first_order(k, beta)?;
     let mut coupling = beta.clone();
@@ -81,19 +92,29 @@ fn settle(k: &DVector<f64>, beta: &DMatrix<f64>, tolerance: f64, orders: usize) 
         last_change = 0.0;
         for (j, gamma) in now.roots.iter_mut().enumerate() {
             let lambda = 1.0 / k[j];
-            let root = lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+            let root =
+                lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
             last_change = (root / *gamma - 1.0).abs().max(last_change);
             *gamma = root;
         }
         now.check_roots()?;
         order += 1;
     }
-    Ok(Settled { perturbed: now, order, last_change })
+    Ok(Settled {
+        perturbed: now,
+        order,
+        last_change,
+    })
 }
 
 /// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
 /// where nothing couples the modes, refused where something does and the denominator vanishes.
-fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now: &mut Perturbed) -> Result<(), Error> {
+fn update_shapes(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    sums: &DMatrix<f64>,
+    now: &mut Perturbed,
+) -> Result<(), Error> {
     for j in 0..k.len() {
         for i in (0..k.len()).filter(|&i| i != j) {
             let own = k[i] + beta[(i, i)];
@@ -103,7 +124,11 @@ fn update_shapes(k: &DVector<f64>, beta: &DMatrix<f64>, sums: &DMatrix<f64>, now
             } else if difference.abs() > SMALLEST_SEPARATION * own {
                 -sums[(i, j)] / difference
             } else {
-                return Err(Error::CoalescingModes { first: i, second: j, separation: (difference / own).abs() });
+                return Err(Error::CoalescingModes {
+                    first: i,
+                    second: j,
+                    separation: (difference / own).abs(),
+                });
             };
         }
     }
@@ -119,8 +144,14 @@ pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), E
     at_least_one("modes", k.len())?;
     check_shape("generalized stiffness change", beta, k.len(), k.len())?;
     check_finite("generalized stiffness change", beta)?;
-    match k.iter().position(|&value| value <= 0.0 || !value.is_finite()) {
+    match k
+        .iter()
+        .position(|&value| value <= 0.0 || !value.is_finite())
+    {
         None => Ok(()),
-        Some(mode) => Err(Error::NotAVibration { mode, value: k[mode] }),
+        Some(mode) => Err(Error::NotAVibration {
+            mode,
+            value: k[mode],
+        }),
     }
 }

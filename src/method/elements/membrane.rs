@@ -37,10 +37,18 @@ pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatr
             strain[(2, 3 * n + axis)] = dy * i[axis] + dx * j[axis];
         }
     }
-    let Material { youngs_modulus, poissons_ratio: nu, shear_modulus, .. } = *material;
+    let Material {
+        youngs_modulus,
+        poissons_ratio: nu,
+        shear_modulus,
+        ..
+    } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
-    finite("element stiffness", area * strain.transpose() * (elasticity * &strain))
+    finite(
+        "element stiffness",
+        area * strain.transpose() * (elasticity * &strain),
+    )
 }
 
 /// The four triangles of a quadrilateral 1-2-3-4; each of its two diagonals splits it once.

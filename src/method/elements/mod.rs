@@ -20,13 +20,20 @@ use nalgebra::{DMatrix, DVector, Vector3};
 /// # Errors
 /// [`Error::WrongCornerCount`], and those of the element's own function.
 #[doc = include_str!("../../../paper/examples/elements/unit_stiffness.md")]
-pub fn unit_stiffness(kind: ElementKind, corners: &[Vector3<f64>], material: &Material) -> Result<DMatrix<f64>, Error> {
+pub fn unit_stiffness(
+    kind: ElementKind,
+    corners: &[Vector3<f64>],
+    material: &Material,
+) -> Result<DMatrix<f64>, Error> {
     match (kind, corners) {
         (ElementKind::Rod, &[a, b]) => rod([a, b], material.youngs_modulus),
         (ElementKind::Triangle, &[a, b, c]) => membrane::triangle([a, b, c], material),
         (ElementKind::ShearPanel, &[a, b, c, d]) => shear::shear_panel(&[a, b, c, d], material),
         (ElementKind::Membrane, &[a, b, c, d]) => membrane::membrane(&[a, b, c, d], material),
-        _ => Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
+        _ => Err(Error::WrongCornerCount {
+            expected: kind.corner_count(),
+            found: corners.len(),
+        }),
     }
 }
 
@@ -49,7 +56,10 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
     }
     let n = along / length;
     let b = DVector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
-    finite("element stiffness", (youngs_modulus / length) * &b * b.transpose())
+    finite(
+        "element stiffness",
+        (youngs_modulus / length) * &b * b.transpose(),
+    )
 }
 
 /// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
@@ -66,16 +76,30 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind; [`Error::NotFinite`].
 #[doc = include_str!("../../../paper/examples/elements/corner_volumes.md")]
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
-    let triangle = |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
+    let triangle =
+        |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();
     let volumes = match (kind, corners) {
         (ElementKind::Rod, [a, b]) => vec![0.5 * (b - a).norm(); 2],
         (ElementKind::Triangle, [a, b, c]) => vec![triangle(a, b, c) / 3.0; 3],
         (ElementKind::ShearPanel | ElementKind::Membrane, [a, b, c, d]) => {
-            let at_corner: [f64; 4] = [triangle(d, a, b), triangle(a, b, c), triangle(b, c, d), triangle(c, d, a)];
+            let at_corner: [f64; 4] = [
+                triangle(d, a, b),
+                triangle(a, b, c),
+                triangle(b, c, d),
+                triangle(c, d, a),
+            ];
             let area = 0.5 * (c - a).cross(&(d - b)).norm();
-            at_corner.iter().map(|corner| (area + corner) / 6.0).collect()
+            at_corner
+                .iter()
+                .map(|corner| (area + corner) / 6.0)
+                .collect()
         }
-        _ => return Err(Error::WrongCornerCount { expected: kind.corner_count(), found: corners.len() }),
+        _ => {
+            return Err(Error::WrongCornerCount {
+                expected: kind.corner_count(),
+                found: corners.len(),
+            });
+        }
     };
     finite_list("element volumes", volumes)
 }

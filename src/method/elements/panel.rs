@@ -48,12 +48,19 @@ pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
         let from_first = corner - corners[0];
         Vector2::new(from_first.dot(&i), from_first.dot(&j))
     });
-    Ok(MeanPlane { corners: flat, diagonals: [d13, d24], area })
+    Ok(MeanPlane {
+        corners: flat,
+        diagonals: [d13, d24],
+        area,
+    })
 }
 
 /// Unit normal and area of a triangle or panel from a normal of twice its area's length, unless the area vanishes beside the square
 /// of `longest`, its longest side or diagonal.
-pub(crate) fn normal_and_area(normal: Vector3<f64>, longest: f64) -> Result<(Vector3<f64>, f64), Error> {
+pub(crate) fn normal_and_area(
+    normal: Vector3<f64>,
+    longest: f64,
+) -> Result<(Vector3<f64>, f64), Error> {
     let area = 0.5 * normal.norm();
     let ratio = area / (longest * longest);
     if ratio > SMALLEST_AREA_RATIO {

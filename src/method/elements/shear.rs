@@ -21,10 +21,16 @@ const QUADRATURE_POINTS: usize = 12;
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
 #[doc = include_str!("../../../paper/examples/elements/shear_panel.md")]
-pub fn shear_panel(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
+pub fn shear_panel(
+    corners: &[Vector3<f64>; 4],
+    material: &Material,
+) -> Result<DMatrix<f64>, Error> {
     let plane = mean_plane(corners)?;
     let a = corner_forces(&plane);
-    finite("element stiffness", (0.5 / energy_coefficient(&plane, material)) * &a * a.transpose())
+    finite(
+        "element stiffness",
+        (0.5 / energy_coefficient(&plane, material)) * &a * a.transpose(),
+    )
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.
@@ -121,7 +127,10 @@ fn legendre(n: usize, s: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, s);
     for m in 2..=n {
         let m = m as f64;
-        (before, value) = (value, ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m);
+        (before, value) = (
+            value,
+            ((2.0 * m - 1.0) * s * value - (m - 1.0) * before) / m,
+        );
     }
     (value, n as f64 * (s * value - before) / (s * s - 1.0))
 }

@@ -8,12 +8,15 @@ pub use plan::FactorizationPlan;
 use crate::method::assembly::{ElementMatrix, check_elements, dense_stiffness};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    add_squares, check_finite, check_length, check_shape, check_solution, cholesky, finite, start_vector,
+    add_squares, check_finite, check_length, check_shape, check_solution, cholesky, finite,
+    start_vector,
 };
 use crate::method::load_distribution::LoadDistribution;
 use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
 use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
 use faer::{Accum, MatMut, MatRef, Par};
@@ -56,9 +59,18 @@ impl FactorizedStiffness {
     /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
     /// factor does not solve its own matrix.
     #[doc = include_str!("../../../paper/examples/factorization/new.md")]
-    pub fn new(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<Self, Error> {
+    pub fn new(
+        elements: &[ElementMatrix],
+        sizes: &[f64],
+        free: &[StructuralDof],
+    ) -> Result<Self, Error> {
         check_sizes(elements, sizes, free)?;
-        Self::planned(&Arc::new(FactorizationPlan::of(elements, free, |_| Vector3::zeros())?), elements, sizes, free)
+        Self::planned(
+            &Arc::new(FactorizationPlan::of(elements, free, |_| Vector3::zeros())?),
+            elements,
+            sizes,
+            free,
+        )
     }
 
     /// The same by a plan that was made for these elements.
@@ -74,14 +86,22 @@ impl FactorizedStiffness {
     ) -> Result<Self, Error> {
         check_sizes(elements, sizes, free)?;
         let count = free.len();
-        check_length("degrees of freedom of the plan", plan.pattern.ncols(), count)?;
+        check_length(
+            "degrees of freedom of the plan",
+            plan.pattern.ncols(),
+            count,
+        )?;
         if plan.fingerprint != fingerprint(elements) {
             check_length("elements of the plan", 0, elements.len())?;
         }
         let mut entries = plan.assembled(elements, sizes);
         let singular = |dof: usize, ratio| {
             let StructuralDof { grid, direction } = free[dof];
-            Err(Error::SingularStiffness { grid, direction: *DIRECTIONS.get(direction).unwrap_or(&'?'), ratio })
+            Err(Error::SingularStiffness {
+                grid,
+                direction: *DIRECTIONS.get(direction).unwrap_or(&'?'),
+                ratio,
+            })
         };
         let diagonal = &plan.pattern.col_ptr()[..count];
         if let Some(dof) = (0..count).find(|&dof| entries[diagonal[plan.turn[dof]]] <= 0.0) {
@@ -93,25 +113,46 @@ impl FactorizedStiffness {
         // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
         for shift in [0.0, SINGULAR_SHIFT] {
             diagonal.iter().for_each(|&place| entries[place] += shift);
-            let (values, true) = plan.factor(&entries, true)? else { continue };
-            let factor = Self { plan: Arc::clone(plan), scale: DVector::from_element(count, 1.0), values };
+            let (values, true) = plan.factor(&entries, true)? else {
+                continue;
+            };
+            let factor = Self {
+                plan: Arc::clone(plan),
+                scale: DVector::from_element(count, 1.0),
+                values,
+            };
             let times = |x: &DVector<f64>| plan.times(&entries, x);
             // The first step toward the weakest motion and the check pass through the factor together.
-            let both = factor.solved(DMatrix::from_rows(&[start.transpose(), times(&start).transpose()]));
+            let both = factor.solved(DMatrix::from_rows(&[
+                start.transpose(),
+                times(&start).transpose(),
+            ]));
             // Of a stiffness that had to be shifted the free motion is wanted, which takes every iteration.
-            let enough = if shift == 0.0 { CLEARLY_HELD * round_off } else { f64::INFINITY };
+            let enough = if shift == 0.0 {
+                CLEARLY_HELD * round_off
+            } else {
+                f64::INFINITY
+            };
             let (smallest, motion) = factor.weakest_motion(both.rows(0, 1).into_owned(), enough);
             if shift == 0.0 && smallest > round_off {
-                check_solution("structural stiffness", times, |_| both.row(1).transpose(), &start)?;
+                check_solution(
+                    "structural stiffness",
+                    times,
+                    |_| both.row(1).transpose(),
+                    &start,
+                )?;
                 return Ok(Self { scale, ..factor });
             }
             let moved = |dof: usize| (motion[plan.turn[dof]] * scale[plan.turn[dof]]).abs();
             // Of equal ones the first.
-            let most = (0..count).rev().max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
+            let most = (0..count)
+                .rev()
+                .max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
             return singular(most.unwrap_or(0), smallest - shift);
         }
         let what = "structural stiffness";
-        cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0).and(Err(Error::NoConvergence(what)))
+        cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0)
+            .and(Err(Error::NoConvergence(what)))
     }
 
     /// Deflections $q_S = K_S^{-1} Q_S$ (A.2) for every column of `loads` (lbf); inches.
@@ -122,7 +163,8 @@ impl FactorizedStiffness {
     pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", loads, self.scale.len(), loads.ncols())?;
         check_finite("loads", loads)?;
-        self.solve_transposed(loads).map(|deflections| deflections.transpose())
+        self.solve_transposed(loads)
+            .map(|deflections| deflections.transpose())
     }
 
     /// The same transposed (m × free SDOF), so that the deflections of one DOF lie together.
@@ -136,7 +178,8 @@ impl FactorizedStiffness {
         }
         self.forward(&mut rows, &mut is_reached);
         self.backward(&mut rows, count);
-        let at = |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
+        let at =
+            |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
         finite("deflections", DMatrix::from_fn(count, loads.nrows(), at))
     }
 
@@ -150,9 +193,16 @@ impl FactorizedStiffness {
     /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
     #[doc = include_str!("../../../paper/examples/factorization/flexibility.md")]
     pub fn flexibility(&self, load_distribution: &LoadDistribution) -> Result<DMatrix<f64>, Error> {
-        check_length("load distribution", load_distribution.rows(), self.scale.len())?;
+        check_length(
+            "load distribution",
+            load_distribution.rows(),
+            self.scale.len(),
+        )?;
         let count = load_distribution.columns().len();
-        let (mut rows, mut is_reached) = (vec![0.0; self.scale.len() * count], vec![false; self.scale.len()]);
+        let (mut rows, mut is_reached) = (
+            vec![0.0; self.scale.len() * count],
+            vec![false; self.scale.len()],
+        );
         for (column, terms) in load_distribution.columns().iter().enumerate() {
             for &(dof, coefficient) in terms {
                 let turn = self.plan.turn[dof];
@@ -162,8 +212,10 @@ impl FactorizedStiffness {
         }
         self.forward(&mut rows, &mut is_reached);
         let mut sum = DMatrix::zeros(count, count);
-        for (rows, _) in
-            rows.chunks(PANEL * count).zip(is_reached.chunks(PANEL)).filter(|(_, reached)| reached.contains(&true))
+        for (rows, _) in rows
+            .chunks(PANEL * count)
+            .zip(is_reached.chunks(PANEL))
+            .filter(|(_, reached)| reached.contains(&true))
         {
             add_squares(&mut sum, rows);
         }
@@ -186,9 +238,21 @@ impl FactorizedStiffness {
             let (diagonal, below) = block.val().split_at_row(block.val().ncols());
             solve_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
             scratch.resize(count * below.nrows(), 0.0);
-            let mut change = MatMut::from_column_major_slice_mut(&mut scratch, count, below.nrows());
-            matmul(change.as_mut(), Accum::Replace, own.as_ref(), below.transpose(), 1.0, Par::Seq);
-            for (&row, change) in block.pattern().iter().zip(scratch.chunks_exact(count.max(1))) {
+            let mut change =
+                MatMut::from_column_major_slice_mut(&mut scratch, count, below.nrows());
+            matmul(
+                change.as_mut(),
+                Accum::Replace,
+                own.as_ref(),
+                below.transpose(),
+                1.0,
+                Par::Seq,
+            );
+            for (&row, change) in block
+                .pattern()
+                .iter()
+                .zip(scratch.chunks_exact(count.max(1)))
+            {
                 is_reached[row] = true;
                 let values = later[(row - end) * count..].iter_mut().zip(change);
                 values.for_each(|(value, change)| *value -= change);
@@ -206,7 +270,10 @@ impl FactorizedStiffness {
             let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
             let (diagonal, below) = block.val().split_at_row(block.val().ncols());
             scratch.clear();
-            block.pattern().iter().for_each(|&row| scratch.extend_from_slice(&later[(row - end) * count..][..count]));
+            block
+                .pattern()
+                .iter()
+                .for_each(|&row| scratch.extend_from_slice(&later[(row - end) * count..][..count]));
             let solved = MatRef::from_column_major_slice(&scratch, count, below.nrows());
             matmul(own.as_mut(), Accum::Add, solved, below, -1.0, Par::Seq);
             solve_upper_triangular_in_place(diagonal.transpose(), own.transpose_mut(), Par::Seq);
@@ -216,10 +283,14 @@ impl FactorizedStiffness {
     /// The factor by blocks of columns with the same rows, which the plan always asks for.
     fn blocks(&self) -> impl DoubleEndedIterator<Item = SupernodeRef<'_, usize, f64>> {
         let factor = match self.plan.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(symbolic) => Some(SupernodalLltRef::new(symbolic, &self.values)),
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                Some(SupernodalLltRef::new(symbolic, &self.values))
+            }
             SymbolicCholeskyRaw::Simplicial(_) => None,
         };
-        factor.into_iter().flat_map(|factor| (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at)))
+        factor.into_iter().flat_map(|factor| {
+            (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at))
+        })
     }
 
     /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
@@ -243,7 +314,11 @@ impl FactorizedStiffness {
 }
 
 /// Refuses sizes that are not positive and a structure without DOF.
-fn check_sizes(elements: &[ElementMatrix], sizes: &[f64], free: &[StructuralDof]) -> Result<(), Error> {
+fn check_sizes(
+    elements: &[ElementMatrix],
+    sizes: &[f64],
+    free: &[StructuralDof],
+) -> Result<(), Error> {
     for (element, &size) in elements.iter().zip(sizes) {
         positive("size", || format!("element {}", element.label), size)?;
     }

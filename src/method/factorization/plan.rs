@@ -9,7 +9,8 @@ use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
@@ -35,7 +36,9 @@ pub struct FactorizationPlan {
 /// A number that other DOF do not have, by the Fowler–Noll–Vo hash.
 pub(super) fn fingerprint(elements: &[ElementMatrix]) -> u64 {
     let (offset, prime) = (0xcbf2_9ce4_8422_2325_u64, 0x0100_0000_01b3);
-    let all = elements.iter().flat_map(|element| element.dof.iter().copied().chain([usize::MAX]));
+    let all = elements
+        .iter()
+        .flat_map(|element| element.dof.iter().copied().chain([usize::MAX]));
     all.fold(offset, |hash, dof| (hash ^ dof as u64).wrapping_mul(prime))
 }
 
@@ -47,7 +50,9 @@ impl FactorizationPlan {
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
     #[doc = include_str!("../../../paper/examples/factorization/plan_new.md")]
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
-        Self::of(elements, structure.free_dof(), |grid| structure.position(grid).unwrap_or_default())
+        Self::of(elements, structure.free_dof(), |grid| {
+            structure.position(grid).unwrap_or_default()
+        })
     }
 
     /// The same with positions of grids, all alike where they are not known.
@@ -59,18 +64,30 @@ impl FactorizationPlan {
         check_elements(elements, &vec![1.0; elements.len()], free.len())?;
         let mut touching = vec![Vec::new(); free.len()];
         for ElementMatrix { dof, .. } in elements {
-            dof.iter().for_each(|&row| touching[row].push(dof.as_slice()));
+            dof.iter()
+                .for_each(|&row| touching[row].push(dof.as_slice()));
         }
-        let plan = Self::of_matrices(free.len(), |row| touching[row].concat(), |row| position(free[row].grid))?;
+        let plan = Self::of_matrices(
+            free.len(),
+            |row| touching[row].concat(),
+            |row| position(free[row].grid),
+        )?;
         let mut places = Vec::new();
         for ElementMatrix { dof, .. } in elements {
             let turns: Vec<usize> = dof.iter().map(|&dof| plan.turn[dof]).collect();
             for (column, &other) in turns.iter().enumerate() {
-                let place = |&turn: &usize| plan.place(turn.max(other), turn.min(other)).map(|place| place as u32);
+                let place = |&turn: &usize| {
+                    plan.place(turn.max(other), turn.min(other))
+                        .map(|place| place as u32)
+                };
                 places.extend(turns[column..].iter().filter_map(place));
             }
         }
-        Ok(Self { places, fingerprint: fingerprint(elements), ..plan })
+        Ok(Self {
+            places,
+            fingerprint: fingerprint(elements),
+            ..plan
+        })
     }
 
     /// The plan for symmetric matrices that couple every row to those listed, which have a position each. Neighbors coupled to the same
@@ -91,27 +108,52 @@ impl FactorizationPlan {
         };
         let columns: Vec<Vec<usize>> = (0..count).map(column).collect();
         let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
-        let point_of: Vec<usize> = points.iter().enumerate().flat_map(|(point, of)| vec![point; of.len()]).collect();
+        let point_of: Vec<usize> = points
+            .iter()
+            .enumerate()
+            .flat_map(|(point, of)| vec![point; of.len()])
+            .collect();
         let first_row = |point: usize| point_of.partition_point(|&other| other < point);
         let near = |of: &&[Vec<usize>]| {
             let mut near: Vec<usize> = of[0].iter().map(|&row| point_of[row]).collect();
             near.dedup();
             near
         };
-        let places = (0..points.len()).map(|point| position(first_row(point))).collect();
-        let order = Mesh { points: places, near: points.iter().map(near).collect() }.nested_dissection().into_iter();
-        let order: Vec<usize> = order.flat_map(|point| first_row(point)..first_row(point + 1)).collect();
+        let places = (0..points.len())
+            .map(|point| position(first_row(point)))
+            .collect();
+        let order = Mesh {
+            points: places,
+            near: points.iter().map(near).collect(),
+        }
+        .nested_dissection()
+        .into_iter();
+        let order: Vec<usize> = order
+            .flat_map(|point| first_row(point)..first_row(point + 1))
+            .collect();
         let mut turn = vec![0; count];
-        order.iter().enumerate().for_each(|(place, &dof)| turn[dof] = place);
+        order
+            .iter()
+            .enumerate()
+            .for_each(|(place, &dof)| turn[dof] = place);
         let (mut column_starts, mut rows) = (vec![0], Vec::new());
         for (column, &dof) in order.iter().enumerate() {
-            rows.extend(columns[dof].iter().map(|&row| turn[row]).filter(|&row| row >= column));
+            rows.extend(
+                columns[dof]
+                    .iter()
+                    .map(|&row| turn[row])
+                    .filter(|&row| row >= column),
+            );
             rows[column_starts[column]..].sort_unstable();
             column_starts.push(rows.len());
         }
         let available = u32::MAX as usize;
         if rows.len() > available {
-            return Err(Error::TooMany { what: "entries of the stiffness", available, requested: rows.len() });
+            return Err(Error::TooMany {
+                what: "entries of the stiffness",
+                available,
+                requested: rows.len(),
+            });
         }
         let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
         let parameters = CholeskySymbolicParams {
@@ -120,17 +162,34 @@ impl FactorizationPlan {
         };
         let failed = |_| Error::NoConvergence("sparse assembly");
         // In the order given the library reads the upper triangle here, and the lower one when it factorizes.
-        let upper = pattern.as_ref().transpose().to_col_major().map_err(failed)?;
-        let symbolic =
-            factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters);
+        let upper = pattern
+            .as_ref()
+            .transpose()
+            .to_col_major()
+            .map_err(failed)?;
+        let symbolic = factorize_symbolic_cholesky(
+            upper.as_ref(),
+            Side::Upper,
+            SymmetricOrdering::Identity,
+            parameters,
+        );
         let symbolic = symbolic.map_err(failed)?;
-        Ok(Self { order, turn, pattern, places: Vec::new(), symbolic, fingerprint: 0 })
+        Ok(Self {
+            order,
+            turn,
+            pattern,
+            places: Vec::new(),
+            symbolic,
+            fingerprint: 0,
+        })
     }
 
     /// Where an entry of the lower triangle stands among all, counted in the order of elimination.
     fn place(&self, row: usize, column: usize) -> Option<usize> {
         let (rows, range) = self.column(column);
-        rows.binary_search(&row).ok().map(|place| range.start + place)
+        rows.binary_search(&row)
+            .ok()
+            .map(|place| range.start + place)
     }
 
     /// How many numbers the factor holds.
@@ -143,11 +202,22 @@ impl FactorizationPlan {
     /// columns.
     #[doc = include_str!("../../../paper/examples/factorization/plan_factor_operations.md")]
     pub fn factor_operations(&self) -> f64 {
-        let SymbolicCholeskyRaw::Supernodal(blocks) = self.symbolic.raw() else { return 0.0 };
-        let widths = blocks.supernode_begin().iter().zip(blocks.supernode_end()).map(|(begin, end)| end - begin);
-        let blocks =
-            widths.zip(blocks.col_ptr_for_val().windows(2)).map(|(width, at)| (width, (at[1] - at[0]) / width));
-        blocks.flat_map(|(width, length)| (0..width).map(move |column| ((length - column) as f64).powi(2))).sum()
+        let SymbolicCholeskyRaw::Supernodal(blocks) = self.symbolic.raw() else {
+            return 0.0;
+        };
+        let widths = blocks
+            .supernode_begin()
+            .iter()
+            .zip(blocks.supernode_end())
+            .map(|(begin, end)| end - begin);
+        let blocks = widths
+            .zip(blocks.col_ptr_for_val().windows(2))
+            .map(|(width, at)| (width, (at[1] - at[0]) / width));
+        blocks
+            .flat_map(|(width, length)| {
+                (0..width).map(move |column| ((length - column) as f64).powi(2))
+            })
+            .sum()
     }
 
     /// The lower triangle's entries of $\sum_e s_e K_e$.
@@ -165,9 +235,14 @@ impl FactorizationPlan {
     }
 
     /// Those of a symmetric matrix given by row, column and value; none where it has an entry that the plan has not.
-    pub(crate) fn entries_of(&self, matrix: impl Iterator<Item = (usize, usize, f64)>) -> Option<Vec<f64>> {
+    pub(crate) fn entries_of(
+        &self,
+        matrix: impl Iterator<Item = (usize, usize, f64)>,
+    ) -> Option<Vec<f64>> {
         let mut values = vec![0.0; self.pattern.row_idx().len()];
-        for (row, column, value) in matrix.map(|(row, column, value)| (self.turn[row], self.turn[column], value)) {
+        for (row, column, value) in
+            matrix.map(|(row, column, value)| (self.turn[row], self.turn[column], value))
+        {
             if row >= column {
                 values[self.place(row, column)?] += value;
             }
@@ -199,10 +274,15 @@ impl FactorizationPlan {
     /// Scales entries so that the given size of those of the diagonal becomes one, and says by what.
     pub(crate) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
         let starts = &self.pattern.col_ptr()[..self.turn.len()];
-        let scale = DVector::from_iterator(starts.len(), starts.iter().map(|&at| 1.0 / size(entries[at]).sqrt()));
+        let scale = DVector::from_iterator(
+            starts.len(),
+            starts.iter().map(|&at| 1.0 / size(entries[at]).sqrt()),
+        );
         for column in 0..scale.len() {
             let (rows, range) = self.column(column);
-            rows.iter().zip(&mut entries[range]).for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
+            rows.iter()
+                .zip(&mut entries[range])
+                .for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
         }
         scale
     }
@@ -210,19 +290,37 @@ impl FactorizationPlan {
     /// The factor of given entries, in one thread whatever the library's global setting: its parallel kernels have open reports of
     /// wrong results on large matrices. Of a `definite` matrix $L$ of $L L^t$, else $L$ and $D$ of $L D L^t$; and whether there is
     /// one to working precision.
-    pub(crate) fn factor(&self, entries: &[f64], definite: bool) -> Result<(Vec<f64>, bool), Error> {
+    pub(crate) fn factor(
+        &self,
+        entries: &[f64],
+        definite: bool,
+    ) -> Result<(Vec<f64>, bool), Error> {
         let (symbolic, side, one) = (&self.symbolic, Side::Lower, Par::Seq);
         let mut values = vec![0.0; symbolic.len_val()];
         let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(one, Spec::default());
-        let scratch = scratch.or(symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()));
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::NoConvergence("sparse factorization"))?;
+        let scratch =
+            scratch.or(symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()));
+        let mut memory = MemBuffer::try_new(scratch)
+            .map_err(|_| Error::NoConvergence("sparse factorization"))?;
         let stack = MemStack::new(&mut memory);
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
         let (llt, ldlt) = (LltRegularization::default(), LdltRegularization::default());
         let is_done = if definite {
-            symbolic.factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default()).is_ok()
+            symbolic
+                .factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default())
+                .is_ok()
         } else {
-            symbolic.factorize_numeric_ldlt(&mut values, matrix, side, ldlt, one, stack, Spec::default()).is_ok()
+            symbolic
+                .factorize_numeric_ldlt(
+                    &mut values,
+                    matrix,
+                    side,
+                    ldlt,
+                    one,
+                    stack,
+                    Spec::default(),
+                )
+                .is_ok()
         };
         Ok((values, is_done))
     }

@@ -34,12 +34,19 @@ impl CondensedModel {
     /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
     #[doc = include_str!("../../../paper/examples/model/structural_shapes.md")]
     pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        check_shape("mode shapes", shapes, self.stiffness.nrows(), shapes.ncols())?;
-        self.transposed_shapes(shapes).map(|transposed| transposed.transpose())
+        check_shape(
+            "mode shapes",
+            shapes,
+            self.stiffness.nrows(),
+            shapes.ncols(),
+        )?;
+        self.transposed_shapes(shapes)
+            .map(|transposed| transposed.transpose())
     }
 
     fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        self.structural.solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
+        self.structural
+            .solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
     }
 }
 
@@ -57,15 +64,27 @@ impl FiniteElementModel {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let point_mass = self.point_masses(factors)?;
         let (elements, loads) = (&self.element_matrices, self.load_distribution.clone());
-        let structural = FactorizedStiffness::planned(&self.plan, elements, &sizes, self.structure.free_dof())?;
+        let structural =
+            FactorizedStiffness::planned(&self.plan, elements, &sizes, self.structure.free_dof())?;
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = point_mass.clone();
-        if elements.iter().any(|element| element.unit_mass.amax() > 0.0) {
+        if elements
+            .iter()
+            .any(|element| element.unit_mass.amax() > 0.0)
+        {
             let b = structural.solve_transposed(&loads.times(&stiffness))?;
             mass += generalized_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
         }
         let mass = finite("dynamic mass", mass)?;
-        Ok(CondensedModel { stiffness, mass, structural, loads, sizes, mass_sizes, point_mass })
+        Ok(CondensedModel {
+            stiffness,
+            mass,
+            structural,
+            loads,
+            sizes,
+            mass_sizes,
+            point_mass,
+        })
     }
 
     /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m), by the rows of each element's own DOF alone:
@@ -73,21 +92,41 @@ impl FiniteElementModel {
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares<'a>(&'a self, condensed: &'a CondensedModel, shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+    fn shares<'a>(
+        &'a self,
+        condensed: &'a CondensedModel,
+        shapes: &DMatrix<f64>,
+    ) -> Result<Vec<Share>, Error> {
         let transposed = condensed.transposed_shapes(shapes)?;
         let of_parameter = |(parameter, rows): (&Parameter, &'a Vec<usize>)| {
-            let members = |sizes: &'a [f64]| rows.iter().map(|&row| (&self.element_matrices[row], sizes[row]));
+            let members = |sizes: &'a [f64]| {
+                rows.iter()
+                    .map(|&row| (&self.element_matrices[row], sizes[row]))
+            };
             match parameter.scaled {
-                Scaled::Stiffness => Share::Stiffness(generalized_stiffness(&transposed, members(&condensed.sizes))),
-                Scaled::ElementMass => Share::Mass(generalized_mass(&transposed, members(&condensed.mass_sizes))),
+                Scaled::Stiffness => Share::Stiffness(generalized_stiffness(
+                    &transposed,
+                    members(&condensed.sizes),
+                )),
+                Scaled::ElementMass => Share::Mass(generalized_mass(
+                    &transposed,
+                    members(&condensed.mass_sizes),
+                )),
                 // A parameter has at least one member.
                 Scaled::PointMass => {
-                    let of = |&row: &usize| condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
+                    let of = |&row: &usize| {
+                        condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row))
+                    };
                     Share::Mass(rows.iter().map(of).sum())
                 }
             }
         };
-        Ok(self.parameters.iter().zip(&self.rows).map(of_parameter).collect())
+        Ok(self
+            .parameters
+            .iter()
+            .zip(&self.rows)
+            .map(of_parameter)
+            .collect())
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: what the loops are handed.
@@ -97,13 +136,27 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`Self::condense`] and [`DynamicModel::analyze`].
     #[doc = include_str!("../../../paper/examples/model/analyze.md")]
-    pub fn analyze(&self, factors: &[f64], test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
+    pub fn analyze(
+        &self,
+        factors: &[f64],
+        test: &ModeSet,
+        analysis_modes: Option<usize>,
+    ) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
         let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
-        let mut model = ModalModel::new(&condensed.stiffness, &condensed.mass, test, analysis_modes, through)?;
-        for ((size, parameter), rows) in model.sizes.iter_mut().zip(&self.parameters).zip(&self.rows) {
+        let mut model = ModalModel::new(
+            &condensed.stiffness,
+            &condensed.mass,
+            test,
+            analysis_modes,
+            through,
+        )?;
+        for ((size, parameter), rows) in
+            model.sizes.iter_mut().zip(&self.parameters).zip(&self.rows)
+        {
             if parameter.scaled == Scaled::Stiffness {
-                *size = rows.iter().map(|&row| condensed.sizes[row]).sum::<f64>() / rows.len() as f64;
+                *size =
+                    rows.iter().map(|&row| condensed.sizes[row]).sum::<f64>() / rows.len() as f64;
             }
         }
         Ok(model)
@@ -118,7 +171,11 @@ impl FiniteElementModel {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
         let shares = self.shares(&condensed, &identity)?;
-        Ok(DynamicModel { stiffness: condensed.stiffness, mass: condensed.mass, shares })
+        Ok(DynamicModel {
+            stiffness: condensed.stiffness,
+            mass: condensed.mass,
+            shares,
+        })
     }
 
     /// The exact modes at the given parameter factors, at the dynamic DOF.
@@ -128,6 +185,10 @@ impl FiniteElementModel {
     #[doc = include_str!("../../../paper/examples/model/modes.md")]
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
         let condensed = self.condense(factors)?;
-        solve(&condensed.stiffness, &condensed.mass, condensed.mass.nrows())
+        solve(
+            &condensed.stiffness,
+            &condensed.mass,
+            condensed.mass.nrows(),
+        )
     }
 }

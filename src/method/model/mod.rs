@@ -13,7 +13,9 @@ pub use parameters::{Parameter, Range, Scaled};
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
 use crate::method::factorization::FactorizationPlan;
-use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, cholesky, finite_list};
+use crate::method::linear_algebra::{
+    check_length, check_shape, check_symmetric, cholesky, finite_list,
+};
 use crate::method::load_distribution::LoadDistribution;
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
@@ -56,8 +58,18 @@ impl FiniteElementModel {
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
         let free = structure.free_dof().len();
-        check_shape("load distribution", &load_distribution, free, load_distribution.ncols())?;
-        Self::with_loads(structure, LoadDistribution::of(&load_distribution)?, mass, parameters)
+        check_shape(
+            "load distribution",
+            &load_distribution,
+            free,
+            load_distribution.ncols(),
+        )?;
+        Self::with_loads(
+            structure,
+            LoadDistribution::of(&load_distribution)?,
+            mass,
+            parameters,
+        )
     }
 
     /// The same from the coefficients of $T$ alone, for structures of any size.
@@ -72,23 +84,43 @@ impl FiniteElementModel {
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
         let dof_count = load_distribution.columns().len();
-        check_length("load distribution", load_distribution.rows(), structure.free_dof().len())?;
+        check_length(
+            "load distribution",
+            load_distribution.rows(),
+            structure.free_dof().len(),
+        )?;
         check_shape("dynamic mass", &mass, dof_count, dof_count)?;
         check_symmetric("dynamic mass", &mass)?;
-        if structure.elements().iter().all(|element| element.material.density == 0.0) {
+        if structure
+            .elements()
+            .iter()
+            .all(|element| element.material.density == 0.0)
+        {
             cholesky("dynamic mass", &mass, 0.0)?;
         }
         let rows = member_rows(&structure, dof_count, &parameters)?;
         for (parameter, rows) in parameters.iter().zip(&rows) {
             // The diagonal entry of a point mass alone is scaled, so it must be the whole of the mass.
-            let coupled = |dof: usize| (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0);
-            if let Some(&dof) = rows.iter().find(|&&row| parameter.scaled == Scaled::PointMass && coupled(row)) {
+            let coupled =
+                |dof: usize| (0..dof_count).any(|other| other != dof && mass[(dof, other)] != 0.0);
+            if let Some(&dof) = rows
+                .iter()
+                .find(|&&row| parameter.scaled == Scaled::PointMass && coupled(row))
+            {
                 return Err(Error::CoupledMass(dof));
             }
         }
         let element_matrices = element_matrices(&structure)?;
         let plan = Arc::new(FactorizationPlan::new(&structure, &element_matrices)?);
-        Ok(Self { structure, element_matrices, plan, load_distribution, mass, parameters, rows })
+        Ok(Self {
+            structure,
+            element_matrices,
+            plan,
+            load_distribution,
+            mass,
+            parameters,
+            rows,
+        })
     }
 
     /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
@@ -152,12 +184,15 @@ impl FiniteElementModel {
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
         let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             // A mass has no size: its rows may be those of points.
-            let sizes = parameter.size_range.filter(|_| parameter.scaled == Scaled::Stiffness);
+            let sizes = parameter
+                .size_range
+                .filter(|_| parameter.scaled == Scaled::Stiffness);
             let own = parameter.factor_range;
             if sizes.is_none() && own.is_none() {
                 return Ok(None);
             }
-            let (mut lower, mut upper) = own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
+            let (mut lower, mut upper) =
+                own.map_or((0.0, f64::INFINITY), |range| (range.lower, range.upper));
             if let Some(range) = sizes {
                 for &row in rows {
                     let size = self.structure.elements()[row].size;
@@ -167,7 +202,11 @@ impl FiniteElementModel {
             }
             let what = format!("factor of {}", parameter.owner());
             let factors = Range::positive(&what, lower, upper)?;
-            if factors.contains(1.0) { Ok(Some(factors)) } else { Err(Error::StartOutside { what, lower, upper }) }
+            if factors.contains(1.0) {
+                Ok(Some(factors))
+            } else {
+                Err(Error::StartOutside { what, lower, upper })
+            }
         };
         self.parameters.iter().zip(&self.rows).map(bounds).collect()
     }
@@ -198,18 +237,31 @@ impl FiniteElementModel {
     pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
         let ones = vec![1.0; self.mass.nrows()];
         let mut mass = self.mass.clone();
-        for (dof, factor) in self.scaled(ones, Scaled::PointMass, factors)?.iter().enumerate() {
+        for (dof, factor) in self
+            .scaled(ones, Scaled::PointMass, factors)?
+            .iter()
+            .enumerate()
+        {
             mass[(dof, dof)] *= factor;
         }
         Ok(mass)
     }
 
     fn first_sizes(&self) -> Vec<f64> {
-        self.structure.elements().iter().map(|element| element.size).collect()
+        self.structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect()
     }
 
     /// `values` times the factors of the parameters that scale them.
-    fn scaled(&self, mut values: Vec<f64>, scaled: Scaled, factors: &[f64]) -> Result<Vec<f64>, Error> {
+    fn scaled(
+        &self,
+        mut values: Vec<f64>,
+        scaled: Scaled,
+        factors: &[f64],
+    ) -> Result<Vec<f64>, Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
         for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
             positive("factor", || parameter.owner(), factor)?;

@@ -58,23 +58,38 @@ impl DynamicModel {
     /// Those of [`solve`], [`ModeSet::scaled_with`], [`pair_modes`] and [`errors`]; [`Error::Empty`] without parameters;
     /// [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
     #[doc = include_str!("../../../paper/examples/model/dynamic_model_analyze.md")]
-    pub fn analyze(&self, test: &ModeSet, analysis_modes: Option<usize>) -> Result<ModalModel, Error> {
+    pub fn analyze(
+        &self,
+        test: &ModeSet,
+        analysis_modes: Option<usize>,
+    ) -> Result<ModalModel, Error> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
             check_shape("parameter share", share.matrix(), dof_count, dof_count)?;
             check_symmetric("parameter share", share.matrix())?;
         }
-        ModalModel::new(&self.stiffness, &self.mass, test, analysis_modes, |shapes| {
-            let through = |matrix: &DMatrix<f64>| symmetric_part(&shapes.tr_mul(&(matrix * shapes)));
-            Ok(self.shares.iter().map(|share| share.map(through)).collect())
-        })
+        ModalModel::new(
+            &self.stiffness,
+            &self.mass,
+            test,
+            analysis_modes,
+            |shapes| {
+                let through =
+                    |matrix: &DMatrix<f64>| symmetric_part(&shapes.tr_mul(&(matrix * shapes)));
+                Ok(self.shares.iter().map(|share| share.map(through)).collect())
+            },
+        )
     }
 }
 
 /// Refuses weights that are not one a test mode, are negative or no number, or are all zero.
 pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), Error> {
     check_length("weights", weights.len(), modes)?;
-    let all = || weights.iter().flat_map(|weight| [weight.frequency, weight.shape]);
+    let all = || {
+        weights
+            .iter()
+            .flat_map(|weight| [weight.frequency, weight.shape])
+    };
     let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
     let wrong = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0));
     let expected = "a finite number from zero up, one of them positive";
@@ -137,15 +152,29 @@ impl ModalModel {
         let cross = cross_orthogonality(&modes, &test, mass)?;
         // Both sets of shapes go through an element at once; the two diagonal blocks of the result are what is wanted.
         let (count, test_count) = (modes.len(), test.len());
-        let mut both = modes.shapes.clone().resize_horizontally(count + test_count, 0.0);
+        let mut both = modes
+            .shapes
+            .clone()
+            .resize_horizontally(count + test_count, 0.0);
         both.columns_mut(count, test_count).copy_from(&test.shapes);
         let through_both = shares(&both)?;
-        let block = |matrix: &DMatrix<f64>, first, size| matrix.view((first, first), (size, size)).into_owned();
+        let block = |matrix: &DMatrix<f64>, first, size| {
+            matrix.view((first, first), (size, size)).into_owned()
+        };
         let of_test = |share: &Share| share.map(|matrix| block(matrix, count, test_count));
         let test_shares = through_both.iter().map(of_test).collect();
-        let shares = through_both.iter().map(|share| share.map(|matrix| block(matrix, 0, count))).collect();
+        let shares = through_both
+            .iter()
+            .map(|share| share.map(|matrix| block(matrix, 0, count)))
+            .collect();
         let pairing = pair_modes(&cross)?;
-        Self::compared((modes, test), cross, (pair_modes, pairing), shares, test_shares)
+        Self::compared(
+            (modes, test),
+            cross,
+            (pair_modes, pairing),
+            shares,
+            test_shares,
+        )
     }
 
     /// The same of exact modes that some sensors see (d × n), without a mass there.
@@ -153,17 +182,28 @@ impl ModalModel {
     /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
     /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
     /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
-    pub(crate) fn at_sensors(modes: Modes, test: &ModeSet, pair: Pair, shares: Vec<Share>) -> Result<Self, Error> {
-        let cross = signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
+    pub(crate) fn at_sensors(
+        modes: Modes,
+        test: &ModeSet,
+        pair: Pair,
+        shares: Vec<Share>,
+    ) -> Result<Self, Error> {
+        let cross =
+            signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
         let pairing = pair(&cross)?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
             let partner = modes.shapes.column(pairing.analysis_mode[j]);
             shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
         }
-        let Pairing { analysis_mode, sign } = &pairing;
+        let Pairing {
+            analysis_mode,
+            sign,
+        } = &pairing;
         let of_pairs = |matrix: &DMatrix<f64>| {
-            let entry = |j: usize, k: usize| sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
+            let entry = |j: usize, k: usize| {
+                sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])]
+            };
             DMatrix::from_fn(sign.len(), sign.len(), entry)
         };
         let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
@@ -188,9 +228,26 @@ impl ModalModel {
         let test_shares = on_test.into_iter().map(relative).collect();
         let frequencies_hz = paired(&modes, &pairing)?.frequencies_hz();
         let errors = errors(&modes, &pairing, &test)?;
-        let exact = Check { modes, pairing, frequencies_hz, errors };
-        let (sizes, weights) = (vec![REFERENCE_GAGE; shares.len()], vec![ModeWeight::ONE; test.len()]);
-        Ok(Self { exact, test, cross, pair, weights, shares, test_shares, sizes })
+        let exact = Check {
+            modes,
+            pairing,
+            frequencies_hz,
+            errors,
+        };
+        let (sizes, weights) = (
+            vec![REFERENCE_GAGE; shares.len()],
+            vec![ModeWeight::ONE; test.len()],
+        );
+        Ok(Self {
+            exact,
+            test,
+            cross,
+            pair,
+            weights,
+            shares,
+            test_shares,
+            sizes,
+        })
     }
 
     /// The same model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
@@ -216,13 +273,26 @@ impl ModalModel {
         let (count, test_count) = (self.exact.modes.len(), self.test.len());
         check_error_sum(self.exact.errors.sum())?;
         self.exact.pairing.check(&self.exact.modes, test_count)?;
-        check_shape("test mode shapes", &self.test.shapes, self.exact.modes.shapes.nrows(), test_count)?;
+        check_shape(
+            "test mode shapes",
+            &self.test.shapes,
+            self.exact.modes.shapes.nrows(),
+            test_count,
+        )?;
         check_shape("cross-orthogonality", &self.cross, count, test_count)?;
-        check_length("shares on the test shapes", self.test_shares.len(), self.shares.len())?;
+        check_length(
+            "shares on the test shapes",
+            self.test_shares.len(),
+            self.shares.len(),
+        )?;
         check_length("parameter sizes", self.sizes.len(), self.shares.len())?;
         check_length("weights", self.weights.len(), test_count)?;
         let of = |matrix, size| check_shape("parameter share", matrix, size, size);
-        self.shares.iter().try_for_each(|share| of(share.matrix(), count))?;
-        self.test_shares.iter().try_for_each(|share| of(share, test_count))
+        self.shares
+            .iter()
+            .try_for_each(|share| of(share.matrix(), count))?;
+        self.test_shares
+            .iter()
+            .try_for_each(|share| of(share, test_count))
     }
 }

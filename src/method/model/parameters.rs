@@ -25,7 +25,15 @@ impl Range {
     #[doc = include_str!("../../../paper/examples/model/range_positive.md")]
     pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
         let in_order = lower > 0.0 && upper > lower && upper.is_finite();
-        if in_order { Ok(Self { lower, upper }) } else { Err(Error::Limits { what: what.to_owned(), lower, upper }) }
+        if in_order {
+            Ok(Self { lower, upper })
+        } else {
+            Err(Error::Limits {
+                what: what.to_owned(),
+                lower,
+                upper,
+            })
+        }
     }
 
     /// Whether a number lies in the interval.
@@ -36,13 +44,19 @@ impl Range {
 
     /// Whether a number is at an end of the interval, to round-off.
     pub(crate) fn has_end_at(&self, value: f64) -> bool {
-        [self.lower, self.upper].iter().any(|end| (value / end - 1.0).abs() < AT_END)
+        [self.lower, self.upper]
+            .iter()
+            .any(|end| (value / end - 1.0).abs() < AT_END)
     }
 
     /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.
     pub(crate) fn clamp(&self, value: f64) -> f64 {
         // What is no number stays none.
-        if value.is_nan() { value } else { value.max(self.lower).min(self.upper) }
+        if value.is_nan() {
+            value
+        } else {
+            value.max(self.lower).min(self.upper)
+        }
     }
 }
 
@@ -76,7 +90,10 @@ impl Parameter {
     /// The stiffness of one element, named by its number.
     #[doc = include_str!("../../../paper/examples/model/parameter_element.md")]
     pub fn element(label: usize, size_range: Option<Range>) -> Self {
-        Self { size_range, ..Self::group(&label.to_string(), &[label]) }
+        Self {
+            size_range,
+            ..Self::group(&label.to_string(), &[label])
+        }
     }
 
     /// The stiffness of a group of elements.
@@ -88,7 +105,13 @@ impl Parameter {
     /// Anything, without bounds.
     #[doc = include_str!("../../../paper/examples/model/parameter_of.md")]
     pub fn of(name: &str, scaled: Scaled, members: &[usize]) -> Self {
-        Self { name: name.to_owned(), scaled, members: members.to_vec(), size_range: None, factor_range: None }
+        Self {
+            name: name.to_owned(),
+            scaled,
+            members: members.to_vec(),
+            size_range: None,
+            factor_range: None,
+        }
     }
 
     /// What the parameter is called in errors.
@@ -106,18 +129,33 @@ pub(crate) fn member_rows<'a>(
 ) -> Result<Vec<Vec<usize>>, Error> {
     at_least_one("parameters", parameters.len())?;
     let elements = structure.elements().iter().enumerate();
-    let row_of: HashMap<usize, usize> = elements.map(|(row, element)| (element.label, row)).collect();
+    let row_of: HashMap<usize, usize> = elements
+        .map(|(row, element)| (element.label, row))
+        .collect();
     let mut first_with: HashMap<(Scaled, usize), &'a str> = HashMap::new();
     let rows_of = |parameter: &'a Parameter| {
         at_least_one("members of a parameter", parameter.members.len())?;
         let row = |&label: &usize| {
             let (what, row) = match parameter.scaled {
-                Scaled::PointMass => ("dynamic degree of freedom", Some(label).filter(|&dof| dof < dynamic_dof)),
+                Scaled::PointMass => (
+                    "dynamic degree of freedom",
+                    Some(label).filter(|&dof| dof < dynamic_dof),
+                ),
                 Scaled::Stiffness | Scaled::ElementMass => ("element", row_of.get(&label).copied()),
             };
-            let row = row.ok_or_else(|| Error::Unknown { owner: parameter.owner(), what, label })?;
-            let Some(first) = first_with.insert((parameter.scaled, row), &parameter.name) else { return Ok(row) };
-            Err(Error::SharedElement { element: label, first: first.to_owned(), second: parameter.name.clone() })
+            let row = row.ok_or_else(|| Error::Unknown {
+                owner: parameter.owner(),
+                what,
+                label,
+            })?;
+            let Some(first) = first_with.insert((parameter.scaled, row), &parameter.name) else {
+                return Ok(row);
+            };
+            Err(Error::SharedElement {
+                element: label,
+                first: first.to_owned(),
+                second: parameter.name.clone(),
+            })
         };
         parameter.members.iter().map(row).collect()
     };

@@ -58,7 +58,11 @@ fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn fill(series: usize, count: usize) -> RGBColor {
     match series {
         0 => WHITE,
-        _ => between(between(WHITE, SKY, 0.5), BLUE, series as f64 / (count - 1) as f64),
+        _ => between(
+            between(WHITE, SKY, 0.5),
+            BLUE,
+            series as f64 / (count - 1) as f64,
+        ),
     }
 }
 
@@ -70,7 +74,12 @@ impl BarFigure {
     }
 
     fn on(&self, area: &Area, height: f64) -> Drawn {
-        let values = || self.charts.iter().flat_map(|chart| &chart.series).flat_map(|series| &series.values);
+        let values = || {
+            self.charts
+                .iter()
+                .flat_map(|chart| &chart.series)
+                .flat_map(|series| &series.values)
+        };
         let ends = ends(values().flat_map(|(value, marked)| [*value, marked.unwrap_or(*value)]));
         for (row, chart) in self.charts.iter().enumerate() {
             let top = HEAD + CHART * row as f64 + HEADING;
@@ -130,7 +139,8 @@ impl Bars {
         }
         let zero = [place(0.0, 0.0), place(count as f64, 0.0)];
         line(area, &zero, Pen::solid(INK, 1.2))?;
-        let Some((before, [left, right])) = self.divided.filter(|(before, _)| *before < count) else {
+        let Some((before, [left, right])) = self.divided.filter(|(before, _)| *before < count)
+        else {
             return Ok(());
         };
         let (x, y) = place(before as f64, low);

@@ -4,7 +4,9 @@
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
 pub(super) use super::chart::{axes, chart, placed};
-pub(super) use super::colors::{BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on};
+pub(super) use super::colors::{
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
+};
 pub(super) use crate::present::PresentError;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -86,7 +88,13 @@ pub(super) struct Letters {
 }
 
 const fn letters(across: HPos) -> Letters {
-    Letters { height: 13.0, color: INK, weight: FontStyle::Normal, across, upward: false }
+    Letters {
+        height: 13.0,
+        color: INK,
+        weight: FontStyle::Normal,
+        across,
+        upward: false,
+    }
 }
 
 pub(super) const START: Letters = letters(HPos::Left);
@@ -95,11 +103,17 @@ pub(super) const END: Letters = letters(HPos::Right);
 
 impl Letters {
     pub fn bold(self) -> Self {
-        Self { weight: FontStyle::Bold, ..self }
+        Self {
+            weight: FontStyle::Bold,
+            ..self
+        }
     }
 
     pub fn small(self) -> Self {
-        Self { height: 11.0, ..self }
+        Self {
+            height: 11.0,
+            ..self
+        }
     }
 
     pub fn style(self) -> TextStyle<'static> {
@@ -108,7 +122,11 @@ impl Letters {
         if self.upward {
             font = font.transform(FontTransform::Rotate270);
         }
-        TextStyle { color: self.color.to_backend_color(), pos: Pos::new(self.across, VPos::Center), ..font.into() }
+        TextStyle {
+            color: self.color.to_backend_color(),
+            pos: Pos::new(self.across, VPos::Center),
+            ..font.into()
+        }
     }
 }
 
@@ -125,10 +143,23 @@ pub(super) fn svg(
     {
         let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
-            .and_then(|()| write(&area, &cut(title, 88), (14.0, 16.0), Letters { height: 14.0, ..START.bold() }))
+            .and_then(|()| {
+                write(
+                    &area,
+                    &cut(title, 88),
+                    (14.0, 16.0),
+                    Letters {
+                        height: 14.0,
+                        ..START.bold()
+                    },
+                )
+            })
             .and_then(|()| draw(&area.split_vertically(units(HEAD)).1))
             .and_then(|()| area.present())
-            .map_err(|error| PresentError::Drawing { figure: name.to_owned(), found: error.to_string() })?;
+            .map_err(|error| PresentError::Drawing {
+                figure: name.to_owned(),
+                found: error.to_string(),
+            })?;
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
@@ -151,7 +182,10 @@ pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
 /// A polygon, filled and with its outline.
 pub(super) fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pen: Pen) -> Drawn {
     if let Some(fill) = fill {
-        area.draw(&Polygon::new(corners.iter().copied().map(place).collect::<Vec<_>>(), fill.filled()))?;
+        area.draw(&Polygon::new(
+            corners.iter().copied().map(place).collect::<Vec<_>>(),
+            fill.filled(),
+        ))?;
     }
     let closed: Vec<Place> = corners.iter().chain(corners.first()).copied().collect();
     line(area, &closed, pen)
@@ -189,7 +223,11 @@ pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) ->
 pub(super) fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) -> Drawn {
     // The library sets centered letters too high by a tenth of their height.
     let lower = 0.1 * letters.height;
-    let at = if letters.upward { (x + lower, y) } else { (x, y + lower) };
+    let at = if letters.upward {
+        (x + lower, y)
+    } else {
+        (x, y + lower)
+    };
     area.draw(&Text::new(text.to_owned(), place(at), letters.style()))
 }
 
@@ -201,11 +239,20 @@ pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
 
 /// The name of a vertical axis, along the left edge.
 pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
-    write(area, text, (13.0, middle), Letters { upward: true, ..MIDDLE })
+    write(
+        area,
+        text,
+        (13.0, middle),
+        Letters {
+            upward: true,
+            ..MIDDLE
+        },
+    )
 }
 
 /// A published value on a bar.
-pub(super) const PUBLISHED: Mark = Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(INK, 0.9, Dash::Solid));
+pub(super) const PUBLISHED: Mark =
+    Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(INK, 0.9, Dash::Solid));
 
 /// A number with the sign for minus.
 pub(super) fn signed(text: String) -> String {
@@ -214,7 +261,10 @@ pub(super) fn signed(text: String) -> String {
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.
 pub(super) fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
-    let longest = names.map(|name| shortened(name).chars().count()).max().unwrap_or(0);
+    let longest = names
+        .map(|name| shortened(name).chars().count())
+        .max()
+        .unwrap_or(0);
     least.max(34.0 + 6.8 * longest as f64)
 }
 
@@ -225,5 +275,9 @@ pub(super) fn shortened(name: &str) -> String {
 
 fn cut(text: &str, most: usize) -> String {
     let cut = || text.chars().take(most - 1).chain(['…']).collect();
-    if text.chars().count() > most { cut() } else { text.to_owned() }
+    if text.chars().count() > most {
+        cut()
+    } else {
+        text.to_owned()
+    }
 }

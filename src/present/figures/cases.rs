@@ -21,21 +21,32 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
     let mut figures = Vec::new();
     if let Some(first) = results.first() {
         let case = &first.case;
-        let caption =
-            "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
+        let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
         let subject = Subject::of_case(first)?.on(case.model()?.structure());
-        figures.push(Figure::new("box_points", caption, draw_structure("box_points", title, &subject)?));
+        figures.push(Figure::new(
+            "box_points",
+            caption,
+            draw_structure("box_points", title, &subject)?,
+        ));
         // From the second case on covers are membranes.
         let case = &results.get(1).unwrap_or(first).case;
         let caption = "the box taken apart, its elements numbered (the paper's Figure 3).";
         let caption = format!("Case {}: {caption}", case.number);
-        figures.push(Figure::new("box_elements", caption, box_elements::draw(case)?));
+        figures.push(Figure::new(
+            "box_elements",
+            caption,
+            box_elements::draw(case)?,
+        ));
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
     let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
         the left.";
-    figures.push(Figure::new("cover_gages", caption, cover_gages::draw(&cases)?));
+    figures.push(Figure::new(
+        "cover_gages",
+        caption,
+        cover_gages::draw(&cases)?,
+    ));
     for result in results {
         add_figures_of(result, &mut figures)?;
     }
@@ -49,7 +60,10 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
     let case = result.case.number;
     let all = subject_figures(&subject)?;
     let kept = |what: &str| {
-        let mut figure = all.iter().find(|figure| figure.name == format!("case_{case}_{what}"))?.clone();
+        let mut figure = all
+            .iter()
+            .find(|figure| figure.name == format!("case_{case}_{what}"))?
+            .clone();
         let number = match (what, case) {
             ("errors", 1) => 5,
             ("node_lines", 1) => 6,
@@ -57,7 +71,10 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             ("errors", 3) => 8,
             _ => return Some(figure),
         };
-        figure.caption = format!("{} (the paper's Figure {number}).", figure.caption.trim_end_matches('.'));
+        figure.caption = format!(
+            "{} (the paper's Figure {number}).",
+            figure.caption.trim_end_matches('.')
+        );
         Some(figure)
     };
     if case == CASES[3] {
@@ -68,7 +85,10 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             decimals: 1,
             published: "published (“about 60”)",
         };
-        let svg = drawn.draw("case_4_factors", "Case 4: unlimited stiffness change factors")?;
+        let svg = drawn.draw(
+            "case_4_factors",
+            "Case 4: unlimited stiffness change factors",
+        )?;
         let caption = "Case 4: what the first iteration asks of every panel before any limit, on a linear scale.";
         figures.push(Figure::new("case_4_factors", caption, svg));
         figures.extend(kept("derivatives"));
@@ -76,10 +96,17 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
     }
     figures.extend(kept("errors"));
     let name = format!("case_{case}_readings");
-    let svg = reading_bars(result)?.draw(&name, &format!("Case {case}: gage errors by readings of the step"))?;
+    let svg = reading_bars(result)?.draw(
+        &name,
+        &format!("Case {case}: gage errors by readings of the step"),
+    )?;
     let caption = "gage errors by three readings of the step beside the printed ones, pass by pass";
     figures.push(Figure::new(&name, format!("Case {case}: {caption}."), svg));
-    figures.extend(["node_lines", "mode_shapes", "agreement", "derivatives"].into_iter().filter_map(kept));
+    figures.extend(
+        ["node_lines", "mode_shapes", "agreement", "derivatives"]
+            .into_iter()
+            .filter_map(kept),
+    );
     Ok(())
 }
 
@@ -90,22 +117,45 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
 pub fn reading_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
     let mut charts: Vec<Bars> = Vec::new();
     for reading in [StepRule::Matrix, StepRule::Own, StepRule::Relative] {
-        for (row, column) in columns_of(&run_by_reading(&result.case, reading)?)?.iter().enumerate() {
+        for (row, column) in columns_of(&run_by_reading(&result.case, reading)?)?
+            .iter()
+            .enumerate()
+        {
             let pairs = column.errors().zip(&column.published_errors);
-            let values = pairs.map(|(error, printed)| (100.0 * error, Some(100.0 * printed))).collect();
+            let values = pairs
+                .map(|(error, printed)| (100.0 * error, Some(100.0 * printed)))
+                .collect();
             if row == charts.len() {
                 let (heading, groups) = (format!("Pass {}", row + 1), panel_names(result));
-                charts.push(Bars { heading, groups, series: Vec::new(), divided: None });
+                charts.push(Bars {
+                    heading,
+                    groups,
+                    series: Vec::new(),
+                    divided: None,
+                });
             }
-            charts[row].series.push(Series { name: reading.name().to_owned(), values });
+            charts[row].series.push(Series {
+                name: reading.name().to_owned(),
+                values,
+            });
         }
     }
-    let (across, up) = ("panel: S shear, M membrane".to_owned(), "gage error, percent of 0.010 in".to_owned());
-    Ok(BarFigure { charts, across, up, marked: "published".to_owned() })
+    let (across, up) = (
+        "panel: S shear, M membrane".to_owned(),
+        "gage error, percent of 0.010 in".to_owned(),
+    );
+    Ok(BarFigure {
+        charts,
+        across,
+        up,
+        marked: "published".to_owned(),
+    })
 }
 
 /// Numbers and kinds of a case's panels.
 fn panel_names(result: &CaseResult) -> Vec<String> {
     let panels = result.case.panels.iter();
-    panels.map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind))).collect()
+    panels
+        .map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind)))
+        .collect()
 }

@@ -6,17 +6,26 @@ use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
 /// A chart with room for its axes: left, right, top and bottom margins, px.
-pub(super) fn chart<'a, 'b>(area: &'a Area<'b>, margins: [f64; 4]) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
+pub(super) fn chart<'a, 'b>(
+    area: &'a Area<'b>,
+    margins: [f64; 4],
+) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
     let [left, right, top, bottom] = margins.map(units);
     let mut chart = ChartBuilder::on(area);
-    chart.margin_right(right).margin_top(top).x_label_area_size(bottom).y_label_area_size(left);
+    chart
+        .margin_right(right)
+        .margin_top(top)
+        .x_label_area_size(bottom)
+        .y_label_area_size(left);
     chart
 }
 
 pub(super) type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
 
 /// Axes in the style of all figures, to be drawn.
-pub(super) fn axes<'a, 'b, 'c, X, Y>(chart: &'c mut Chart<'a, 'b, X, Y>) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
+pub(super) fn axes<'a, 'b, 'c, X, Y>(
+    chart: &'c mut Chart<'a, 'b, X, Y>,
+) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
 where
     X: Ranged<ValueType = f64> + ValueFormatter<f64>,
     Y: Ranged<ValueType = f64> + ValueFormatter<f64>,

@@ -25,7 +25,12 @@ pub fn comparison_figures(
         "Percent of the root of the two diagonal entries before; an empty cell rounds to zero.",
         "Blue is positive, red negative.",
     ];
-    let stiffness = draw_by_twos("matrices_stiffness", &title, &stiffness_changes(comparison), &notes)?;
+    let stiffness = draw_by_twos(
+        "matrices_stiffness",
+        &title,
+        &stiffness_changes(comparison),
+        &notes,
+    )?;
     let title = format!("Case {corrected}: frequency errors of the corrected models");
     let frequencies = predictions(comparison).draw("matrices_frequencies", &title)?;
     let truncation_caption = format!(
@@ -42,12 +47,23 @@ pub fn comparison_figures(
         was fitted to."
     );
     let title = "Case 2 and delta wing: errors of predicted modes against the size of the step";
-    let steps = linearization::draw("linearization", title, &both_structures(Exact::SameCondensation)?)?;
+    let steps = linearization::draw(
+        "linearization",
+        title,
+        &both_structures(Exact::SameCondensation)?,
+    )?;
     let steps_caption = "Case 2 and delta wing: frequencies and shapes predicted for a step toward the right gages, by perturbation and by linear Taylor \
         steps, beside the exact ones of the same condensed model.";
     let caption = "Wings of 1,458 to 1,002,000 DOF: milliseconds of every stage, and the exponents of their growth.";
     Ok(vec![
-        Figure::new("growth", caption, growth::draw("growth", "Wings of 1,458 to 1,002,000 DOF: time of every stage")?),
+        Figure::new(
+            "growth",
+            caption,
+            growth::draw(
+                "growth",
+                "Wings of 1,458 to 1,002,000 DOF: time of every stage",
+            )?,
+        ),
         Figure::new("linearization", steps_caption, steps),
         Figure::new("truncation", truncation_caption, truncated),
         Figure::new("matrices_stiffness", stiffness_caption, stiffness),
@@ -82,7 +98,11 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
             written: (100.0, 1),
         }
     };
-    TITLES.into_iter().zip(COSTS.map(|(.., cost)| cost)).map(map).collect()
+    TITLES
+        .into_iter()
+        .zip(COSTS.map(|(.., cost)| cost))
+        .map(map)
+        .collect()
 }
 
 /// Changes of the stiffness, the truth's and every correction's: $\Delta K_{ij}/\sqrt{K_{ii} K_{jj}}$ with the
@@ -90,7 +110,9 @@ pub fn truncation(runs: &[FewerModesRun]) -> Vec<HeatMap> {
 pub fn stiffness_changes(comparison: &MatrixComparison) -> Vec<HeatMap> {
     // The first prediction is the start, which changes nothing.
     let models = comparison.predictions.iter().skip(1);
-    let entries = models.clone().flat_map(|model| model.stiffness_change.iter().flatten());
+    let entries = models
+        .clone()
+        .flat_map(|model| model.stiffness_change.iter().flatten());
     let full = entries.fold(0.0, |most: f64, entry| most.max(entry.abs()));
     let map = |model: &Prediction| {
         let rows = &model.stiffness_change;
@@ -113,18 +135,27 @@ pub fn predictions(comparison: &MatrixComparison) -> BarFigure {
         let models = comparison.predictions.iter().filter(|p| p.model != TRUTH);
         let series = models.map(|model| Series {
             name: model.model.to_owned(),
-            values: errors(model).iter().map(|error| (100.0 * error, None)).collect(),
+            values: errors(model)
+                .iter()
+                .map(|error| (100.0 * error, None))
+                .collect(),
         });
         Bars {
             heading: heading.to_owned(),
             groups: numbers(comparison.as_tested_hz.len()),
             series: series.collect(),
-            divided: Some((comparison.test_modes, ["test modes", "not shown to any model"])),
+            divided: Some((
+                comparison.test_modes,
+                ["test modes", "not shown to any model"],
+            )),
         }
     };
     let changed = format!("Every cover {COVER_DOUBLER:.3} in thicker, untested");
     BarFigure {
-        charts: vec![chart("As tested", |model| &model.as_tested), chart(&changed, |model| &model.after_change)],
+        charts: vec![
+            chart("As tested", |model| &model.as_tested),
+            chart(&changed, |model| &model.after_change),
+        ],
         across: "mode".to_owned(),
         up: "frequency error, percent".to_owned(),
         marked: String::new(),

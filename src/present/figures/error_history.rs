@@ -24,9 +24,17 @@ pub struct PassHistory {
 pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
     let mut from = 0;
     let history = |(row, stage): (usize, &Stage)| {
-        let (tolerance, is_inner) = (subject.tolerances.map(|all| all[row.min(1)]), stage.inner.is_some());
-        let pass =
-            PassHistory { from, inner: subject.inner_errors(row), check: stage.check.errors, tolerance, is_inner };
+        let (tolerance, is_inner) = (
+            subject.tolerances.map(|all| all[row.min(1)]),
+            stage.inner.is_some(),
+        );
+        let pass = PassHistory {
+            from,
+            inner: subject.inner_errors(row),
+            check: stage.check.errors,
+            tolerance,
+            is_inner,
+        };
         from = pass.to();
         pass
     };
@@ -36,7 +44,12 @@ pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
 impl PassHistory {
     /// Iterations at its end.
     pub fn to(&self) -> usize {
-        self.from + if self.is_inner { self.inner.len() - 1 } else { 1 }
+        self.from
+            + if self.is_inner {
+                self.inner.len() - 1
+            } else {
+                1
+            }
     }
 }
 
@@ -44,7 +57,13 @@ impl PassHistory {
 type Series = (&'static str, fn(&Errors) -> f64, RGBColor, Form, Dash);
 const SERIES: [Series; 3] = [
     ("sum of both", Errors::sum, INK, Form::Diamond, Dash::Solid),
-    ("frequency error", |e| e.frequency, VERMILION, Form::Square, Dash::Dashed),
+    (
+        "frequency error",
+        |e| e.frequency,
+        VERMILION,
+        Form::Square,
+        Dash::Dashed,
+    ),
     ("shape error", |e| e.shape, BLUE, Form::Circle, Dash::Dotted),
 ];
 
@@ -70,18 +89,31 @@ fn percent(error: f64) -> f64 {
 
 /// Ends of the axis that just hold every error, and its ticks, percent.
 fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
-    let errors = passes.iter().flat_map(|pass| pass.inner.iter().chain([&pass.check]));
+    let errors = passes
+        .iter()
+        .flat_map(|pass| pass.inner.iter().chain([&pass.check]));
     let values = errors.flat_map(|errors| SERIES.map(|(_, value, ..)| percent(value(errors))));
-    let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| (value.min(low), value.max(high)));
+    let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
+        (value.min(low), value.max(high))
+    });
     // As a decimal fraction is read, which a product of powers of ten need not be.
     let tick = |part: u8, decade| Some((part, format!("{part}e{decade}").parse::<f64>().ok()?));
-    let decades = (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
+    let decades =
+        (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
     let all: Vec<(u8, f64)> = decades.flatten().collect();
-    let low = all.iter().rposition(|(_, tick)| *tick < 0.9 * least).unwrap_or(0);
-    let high = all.iter().position(|(_, tick)| *tick > 1.1 * most).unwrap_or(low);
+    let low = all
+        .iter()
+        .rposition(|(_, tick)| *tick < 0.9 * least)
+        .unwrap_or(0);
+    let high = all
+        .iter()
+        .position(|(_, tick)| *tick > 1.1 * most)
+        .unwrap_or(low);
     let (low, high) = (all[low].1, all[high].1);
     let few = (high / low).log10() < FEW_DECADES;
-    let shown = all.into_iter().filter(|(part, tick)| (low..=high).contains(tick) && (few || *part == 1));
+    let shown = all
+        .into_iter()
+        .filter(|(part, tick)| (low..=high).contains(tick) && (few || *part == 1));
     (low, high, shown.map(|(_, tick)| tick).collect())
 }
 
@@ -109,31 +141,55 @@ fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
         let (from, to, number) = (pass.from, pass.to(), row + 1);
         let (begin, end) = (place(from, high), place(to, high));
         let name = match (end.0 - begin.0, pass.tolerance) {
-            (wide, Some(most)) if wide > 180.0 => format!("pass {number} (tolerance {:.1} %)", 100.0 * most),
+            (wide, Some(most)) if wide > 180.0 => {
+                format!("pass {number} (tolerance {:.1} %)", 100.0 * most)
+            }
             (wide, _) if wide > 50.0 => format!("pass {number}"),
             _ => number.to_string(),
         };
-        write(area, &name, (0.5 * (begin.0 + end.0), begin.1 - 11.0), MIDDLE)?;
+        write(
+            area,
+            &name,
+            (0.5 * (begin.0 + end.0), begin.1 - 11.0),
+            MIDDLE,
+        )?;
         line(area, &[place(to, low), end], Pen::dashed(GRAY, 1.0))?;
         if let Some(most) = pass.tolerance.map(|most| percent(most).clamp(low, high)) {
-            line(area, &[place(from, most), place(to, most)], Pen::solid(GRAY, 1.4))?;
+            line(
+                area,
+                &[place(from, most), place(to, most)],
+                Pen::solid(GRAY, 1.4),
+            )?;
         }
     }
-    name_upright(area, "SRSS error, percent (log scale)", 0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]))?;
+    name_upright(
+        area,
+        "SRSS error, percent (log scale)",
+        0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]),
+    )?;
     // Lines first, so that no line crosses the open marks of exact solutions.
     for (_, value, color, form, dash) in SERIES {
         let at = |iteration: usize, errors: &Errors| place(iteration, percent(value(errors)));
         for pass in passes {
             let exact = (!pass.is_inner).then_some(&pass.check);
-            let points = (pass.from..).zip(pass.inner.iter().chain(exact)).map(|(row, errors)| at(row, errors));
+            let points = (pass.from..)
+                .zip(pass.inner.iter().chain(exact))
+                .map(|(row, errors)| at(row, errors));
             let points: Vec<Place> = points.collect();
             line(area, &points, Pen(color, 1.8, dash))?;
             for &point in &points[1..pass.inner.len()] {
-                mark(area, point, Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)))?;
+                mark(
+                    area,
+                    point,
+                    Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)),
+                )?;
             }
         }
         let start = passes.first().map(|pass| at(pass.from, &pass.inner[0]));
-        for exact in start.into_iter().chain(passes.iter().map(|pass| at(pass.to(), &pass.check))) {
+        for exact in start
+            .into_iter()
+            .chain(passes.iter().map(|pass| at(pass.to(), &pass.check)))
+        {
             mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
         }
     }
@@ -144,7 +200,11 @@ fn legend(area: &Area, has_tolerance: bool) -> Drawn {
     let (left, mut x) = (MARGINS[0], MARGINS[0]);
     for (name, _, color, form, dash) in SERIES {
         line(area, &[(x, 18.0), (x + 34.0, 18.0)], Pen(color, 1.8, dash))?;
-        mark(area, (x + 17.0, 18.0), Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)))?;
+        mark(
+            area,
+            (x + 17.0, 18.0),
+            Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)),
+        )?;
         write(area, name, (x + 41.0, 18.0), START)?;
         x += 58.0 + 7.2 * name.len() as f64;
     }
@@ -153,6 +213,15 @@ fn legend(area: &Area, has_tolerance: bool) -> Drawn {
     if !has_tolerance {
         return Ok(());
     }
-    line(area, &[(left, 42.0), (left + 34.0, 42.0)], Pen::solid(GRAY, 1.4))?;
-    write(area, "tolerance of the pass on the sum", (left + 41.0, 42.0), START)
+    line(
+        area,
+        &[(left, 42.0), (left + 34.0, 42.0)],
+        Pen::solid(GRAY, 1.4),
+    )?;
+    write(
+        area,
+        "tolerance of the pass on the sum",
+        (left + 41.0, 42.0),
+        START,
+    )
 }

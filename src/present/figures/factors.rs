@@ -53,9 +53,18 @@ impl Factors {
     fn bounds(&self) -> [f64; 3] {
         let each = |row: &Factor| {
             let deviation = row.deviation.unwrap_or(0.0);
-            [row.value - deviation, row.value + deviation, row.published.unwrap_or(row.value)]
+            [
+                row.value - deviation,
+                row.value + deviation,
+                row.published.unwrap_or(row.value),
+            ]
         };
-        let values = || self.rows.iter().flat_map(each).filter(|value| value.is_finite());
+        let values = || {
+            self.rows
+                .iter()
+                .flat_map(each)
+                .filter(|value| value.is_finite())
+        };
         let least = values().fold(if self.limits.is_some() { 0.0 } else { 1.0 }, f64::min);
         let most = values().fold(self.limits.map_or(1.0, |limits| limits.upper), f64::max);
         let rough = (most - least).max(0.02) / STEPS;
@@ -63,15 +72,28 @@ impl Factors {
         let has_remark = self.limits.is_none() && self.rows.iter().any(|row| row.remark.is_some());
         let room = if has_remark { 1.4 } else { 0.4 };
         let ten = 10f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 5.0].into_iter().map(|part| part * ten).find(|step| *step >= rough).unwrap_or(10.0 * ten);
-        [step * (least / step - room).floor(), step * (most / step + room).ceil(), step]
+        let step = [1.0, 2.0, 5.0]
+            .into_iter()
+            .map(|part| part * ten)
+            .find(|step| *step >= rough)
+            .unwrap_or(10.0 * ten);
+        [
+            step * (least / step - room).floor(),
+            step * (most / step + room).ceil(),
+            step,
+        ]
     }
 
     fn on(&self, area: &Area) -> Drawn {
         let [low, high, step] = self.bounds();
         let count = self.rows.len() as f64;
         let [_, right, top, bottom] = MARGINS;
-        let margins = [name_room(self.rows.iter().map(|row| &row.name), MARGINS[0]), right, top, bottom];
+        let margins = [
+            name_room(self.rows.iter().map(|row| &row.name), MARGINS[0]),
+            right,
+            top,
+            bottom,
+        ];
         let mut chart = chart(area, margins).build_cartesian_2d(low..high, count..0.0)?;
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         axes(&mut chart)
@@ -89,10 +111,22 @@ impl Factors {
             rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
             let text = format!("limits {:.2} to {:.2}", limits.lower, limits.upper);
             let at = (0.5 * (upper.0 + lower.0), upper.1 - 13.0);
-            write(area, &text, at, Letters { color: BLUE, ..MIDDLE })?;
+            write(
+                area,
+                &text,
+                at,
+                Letters {
+                    color: BLUE,
+                    ..MIDDLE
+                },
+            )?;
             beyond = lower.0;
         } else {
-            line(area, &[place(1.0, 0.0), place(1.0, count)], Pen::solid(GRAY, 1.0))?;
+            line(
+                area,
+                &[place(1.0, 0.0), place(1.0, count)],
+                Pen::solid(GRAY, 1.0),
+            )?;
         }
         let diamond = Mark(Form::Diamond, 5.0, Some(ORANGE), Pen::solid(INK, 0.9));
         for (row, factor) in self.rows.iter().enumerate() {
@@ -102,17 +136,33 @@ impl Factors {
             if !factor.value.is_finite() {
                 continue;
             }
-            let color = if factor.remark.is_some() { VERMILION } else { INK };
+            let color = if factor.remark.is_some() {
+                VERMILION
+            } else {
+                INK
+            };
             let tip = place(factor.value, row);
-            for end in factor.bounds.iter().flat_map(|range| [range.lower, range.upper]) {
+            for end in factor
+                .bounds
+                .iter()
+                .flat_map(|range| [range.lower, range.upper])
+            {
                 let (x, y) = place(end.min(high), row);
-                line(area, &[(x, y - 7.0), (x, y + 7.0)], Pen::solid(BLUE, if end > high { 0.0 } else { 1.6 }))?;
+                line(
+                    area,
+                    &[(x, y - 7.0), (x, y + 7.0)],
+                    Pen::solid(BLUE, if end > high { 0.0 } else { 1.6 }),
+                )?;
             }
             line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
             if let Some(published) = factor.published {
                 mark(area, place(published, row), diamond)?;
             }
-            mark(area, tip, Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)))?;
+            mark(
+                area,
+                tip,
+                Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)),
+            )?;
             let right = place(factor.published.unwrap_or(factor.value), row).0;
             let mut ends = [tip.0.min(right), tip.0.max(right)];
             if let Some(deviation) = factor.deviation.filter(|deviation| deviation.is_finite()) {
@@ -126,11 +176,15 @@ impl Factors {
             // The number stands beside its mark, away from the limits; what stands out is named.
             let number = signed(Digits::Fixed(self.decimals).write(factor.value));
             let (text, at, letters) = match factor.remark {
-                Some(remark) if self.limits.is_some() => {
-                    (format!("{remark}: {number}"), (tip.0 - 10.0, tip.1 - 11.0), END)
-                }
+                Some(remark) if self.limits.is_some() => (
+                    format!("{remark}: {number}"),
+                    (tip.0 - 10.0, tip.1 - 11.0),
+                    END,
+                ),
                 remark => {
-                    let text = format!("{number} {}", remark.unwrap_or_default()).trim_end().to_owned();
+                    let text = format!("{number} {}", remark.unwrap_or_default())
+                        .trim_end()
+                        .to_owned();
                     match factor.value < 1.0 {
                         true => (text, (ends[0] - 10.0, tip.1), END),
                         false => (text, (ends[1].max(beyond) + 10.0, tip.1), START),

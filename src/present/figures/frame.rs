@@ -48,8 +48,13 @@ impl Frame {
                 nodes.len() - 1
             })
         };
-        let pieces = subject.frame.iter().filter(|corners| corners.iter().all(is_finite));
-        let pieces: Vec<Vec<usize>> = pieces.map(|corners| corners.iter().map(&mut node).collect()).collect();
+        let pieces = subject
+            .frame
+            .iter()
+            .filter(|corners| corners.iter().all(is_finite));
+        let pieces: Vec<Vec<usize>> = pieces
+            .map(|corners| corners.iter().map(&mut node).collect())
+            .collect();
         let mut known: BTreeMap<usize, Sensors> = BTreeMap::new();
         for at in subject.supports.iter().filter(|at| is_finite(at)) {
             known.entry(node(at)).or_default();
@@ -58,31 +63,57 @@ impl Frame {
             if let Some(at) = sensor.place.as_ref().filter(|at| is_finite(at)) {
                 let place = node(at);
                 if sensor.direction != Vector3::zeros() {
-                    known.entry(place).or_default().push((row, sensor.direction));
+                    known
+                        .entry(place)
+                        .or_default()
+                        .push((row, sensor.direction));
                 }
             }
         }
         let extent = extents(&nodes);
         let axis = Vector3::from_fn(|axis, _| f64::from(axis == extent.imax()));
-        let across = if axis.z == 1.0 { Vector3::x() } else { Vector3::z() };
+        let across = if axis.z == 1.0 {
+            Vector3::x()
+        } else {
+            Vector3::z()
+        };
         let mut grids = vec![None; nodes.len()];
         for (row, (_, at)) in subject.grids.iter().enumerate() {
-            row_of.get(&key(at)).into_iter().for_each(|&node: &usize| grids[node] = Some(row));
+            row_of
+                .get(&key(at))
+                .into_iter()
+                .for_each(|&node: &usize| grids[node] = Some(row));
         }
         let mut sensors = known.values_mut().flatten().collect::<Vec<_>>();
-        if extent.sum() == extent.max() && sensors.iter().all(|(_, along)| along.cross(&axis) == Vector3::zeros()) {
-            sensors.iter_mut().for_each(|(_, along)| *along = along.dot(&axis) * across);
+        if extent.sum() == extent.max()
+            && sensors
+                .iter()
+                .all(|(_, along)| along.cross(&axis) == Vector3::zeros())
+        {
+            sensors
+                .iter_mut()
+                .for_each(|(_, along)| *along = along.dot(&axis) * across);
             grids.fill(None);
         }
         let mut joined = vec![BTreeSet::new(); nodes.len()];
         for piece in &pieces {
-            for (&a, &b) in piece.iter().zip(piece.iter().cycle().skip(1)).filter(|(a, b)| a != b) {
+            for (&a, &b) in piece
+                .iter()
+                .zip(piece.iter().cycle().skip(1))
+                .filter(|(a, b)| a != b)
+            {
                 joined[a].insert(b);
                 joined[b].insert(a);
             }
         }
         let panels = pieces.into_iter().filter(|piece| piece.len() > 2).collect();
-        Self { lines: chained(joined), nodes, panels, known, grids }
+        Self {
+            lines: chained(joined),
+            nodes,
+            panels,
+            known,
+            grids,
+        }
     }
 
     /// Displacements of all places in a shape whose largest component is one.
@@ -91,11 +122,20 @@ impl Frame {
     /// the shape. Without these a support does not move, and any other place as the mean of the known ones, weighted with
     /// $1/r^4$ for a distance of $r$ (Shepard, *Proc. 23rd ACM National Conference* (1968), 517).
     pub fn moved(&self, shape: &[f64], grids: Option<&[Vector3<f64>]>) -> Vec<Vector3<f64>> {
-        let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
+        let largest = shape
+            .iter()
+            .fold(0.0, |most: f64, component| most.max(component.abs()));
         let motion = |sensors: &Sensors| -> Vector3<f64> {
-            sensors.iter().filter_map(|(row, along)| Some(*shape.get(*row)? / largest * along)).sum()
+            sensors
+                .iter()
+                .filter_map(|(row, along)| Some(*shape.get(*row)? / largest * along))
+                .sum()
         };
-        let known: Vec<_> = self.known.iter().map(|(&node, sensors)| (self.nodes[node], motion(sensors))).collect();
+        let known: Vec<_> = self
+            .known
+            .iter()
+            .map(|(&node, sensors)| (self.nodes[node], motion(sensors)))
+            .collect();
         let size = extents(&self.nodes).norm();
         let at = |place: &Vector3<f64>| {
             let (mut sum, mut total) = (Vector3::zeros(), 0.0);
@@ -112,18 +152,24 @@ impl Frame {
         let of_grid = |node: usize| {
             let motion = grids?.get(self.grids[node]?)? / largest;
             let sensors = self.known.get(&node).into_iter().flatten();
-            let measured =
-                |(row, along): &(usize, Vector3<f64>)| Some((shape.get(*row)? / largest - motion.dot(along)) * along);
+            let measured = |(row, along): &(usize, Vector3<f64>)| {
+                Some((shape.get(*row)? / largest - motion.dot(along)) * along)
+            };
             Some(motion + sensors.filter_map(measured).sum::<Vector3<f64>>())
         };
         let nodes = self.nodes.iter().enumerate();
-        nodes.map(|(node, place)| of_grid(node).unwrap_or_else(|| at(place))).collect()
+        nodes
+            .map(|(node, place)| of_grid(node).unwrap_or_else(|| at(place)))
+            .collect()
     }
 
     /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.
     pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
         let corner = |&node: &usize| (self.nodes[node], moved[node].dot(along));
-        let cells = self.panels.iter().flat_map(|panel| cells(panel.iter().map(corner).collect()));
+        let cells = self
+            .panels
+            .iter()
+            .flat_map(|panel| cells(panel.iter().map(corner).collect()));
         cells.flat_map(|cell| zero_lines(&cell)).collect()
     }
 }
@@ -134,34 +180,61 @@ type Corner = (Vector3<f64>, f64);
 fn mean(corners: &[(f64, Corner)]) -> Corner {
     corners
         .iter()
-        .fold((Vector3::zeros(), 0.0), |sum, (part, corner)| (sum.0 + *part * corner.0, sum.1 + part * corner.1))
+        .fold((Vector3::zeros(), 0.0), |sum, (part, corner)| {
+            (sum.0 + *part * corner.0, sum.1 + part * corner.1)
+        })
 }
 
 /// A panel of four corners in parts, by its bilinear map; any other whole.
 fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
     const PARTS: usize = 12;
-    let [a, b, c, d] = corners[..] else { return vec![corners] };
+    let [a, b, c, d] = corners[..] else {
+        return vec![corners];
+    };
     let at = |i: usize, j: usize| {
         let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
-        mean(&[((1.0 - s) * (1.0 - t), a), (s * (1.0 - t), b), (s * t, c), ((1.0 - s) * t, d)])
+        mean(&[
+            ((1.0 - s) * (1.0 - t), a),
+            (s * (1.0 - t), b),
+            (s * t, c),
+            ((1.0 - s) * t, d),
+        ])
     };
     let places = (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j)));
-    places.map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]).collect()
+    places
+        .map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
+        .collect()
 }
 
 /// The zero lines of a displacement that is linear on triangles about the middle of a cell.
 fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
     let share = 1.0 / corners.len() as f64;
-    let middle = mean(&corners.iter().map(|&corner| (share, corner)).collect::<Vec<_>>());
+    let middle = mean(
+        &corners
+            .iter()
+            .map(|&corner| (share, corner))
+            .collect::<Vec<_>>(),
+    );
     let line = |(&a, &b): (&Corner, &Corner)| {
-        let sides = [(a, b), (b, middle), (middle, a)].into_iter().filter(|(p, q)| p.1 * q.1 < 0.0);
-        let mut points: Vec<_> = sides.map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0)).collect();
+        let sides = [(a, b), (b, middle), (middle, a)]
+            .into_iter()
+            .filter(|(p, q)| p.1 * q.1 < 0.0);
+        let mut points: Vec<_> = sides
+            .map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0))
+            .collect();
         // A corner that is held ends the line that comes from the other side.
         let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
-        points.extend(ends.map(|corner| corner.0).take(usize::from(points.len() == 1)));
+        points.extend(
+            ends.map(|corner| corner.0)
+                .take(usize::from(points.len() == 1)),
+        );
         Segment::try_from(points).ok()
     };
-    corners.iter().zip(corners.iter().cycle().skip(1)).filter_map(line).collect()
+    corners
+        .iter()
+        .zip(corners.iter().cycle().skip(1))
+        .filter_map(line)
+        .collect()
 }
 
 /// Polylines along all lines, each once.

@@ -22,10 +22,22 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
     let height = rows * CHART + FOOT;
     svg(name, title, height, |area| {
         for (place, (name, spread)) in summary.spreads.iter().enumerate() {
-            let (left, top) = (22.0 + PITCH * (place % ACROSS) as f64, CHART * (place / ACROSS) as f64 + HEAD);
+            let (left, top) = (
+                22.0 + PITCH * (place % ACROSS) as f64,
+                CHART * (place / ACROSS) as f64 + HEAD,
+            );
             write(area, &shortened(name), (left, top - 14.0), START.bold())?;
             if let Some(spread) = spread {
-                on(area, spread, [left, WIDTH - left - BARS, top, height - top - (CHART - HEAD - FOOT)])?;
+                on(
+                    area,
+                    spread,
+                    [
+                        left,
+                        WIDTH - left - BARS,
+                        top,
+                        height - top - (CHART - HEAD - FOOT),
+                    ],
+                )?;
             }
         }
         let note = "factor on the first model; lines at 2.5, 50 and 97.5 % of the samples";
@@ -36,7 +48,11 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
 fn on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
     // Equal numbers have room beside them too.
     let [least, most] = spread.ends;
-    let room = if most > least { 0.0 } else { 0.01 * least.abs().max(f64::MIN_POSITIVE) };
+    let room = if most > least {
+        0.0
+    } else {
+        0.01 * least.abs().max(f64::MIN_POSITIVE)
+    };
     let (low, high) = (least - room, most + room);
     let tallest = spread.bars.iter().copied().max().unwrap_or(0).max(1) as f64;
     let mut chart = chart(area, margins).build_cartesian_2d(low..high, 0.0..1.08 * tallest)?;
@@ -49,12 +65,30 @@ fn on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
         .draw()?;
     let place = |x: f64, y: f64| placed(&chart, x, y);
     let wide = (high - low) / spread.bars.len() as f64;
-    for (row, count) in spread.bars.iter().enumerate().filter(|(_, count)| **count > 0) {
+    for (row, count) in spread
+        .bars
+        .iter()
+        .enumerate()
+        .filter(|(_, count)| **count > 0)
+    {
         let from = low + wide * row as f64;
-        bar(area, place(from, *count as f64), place(from + wide, 0.0), between(WHITE, SKY, 0.7))?;
+        bar(
+            area,
+            place(from, *count as f64),
+            place(from + wide, 0.0),
+            between(WHITE, SKY, 0.7),
+        )?;
     }
-    for (quantile, pen) in spread.quantiles.iter().zip([Pen::dashed, Pen::solid, Pen::dashed]) {
-        line(area, &[place(*quantile, 0.0), place(*quantile, 1.08 * tallest)], pen(BLUE, 1.4))?;
+    for (quantile, pen) in spread
+        .quantiles
+        .iter()
+        .zip([Pen::dashed, Pen::solid, Pen::dashed])
+    {
+        line(
+            area,
+            &[place(*quantile, 0.0), place(*quantile, 1.08 * tallest)],
+            pen(BLUE, 1.4),
+        )?;
     }
     Ok(())
 }

@@ -21,21 +21,31 @@ pub struct HeatMap {
 }
 
 /// A figure of matrices two by two, as large as there is room, with sentences below.
-pub fn draw_by_twos(name: &str, title: &str, maps: &[HeatMap], notes: &[&str]) -> Result<String, PresentError> {
+pub fn draw_by_twos(
+    name: &str,
+    title: &str,
+    maps: &[HeatMap],
+    notes: &[&str],
+) -> Result<String, PresentError> {
     const ROOM: (f64, f64) = (297.0, 270.0);
     let down = 360.0 * maps.len().div_ceil(2) as f64;
-    svg(name, title, down + 20.0 + 20.0 * notes.len() as f64, |area| {
-        for (at, map) in maps.iter().enumerate() {
-            let (rows, columns) = map.values.shape();
-            let cell = (ROOM.0 / columns.max(9) as f64, ROOM.1 / rows.max(9) as f64);
-            let left = [66.0, 446.0][at % 2];
-            map.draw(area, (left, 64.0 + 360.0 * (at / 2) as f64), cell)?;
-        }
-        for (row, note) in notes.iter().enumerate() {
-            write(area, note, (66.0, down + 8.0 + 20.0 * row as f64), START)?;
-        }
-        Ok(())
-    })
+    svg(
+        name,
+        title,
+        down + 20.0 + 20.0 * notes.len() as f64,
+        |area| {
+            for (at, map) in maps.iter().enumerate() {
+                let (rows, columns) = map.values.shape();
+                let cell = (ROOM.0 / columns.max(9) as f64, ROOM.1 / rows.max(9) as f64);
+                let left = [66.0, 446.0][at % 2];
+                map.draw(area, (left, 64.0 + 360.0 * (at / 2) as f64), cell)?;
+            }
+            for (row, note) in notes.iter().enumerate() {
+                write(area, note, (66.0, down + 8.0 + 20.0 * row as f64), START)?;
+            }
+            Ok(())
+        },
+    )
 }
 
 /// A figure of derivatives: what each parameter does to each frequency, and to the error sum.
@@ -47,7 +57,10 @@ pub fn draw_derivatives(
     let down = 64.0 + 26.0 * frequency.values.nrows() as f64;
     let left = name_room(frequency.rows.1.iter(), 66.0);
     let wide = (516.0 - left) / frequency.values.ncols().max(9) as f64;
-    let error_sum = HeatMap { rows: (String::new(), Vec::new()), ..error_sum.clone() };
+    let error_sum = HeatMap {
+        rows: (String::new(), Vec::new()),
+        ..error_sum.clone()
+    };
     svg(name, title, down + 42.0, |area| {
         frequency.draw(area, (left, 64.0), (wide, 26.0))?;
         error_sum.draw(area, (612.0, 64.0), (90.0, 26.0))?;
@@ -61,7 +74,11 @@ impl HeatMap {
     pub fn write(&self, value: f64) -> String {
         let (factor, decimals) = self.written;
         let text = format!("{:.decimals$}", factor * value);
-        if text.chars().all(|c| matches!(c, '-' | '0' | '.')) { String::new() } else { signed(text) }
+        if text.chars().all(|c| matches!(c, '-' | '0' | '.')) {
+            String::new()
+        } else {
+            signed(text)
+        }
     }
 
     /// Draws cells of a width and height with their upper left corner at a place; headings stand above and to the left.
@@ -70,23 +87,50 @@ impl HeatMap {
         let at = |i: f64, j: f64| (left + wide * j, top + high * i);
         let small = MIDDLE.small();
         // Digits and labels stand where there is room for them.
-        let longest = self.values.iter().flatten().map(|value| self.write(*value).chars().count()).max().unwrap_or(0);
+        let longest = self
+            .values
+            .iter()
+            .flatten()
+            .map(|value| self.write(*value).chars().count())
+            .max()
+            .unwrap_or(0);
         let fits = wide > 6.2 * longest as f64 && high > 10.0;
         let every = |size: f64, room: f64| (room / size).ceil().max(1.0) as usize;
-        let names = self.rows.1.iter().map(|name| shortened(name).chars().count());
-        let beside = names.max().map_or(34.0, |longest| (12.0 + 6.6 * longest as f64).max(34.0));
+        let names = self
+            .rows
+            .1
+            .iter()
+            .map(|name| shortened(name).chars().count());
+        let beside = names
+            .max()
+            .map_or(34.0, |longest| (12.0 + 6.6 * longest as f64).max(34.0));
         let (down, across) = (every(high, 11.0), every(wide, 20.0));
         for (j, name) in self.columns.1.iter().enumerate().step_by(across) {
             write(area, name, (at(0.0, j as f64 + 0.5).0, top - 9.0), small)?;
         }
         for (i, name) in self.rows.1.iter().enumerate().step_by(down) {
-            write(area, &shortened(name), (left - 6.0, at(i as f64 + 0.5, 0.0).1), END.small())?;
+            write(
+                area,
+                &shortened(name),
+                (left - 6.0, at(i as f64 + 0.5, 0.0).1),
+                END.small(),
+            )?;
         }
         let middle = at(0.5 * rows as f64, 0.5 * columns as f64);
         write(area, &self.columns.0, (middle.0, top - 26.0), small)?;
-        write(area, &self.rows.0, (left - beside, middle.1), Letters { upward: true, ..small })?;
+        write(
+            area,
+            &self.rows.0,
+            (left - beside, middle.1),
+            Letters {
+                upward: true,
+                ..small
+            },
+        )?;
         // A title longer than its matrix does not begin left of the figure.
-        let title = middle.0.max(left - 50.0 + 3.8 * self.title.chars().count() as f64);
+        let title = middle
+            .0
+            .max(left - 50.0 + 3.8 * self.title.chars().count() as f64);
         write(area, &self.title, (title, top - 46.0), MIDDLE.bold())?;
         for i in 0..rows {
             for j in 0..columns {
@@ -102,7 +146,10 @@ impl HeatMap {
                         area,
                         &self.write(value),
                         at(row + 0.5, column + 0.5),
-                        Letters { color: legible_on(fill), ..small },
+                        Letters {
+                            color: legible_on(fill),
+                            ..small
+                        },
                     )?;
                 }
             }

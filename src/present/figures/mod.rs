@@ -41,7 +41,11 @@ pub struct Figure {
 
 impl Figure {
     fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
-        Self { name: name.to_owned(), caption: caption.into(), svg }
+        Self {
+            name: name.to_owned(),
+            caption: caption.into(),
+            svg,
+        }
     }
 }
 

@@ -60,7 +60,12 @@ impl Modes {
             frame.panels.retain(|panel| !panel.iter().any(is_held));
         }
         let test = &subject.test;
-        check_shape("mode shapes", &test.shapes, subject.sensors.len(), test.len())?;
+        check_shape(
+            "mode shapes",
+            &test.shapes,
+            subject.sensors.len(),
+            test.len(),
+        )?;
         let checks = [&subject.initial, subject.corrected()];
         let [first, corrected] = checks.map(|check| pairing::paired(&check.modes, &check.pairing));
         let states = [test.clone(), first?, corrected?];
@@ -68,30 +73,57 @@ impl Modes {
             number: mode + 1,
             hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
             moved: [0, 1, 2].map(|state| {
-                let grids = subject.moved.as_ref().and_then(|moved| moved[state].get(mode));
-                frame.moved(states[state].shapes.column(mode).as_slice(), grids.map(Vec::as_slice))
+                let grids = subject
+                    .moved
+                    .as_ref()
+                    .and_then(|moved| moved[state].get(mode));
+                frame.moved(
+                    states[state].shapes.column(mode).as_slice(),
+                    grids.map(Vec::as_slice),
+                )
             }),
         };
-        Ok(Some(Self { modes: (0..test.len()).map(mode).collect(), frame }))
+        Ok(Some(Self {
+            modes: (0..test.len()).map(mode).collect(),
+            frame,
+        }))
     }
 
     /// The normal of the plane that all places lie in, if all move along it alone and there are panels for node lines.
     pub fn normal(&self) -> Option<Vector3<f64>> {
         let (normal, _) = View::flat(&self.frame.nodes)?;
-        let is_normal = self.motions().all(|motion| motion.cross(&normal) == Vector3::zeros());
+        let is_normal = self
+            .motions()
+            .all(|motion| motion.cross(&normal) == Vector3::zeros());
         (is_normal && !self.frame.panels.is_empty()).then_some(normal)
     }
 
     fn motions(&self) -> impl Iterator<Item = &Vector3<f64>> {
-        self.modes.iter().flat_map(|mode| mode.moved.iter().flatten())
+        self.modes
+            .iter()
+            .flat_map(|mode| mode.moved.iter().flatten())
     }
 
     /// In as many figures as their number asks for, each with the words that its name and title end with.
     pub fn parts(&self) -> Vec<(String, Self)> {
-        let part = |modes: &[_]| Self { frame: self.frame.clone(), modes: modes.to_vec() };
+        let part = |modes: &[_]| Self {
+            frame: self.frame.clone(),
+            modes: modes.to_vec(),
+        };
         let parts = self.modes.chunks(MOST_MODES).map(part).enumerate();
         let is_one = self.modes.len() <= MOST_MODES;
-        parts.map(|(row, modes)| (if is_one { String::new() } else { format!("_{}", row + 1) }, modes)).collect()
+        parts
+            .map(|(row, modes)| {
+                (
+                    if is_one {
+                        String::new()
+                    } else {
+                        format!("_{}", row + 1)
+                    },
+                    modes,
+                )
+            })
+            .collect()
     }
 
     /// The shapes as SVG.
@@ -99,23 +131,43 @@ impl Modes {
         let nodes = &self.frame.nodes;
         // The largest displacement is drawn as long as a sixth of the structure.
         let far = extents(nodes).max() / 6.0;
-        let in_plane = View::flat(nodes).filter(|(normal, _)| self.motions().all(|motion| motion.dot(normal) == 0.0));
+        let in_plane = View::flat(nodes)
+            .filter(|(normal, _)| self.motions().all(|motion| motion.dot(normal) == 0.0));
         let (view, heights) = in_plane.map_or_else(|| View::solid(nodes), |(_, view)| (view, 1.0));
         // Depths are exaggerated, displacements are not.
-        let displaced =
-            |at: &Vector3<f64>, motion: &Vector3<f64>| at + far * Vector3::new(motion.x, motion.y, motion.z / heights);
+        let displaced = |at: &Vector3<f64>, motion: &Vector3<f64>| {
+            at + far * Vector3::new(motion.x, motion.y, motion.z / heights)
+        };
         self.each(name, title, "shapes:", |area, mode, room| {
-            let moved = mode
-                .moved
-                .each_ref()
-                .map(|motions| nodes.iter().zip(motions).map(|(at, motion)| displaced(at, motion)).collect::<Vec<_>>());
-            let view = view.fitted(&[&nodes[..], &moved[0], &moved[1], &moved[2]].concat(), room);
+            let moved = mode.moved.each_ref().map(|motions| {
+                nodes
+                    .iter()
+                    .zip(motions)
+                    .map(|(at, motion)| displaced(at, motion))
+                    .collect::<Vec<_>>()
+            });
+            let view = view.fitted(
+                &[&nodes[..], &moved[0], &moved[1], &moved[2]].concat(),
+                room,
+            );
             let still = (nodes, Pen::solid(PALE, 1.0));
-            let states = moved.iter().zip(pens()).map(|(nodes, (_, pen))| (nodes, pen));
+            let states = moved
+                .iter()
+                .zip(pens())
+                .map(|(nodes, (_, pen))| (nodes, pen));
             for (nodes, pen) in std::iter::once(still).chain(states) {
                 view.lines(area, &self.frame.lines, nodes, pen)?;
-                for &node in self.frame.known.keys().filter(|_| self.frame.lines.is_empty()) {
-                    mark(area, view.place(nodes[node]), Mark(Form::Circle, 0.5 + pen.1, None, Pen(pen.0, 1.2, pen.2)))?;
+                for &node in self
+                    .frame
+                    .known
+                    .keys()
+                    .filter(|_| self.frame.lines.is_empty())
+                {
+                    mark(
+                        area,
+                        view.place(nodes[node]),
+                        Mark(Form::Circle, 0.5 + pen.1, None, Pen(pen.0, 1.2, pen.2)),
+                    )?;
                 }
             }
             Ok(())
@@ -123,7 +175,12 @@ impl Modes {
     }
 
     /// The node lines in plan as SVG, for displacements along a normal.
-    pub fn draw_node_lines(&self, name: &str, title: &str, normal: Vector3<f64>) -> Result<String, PresentError> {
+    pub fn draw_node_lines(
+        &self,
+        name: &str,
+        title: &str,
+        normal: Vector3<f64>,
+    ) -> Result<String, PresentError> {
         let nodes = &self.frame.nodes;
         let view = View::flat(nodes).map_or_else(|| View::plan(nodes), |(_, view)| view);
         self.each(name, title, "node lines:", |area, mode, room| {
@@ -137,7 +194,12 @@ impl Modes {
             for &node in self.frame.known.keys() {
                 let up = mode.moved[0][node].dot(&normal);
                 let fill = if up > 0.0 { GRAY } else { WHITE };
-                let dot = Mark(Form::Circle, 1.5 + 3.0 * up.abs().sqrt(), Some(fill), Pen::solid(GRAY, 1.2));
+                let dot = Mark(
+                    Form::Circle,
+                    1.5 + 3.0 * up.abs().sqrt(),
+                    Some(fill),
+                    Pen::solid(GRAY, 1.2),
+                );
                 mark(area, view.place(nodes[node]), dot)?;
             }
             Ok(())
@@ -160,12 +222,30 @@ impl Modes {
                 write(area, name, (x + 43.0, 20.0), START)?;
                 x += 72.0 + 6.8 * name.len() as f64;
             }
-            write(area, "frequencies in Hz: test | first | corrected", (14.0, 44.0), START)?;
+            write(
+                area,
+                "frequencies in Hz: test | first | corrected",
+                (14.0, 44.0),
+                START,
+            )?;
             for (row, mode) in self.modes.iter().enumerate() {
-                let (x, y) = (CELL.0 * (row % ACROSS) as f64 + 14.0, HEAD + CELL.1 * (row / ACROSS) as f64);
-                write(area, &format!("Mode {}", mode.number), (x, y + 14.0), START.bold())?;
+                let (x, y) = (
+                    CELL.0 * (row % ACROSS) as f64 + 14.0,
+                    HEAD + CELL.1 * (row / ACROSS) as f64,
+                );
+                write(
+                    area,
+                    &format!("Mode {}", mode.number),
+                    (x, y + 14.0),
+                    START.bold(),
+                )?;
                 let hertz = mode.hertz.map(|hertz| Digits::Significant(4).write(hertz));
-                write(area, &hertz.join(" | "), (x + 62.0, y + 14.0), START.small())?;
+                write(
+                    area,
+                    &hertz.join(" | "),
+                    (x + 62.0, y + 14.0),
+                    START.small(),
+                )?;
                 draw(area, mode, [x, y + 30.0, CELL.0 - 34.0, CELL.1 - 48.0])?;
             }
             Ok(())

@@ -18,16 +18,24 @@ use nalgebra::DMatrix;
 /// Those of [`Modes::of`] and [`Subject::agreement`]; [`PresentError::Drawing`].
 pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
-    let mut add =
-        |what: &str, title: &str, caption: &str, draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
-            let name = format!("{}_{what}", subject.name);
-            let svg = draw(&name, &format!("{}: {title}", subject.title))?;
-            figures.push(Figure::new(&name, format!("{}: {caption}.", subject.title), svg));
-            Ok::<_, PresentError>(())
-        };
+    let mut add = |what: &str,
+                   title: &str,
+                   caption: &str,
+                   draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
+        let name = format!("{}_{what}", subject.name);
+        let svg = draw(&name, &format!("{}: {title}", subject.title))?;
+        figures.push(Figure::new(
+            &name,
+            format!("{}: {caption}.", subject.title),
+            svg,
+        ));
+        Ok::<_, PresentError>(())
+    };
     if !subject.frame.is_empty() || subject.sensors.iter().any(|sensor| sensor.place.is_some()) {
         let caption = "the structure, with what is known of its sensors, grids and supports";
-        add("structure", "structure", caption, &|name, title| draw_structure(name, title, subject))?;
+        add("structure", "structure", caption, &|name, title| {
+            draw_structure(name, title, subject)
+        })?;
     }
     if let Some(modes) = Modes::of(subject)? {
         for (part, modes) in modes.parts() {
@@ -39,7 +47,12 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
                 "mode shapes of the test, of the first and of the corrected model, the largest measured displacement of each the \
                  same; {between}"
             );
-            add(&format!("mode_shapes{part}"), "mode shapes", &caption, &|name, title| modes.draw(name, title))?;
+            add(
+                &format!("mode_shapes{part}"),
+                "mode shapes",
+                &caption,
+                &|name, title| modes.draw(name, title),
+            )?;
             if let Some(normal) = modes.normal() {
                 let caption = "node lines in plan, interpolated between the sensors and left out beside supports, where nothing is \
                     measured; at a sensor, gray is up in the test and larger is farther";
@@ -52,26 +65,54 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
         let history = error_history(subject);
         let caption = "errors against iteration. Between exact solutions an inner loop steps by perturbation; the gap at the end \
             of a pass is what freezing the transformation cost";
-        add("errors", "errors against iteration", caption, &|name, title| error_history::draw(name, title, &history))?;
+        add(
+            "errors",
+            "errors against iteration",
+            caption,
+            &|name, title| error_history::draw(name, title, &history),
+        )?;
     }
     let factors = factors(subject);
-    let bars = if subject.deviations.is_some() { "; bars are one standard deviation to either side" } else { "" };
+    let bars = if subject.deviations.is_some() {
+        "; bars are one standard deviation to either side"
+    } else {
+        ""
+    };
     let caption = format!("factors on the first model, with the bounds of each in blue{bars}");
-    add("factors", "factors", &caption, &|name, title| factors.draw(name, title))?;
+    add("factors", "factors", &caption, &|name, title| {
+        factors.draw(name, title)
+    })?;
     let maps = mode_agreement(subject)?;
-    let cross = if subject.mass.is_some() { "cross-orthogonality and " } else { "" };
+    let cross = if subject.mass.is_some() {
+        "cross-orthogonality and "
+    } else {
+        ""
+    };
     let caption = format!(
         "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after"
     );
-    add("agreement", "analysis against test modes before and after", &caption, &|name, title| {
-        let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
-        draw_by_twos(name, title, &maps, &[note, "MAC: modal assurance criterion, which knows no mass."])
-    })?;
+    add(
+        "agreement",
+        "analysis against test modes before and after",
+        &caption,
+        &|name, title| {
+            let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
+            draw_by_twos(
+                name,
+                title,
+                &maps,
+                &[note, "MAC: modal assurance criterion, which knows no mass."],
+            )
+        },
+    )?;
     if let Some(maps) = derivatives(subject) {
         let caption = "derivatives of the frequencies and of the error sum at the first model";
-        add("derivatives", "derivatives of the first model", caption, &|name, title| {
-            draw_derivatives(name, title, &maps)
-        })?;
+        add(
+            "derivatives",
+            "derivatives of the first model",
+            caption,
+            &|name, title| draw_derivatives(name, title, &maps),
+        )?;
     }
     Ok(figures)
 }
@@ -81,13 +122,22 @@ fn factors(subject: &Subject) -> Factors {
     let row = |(e, (name, value)): (usize, (&String, f64))| Factor {
         name: name.clone(),
         value,
-        deviation: subject.deviations.as_ref().and_then(|deviations| deviations.get(e).copied()),
+        deviation: subject
+            .deviations
+            .as_ref()
+            .and_then(|deviations| deviations.get(e).copied()),
         published: subject.truth.get(e).copied(),
         bounds: subject.ranges.get(e).copied().flatten(),
         remark: subject.is_at_bound(e, value).then_some("at bound"),
     };
     Factors {
-        rows: subject.parameters.iter().zip(subject.factors()).enumerate().map(row).collect(),
+        rows: subject
+            .parameters
+            .iter()
+            .zip(subject.factors())
+            .enumerate()
+            .map(row)
+            .collect(),
         limits: None,
         across: "factor on the first model".to_owned(),
         decimals: 3,
@@ -104,13 +154,28 @@ pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
     let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
         let columns = ("test mode".to_owned(), numbers(values.ncols()));
-        HeatMap { title, rows, columns, values: values.map(Some), full: 1.0, written: (100.0, 0) }
+        HeatMap {
+            title,
+            rows,
+            columns,
+            values: values.map(Some),
+            full: 1.0,
+            written: (100.0, 0),
+        }
     };
-    let both = [("before", subject.agreement(&subject.initial)?), ("after", subject.agreement(subject.corrected())?)];
+    let both = [
+        ("before", subject.agreement(&subject.initial)?),
+        ("after", subject.agreement(subject.corrected())?),
+    ];
     let cross = both.iter().filter_map(|(when, found)| {
-        Some(map(format!("Cross-orthogonality {when}, mass-weighted"), found.orthogonality.as_ref()?))
+        Some(map(
+            format!("Cross-orthogonality {when}, mass-weighted"),
+            found.orthogonality.as_ref()?,
+        ))
     });
-    let assurance = both.iter().map(|(when, found)| map(format!("MAC {when}, not mass-weighted"), &found.assurance));
+    let assurance = both
+        .iter()
+        .map(|(when, found)| map(format!("MAC {when}, not mass-weighted"), &found.assurance));
     Ok(cross.chain(assurance).collect())
 }
 
@@ -127,9 +192,18 @@ pub fn derivatives(subject: &Subject) -> Option<[HeatMap; 2]> {
     };
     let (frequency, error_sum) = (derivatives.frequency.clone(), &derivatives.error_sum);
     let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
-    let (percent, modes) = ("Percent of frequency for one percent of the parameter", numbers(frequency.ncols()));
+    let (percent, modes) = (
+        "Percent of frequency for one percent of the parameter",
+        numbers(frequency.ncols()),
+    );
     Some([
         map(percent, "parameter", "test mode", modes, frequency),
-        map("Error sum", "", "percent points for", vec!["one percent of it".to_owned()], error_sum),
+        map(
+            "Error sum",
+            "",
+            "percent points for",
+            vec!["one percent of it".to_owned()],
+            error_sum,
+        ),
     ])
 }

@@ -27,7 +27,8 @@ pub(super) struct View {
 /// The least and the greatest coordinates of points; zeros of none.
 fn ends(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
     let both = points.map(|point| (point, point));
-    both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point))).unwrap_or_default()
+    both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point)))
+        .unwrap_or_default()
 }
 
 /// Extent of points along each axis.
@@ -38,13 +39,21 @@ pub(super) fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
 
 impl View {
     fn unit(right: Vector3<f64>, down: Vector3<f64>) -> Self {
-        Self { right, down, origin: (0.0, 0.0), scale: 1.0 }
+        Self {
+            right,
+            down,
+            origin: (0.0, 0.0),
+            scale: 1.0,
+        }
     }
 
     /// y goes right and up, x right and down, z, drawn so many times as large, up.
     pub fn isometric(heights: f64) -> Self {
         let (sin, cos) = RISE.to_radians().sin_cos();
-        Self::unit(Vector3::new(cos, cos, 0.0), Vector3::new(sin, -sin, -heights))
+        Self::unit(
+            Vector3::new(cos, cos, 0.0),
+            Vector3::new(sin, -sin, -heights),
+        )
     }
 
     /// x and y in plan, the longer of them to the right.
@@ -59,8 +68,14 @@ impl View {
     /// The isometric view of points, with how many times their depth is drawn.
     pub fn solid(points: &[Vector3<f64>]) -> (Self, f64) {
         let extents = extents(points);
-        let heights = (LEAST_DEPTH * extents.max() / extents.z).round().clamp(1.0, DEPTH_DRAWN);
-        let heights = if extents.z > FLAT * extents.max() { heights } else { 1.0 };
+        let heights = (LEAST_DEPTH * extents.max() / extents.z)
+            .round()
+            .clamp(1.0, DEPTH_DRAWN);
+        let heights = if extents.z > FLAT * extents.max() {
+            heights
+        } else {
+            1.0
+        };
         (Self::isometric(heights), heights)
     }
 
@@ -77,32 +92,71 @@ impl View {
 
     /// A view of no scale yet, scaled to show the given points as large as there is room, in its middle.
     pub fn fitted(self, points: &[Vector3<f64>], [left, top, width, height]: Room) -> Self {
-        let (low, high) = ends(points.iter().map(|&point| self.place(point)).map(|(x, y)| Vector3::new(x, y, 0.0)));
+        let (low, high) = ends(
+            points
+                .iter()
+                .map(|&point| self.place(point))
+                .map(|(x, y)| Vector3::new(x, y, 0.0)),
+        );
         let scale = (width / (high.x - low.x)).min(height / (high.y - low.y));
         // A single point has no extent.
         let scale = if scale.is_finite() { scale } else { 1.0 };
         let twice = scale * (low + high);
-        Self { origin: (left + 0.5 * (width - twice.x), top + 0.5 * (height - twice.y)), scale, ..self }
+        Self {
+            origin: (
+                left + 0.5 * (width - twice.x),
+                top + 0.5 * (height - twice.y),
+            ),
+            scale,
+            ..self
+        }
     }
 
     /// Where the axes go, in words.
     pub fn axes(&self) -> String {
         let ways = |axis: usize| {
-            let words = [(self.right[axis], "right", "left"), (self.down[axis], "down", "up")];
+            let words = [
+                (self.right[axis], "right", "left"),
+                (self.down[axis], "down", "up"),
+            ];
             let ways = words.into_iter().filter(|way| way.0 != 0.0);
-            ways.map(|(length, one, other)| if length > 0.0 { one } else { other }).collect::<Vec<_>>().join(" and ")
+            ways.map(|(length, one, other)| if length > 0.0 { one } else { other })
+                .collect::<Vec<_>>()
+                .join(" and ")
         };
-        let named = ["x", "y", "z"].into_iter().zip((0..3).map(ways)).filter(|(_, ways)| !ways.is_empty());
-        named.map(|(axis, ways)| format!("{axis} {ways}")).collect::<Vec<_>>().join(", ")
+        let named = ["x", "y", "z"]
+            .into_iter()
+            .zip((0..3).map(ways))
+            .filter(|(_, ways)| !ways.is_empty());
+        named
+            .map(|(axis, ways)| format!("{axis} {ways}"))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     /// Draws lines through nodes, each by its places among them.
-    pub fn lines(&self, area: &Area, lines: &[Vec<usize>], nodes: &[Vector3<f64>], pen: Pen) -> Drawn {
-        let points = |nodes_of: &Vec<usize>| nodes_of.iter().map(|&node| self.place(nodes[node])).collect::<Vec<_>>();
-        lines.iter().try_for_each(|nodes_of| line(area, &points(nodes_of), pen))
+    pub fn lines(
+        &self,
+        area: &Area,
+        lines: &[Vec<usize>],
+        nodes: &[Vector3<f64>],
+        pen: Pen,
+    ) -> Drawn {
+        let points = |nodes_of: &Vec<usize>| {
+            nodes_of
+                .iter()
+                .map(|&node| self.place(nodes[node]))
+                .collect::<Vec<_>>()
+        };
+        lines
+            .iter()
+            .try_for_each(|nodes_of| line(area, &points(nodes_of), pen))
     }
 
     pub fn place(&self, at: Vector3<f64>) -> Place {
-        (self.origin.0 + self.scale * self.right.dot(&at), self.origin.1 + self.scale * self.down.dot(&at))
+        (
+            self.origin.0 + self.scale * self.right.dot(&at),
+            self.origin.1 + self.scale * self.down.dot(&at),
+        )
     }
 }

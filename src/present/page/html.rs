@@ -17,25 +17,38 @@ pub(super) fn section(id: &str, heading: &str, body: &str) -> String {
 /// What is wider than the page and scrolls inside it.
 fn scrolling(label: &str, body: &str) -> String {
     let label = escaped(label);
-    format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n{body}\n</div>\n")
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n{body}\n</div>\n"
+    )
 }
 
 /// A figure; what to see in it stands before its caption.
 pub(super) fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> String {
     let (drawing, caption, name) = (scrolling(caption, svg), escaped(caption), escaped(name));
-    let see = if see.is_empty() { String::new() } else { format!("<strong>{}</strong> ", escaped(see)) };
+    let see = if see.is_empty() {
+        String::new()
+    } else {
+        format!("<strong>{}</strong> ", escaped(see))
+    };
     format!("<figure id=\"{name}\">\n{drawing}<figcaption>{see}{caption}</figcaption>\n</figure>\n")
 }
 
 /// Figures side by side where there is room.
 pub(super) fn figures(class: &str, figures: impl Iterator<Item = String>) -> String {
     let figures: String = figures.collect();
-    if figures.is_empty() { figures } else { format!("<div class=\"{class}\">\n{figures}</div>\n") }
+    if figures.is_empty() {
+        figures
+    } else {
+        format!("<div class=\"{class}\">\n{figures}</div>\n")
+    }
 }
 
 pub(super) fn table(table: &Table) -> String {
     let title = escaped(&table.title);
-    let mut body = format!("<table id=\"{}\">\n<caption>{title}</caption>\n", escaped(&table.name));
+    let mut body = format!(
+        "<table id=\"{}\">\n<caption>{title}</caption>\n",
+        escaped(&table.name)
+    );
     body += &format!("<thead><tr><th scope=\"col\">{}</th>", table.label_heading);
     for column in &table.columns {
         let unit = match column.unit {
@@ -47,7 +60,10 @@ pub(super) fn table(table: &Table) -> String {
     body += "</tr></thead>\n<tbody>\n";
     for row in &table.rows {
         let cells: String = row.cells.iter().map(cell).collect();
-        body += &format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(&row.label));
+        body += &format!(
+            "<tr><th scope=\"row\">{}</th>{cells}</tr>\n",
+            escaped(&row.label)
+        );
     }
     let mut out = scrolling(&table.title, &(body + "</tbody>\n</table>"));
     for note in &table.notes {
@@ -57,13 +73,18 @@ pub(super) fn table(table: &Table) -> String {
 }
 
 fn cell(cell: &Cell) -> String {
-    let published = cell.published().map(|it| format!(" <span class=\"published\">({it})</span>")).unwrap_or_default();
+    let published = cell
+        .published()
+        .map(|it| format!(" <span class=\"published\">({it})</span>"))
+        .unwrap_or_default();
     format!("<td>{}{published}</td>", escaped(&cell.computed()))
 }
 
 /// A section of a Markdown document without its heading, as HTML.
 pub(super) fn section_of(markdown: &str, heading: &str) -> String {
-    let after = markdown.split_once(&format!("## {heading}\n")).map_or("", |(_, after)| after);
+    let after = markdown
+        .split_once(&format!("## {heading}\n"))
+        .map_or("", |(_, after)| after);
     prose(after.split("\n## ").next().unwrap_or_default())
 }
 
@@ -71,11 +92,21 @@ pub(super) fn section_of(markdown: &str, heading: &str) -> String {
 pub(super) fn prose(markdown: &str) -> String {
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES).flat_map(|event| match event {
         Event::Start(Tag::Table(alignment)) => {
-            vec![Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()), Event::Start(Tag::Table(alignment))]
+            vec![
+                Event::Html("<div class=\"scroll prose\" tabindex=\"0\">".into()),
+                Event::Start(Tag::Table(alignment)),
+            ]
         }
         Event::End(TagEnd::Table) => vec![Event::End(TagEnd::Table), Event::Html("</div>".into())],
-        Event::Start(Tag::Heading { id, classes, attrs, .. }) => {
-            vec![Event::Start(Tag::Heading { level: HeadingLevel::H3, id, classes, attrs })]
+        Event::Start(Tag::Heading {
+            id, classes, attrs, ..
+        }) => {
+            vec![Event::Start(Tag::Heading {
+                level: HeadingLevel::H3,
+                id,
+                classes,
+                attrs,
+            })]
         }
         // Comments mark computed tables in the source.
         Event::Html(_) => Vec::new(),

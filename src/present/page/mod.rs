@@ -9,7 +9,9 @@ mod story;
 use super::figures::{Figure, subject_figures};
 use super::subject::Subject;
 use super::table::{Digits, Table};
-use super::tables::cases::{fit_table, iteration_table, outcome_table, settings_table, summary, tables_of};
+use super::tables::cases::{
+    fit_table, iteration_table, outcome_table, settings_table, summary, tables_of,
+};
 use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, matrices, paper_tables, preflight};
 use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
@@ -49,18 +51,38 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let mut parts = story(contents);
-    let (told, appendix): (String, usize) = (parts.iter().map(|(.., body)| body.as_str()).collect(), parts.len());
+    let (told, appendix): (String, usize) = (
+        parts.iter().map(|(.., body)| body.as_str()).collect(),
+        parts.len(),
+    );
     let is_left = |figure: &&Figure| !told.contains(&format!("<figure id=\"{}\">", figure.name));
     let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
-    let contents = &Contents { figures: &left, ..*contents };
+    let contents = &Contents {
+        figures: &left,
+        ..*contents
+    };
     parts.extend([
-        named("summary-section", "Summary", "Summary", summary_section(contents)?),
+        named(
+            "summary-section",
+            "Summary",
+            "Summary",
+            summary_section(contents)?,
+        ),
         named("box", "The box", "The box", box_section(contents)),
-        named("preflight", "Pre-flight", "Before the first step", preflight_section(contents)?),
+        named(
+            "preflight",
+            "Pre-flight",
+            "Before the first step",
+            preflight_section(contents)?,
+        ),
     ]);
     for result in contents.results {
         let number = result.case.number;
-        let body = part(&tables_of(result)?, contents.figures, &[format!("case_{number}_")]);
+        let body = part(
+            &tables_of(result)?,
+            contents.figures,
+            &[format!("case_{number}_")],
+        );
         let heading = format!("Tables of Case {number}");
         parts.push(named(&format!("case-{number}"), &heading, &heading, body));
     }
@@ -69,24 +91,54 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         let body = part(&tables, contents.figures, &[format!("{}_", wing.name)]);
         parts.push(named(&wing.name, &wing.title, &wing.title, body));
     }
-    let differences = prose(include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'));
+    let differences = prose(
+        include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'),
+    );
     let why = "Where the results differ from the published ones, and why";
-    let cost = [iteration_table(contents.results)?, settings_table(contents.results)];
+    let cost = [
+        iteration_table(contents.results)?,
+        settings_table(contents.results),
+    ];
     let cost = part(&cost, contents.figures, &["growth", "linearization"]);
     parts.extend([
-        named("fewer-modes", "Fewer modes", "With fewer modes", fewer_modes_section(contents)?),
-        named("matrices", "Elements or matrices", "Why elements and not matrices", matrices_section(contents)?),
+        named(
+            "fewer-modes",
+            "Fewer modes",
+            "With fewer modes",
+            fewer_modes_section(contents)?,
+        ),
+        named(
+            "matrices",
+            "Elements or matrices",
+            "Why elements and not matrices",
+            matrices_section(contents)?,
+        ),
         named("cost", "Iterations", "Iterations", cost),
         named("differences", "Differences", why, differences),
-        named("made", "How it was made", "How it was made", made("Units: inch, pound-force, second", contents.command)),
+        named(
+            "made",
+            "How it was made",
+            "How it was made",
+            made("Units: inch, pound-force, second", contents.command),
+        ),
     ]);
     let bodies = parts.iter().map(|(.., body)| body.as_str());
-    let tables = bodies.flat_map(|body| body.split("<table id=\"").skip(1)).filter_map(|rest| rest.split('"').next());
+    let tables = bodies
+        .flat_map(|body| body.split("<table id=\"").skip(1))
+        .filter_map(|rest| rest.split('"').next());
     let held = format!(
         "<p>Every computed number has the published one behind it in parentheses. {}</p>\n",
         paper_tables(tables)
     );
-    parts.insert(appendix, named("appendix", "Appendix", "Appendix: the tables, and the other figures", held));
+    parts.insert(
+        appendix,
+        named(
+            "appendix",
+            "Appendix",
+            "Appendix: the tables, and the other figures",
+            held,
+        ),
+    );
     let lead = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
          those of a ground vibration test.";
     Ok(document(TITLE, lead, &parts))
@@ -101,8 +153,14 @@ fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
 
 /// A whole page of sections.
 fn document(title: &str, lead: &str, parts: &[Part]) -> String {
-    let links: String = parts.iter().map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n")).collect();
-    let sections: String = parts.iter().map(|(id, _, heading, body)| section(id, heading, body)).collect();
+    let links: String = parts
+        .iter()
+        .map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n"))
+        .collect();
+    let sections: String = parts
+        .iter()
+        .map(|(id, _, heading, body)| section(id, heading, body))
+        .collect();
     let title = escaped(title);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -120,35 +178,74 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
 ///
 /// # Errors
 /// Those of [`subject_figures`] and [`Subject::agreement`].
-pub fn subject_page(subject: &Subject, extra: &[Table], command: &str) -> Result<String, PresentError> {
+pub fn subject_page(
+    subject: &Subject,
+    extra: &[Table],
+    command: &str,
+) -> Result<String, PresentError> {
     let figures = subject_figures(subject)?;
     let of = |tables: &[Table], whats: &[&str]| {
-        part(tables, &figures, &whats.iter().map(|what| format!("{}_{what}", subject.name)).collect::<Vec<_>>())
+        part(
+            tables,
+            &figures,
+            &whats
+                .iter()
+                .map(|what| format!("{}_{what}", subject.name))
+                .collect::<Vec<_>>(),
+        )
     };
-    let class = if subject.converged() { "note" } else { "finding" };
+    let class = if subject.converged() {
+        "note"
+    } else {
+        "finding"
+    };
     let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words()));
     let summary = words + &table(&paired_table(subject)?);
     let derivatives: Vec<Table> = derivative_table(subject).into_iter().collect();
     let parts = [
         ("summary", "Summary", summary),
-        ("factors", "Factors", of(&[factor_table(subject)], &["factors"])),
+        (
+            "factors",
+            "Factors",
+            of(&[factor_table(subject)], &["factors"]),
+        ),
         ("structure", "Structure", of(&[], &["structure"])),
-        ("modes", "Mode shapes", of(&[], &["mode_shapes", "node_lines", "agreement"])),
-        ("history", "History", of(&[history_table(subject)], &["errors"])),
-        ("derivatives", "Derivatives", of(&derivatives, &["derivatives"])),
+        (
+            "modes",
+            "Mode shapes",
+            of(&[], &["mode_shapes", "node_lines", "agreement"]),
+        ),
+        (
+            "history",
+            "History",
+            of(&[history_table(subject)], &["errors"]),
+        ),
+        (
+            "derivatives",
+            "Derivatives",
+            of(&derivatives, &["derivatives"]),
+        ),
         ("others", "Further results", of(extra, &[])),
-        ("made", "How it was made", made("Units are the model's own", command)),
+        (
+            "made",
+            "How it was made",
+            made("Units are the model's own", command),
+        ),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
-    let parts = parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
-    let lead =
-        "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
+    let parts =
+        parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
+    let lead = "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
     Ok(document(&subject.title, lead, &parts.collect::<Vec<_>>()))
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.
 fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
-    let starts = |figure: &&Figure| prefixes.iter().any(|prefix| figure.name.starts_with(prefix.as_ref()));
+    let starts = |figure: &&Figure| {
+        prefixes
+            .iter()
+            .any(|prefix| figure.name.starts_with(prefix.as_ref()))
+    };
     let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
     tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
 }
@@ -166,8 +263,14 @@ fn summary_section(contents: &Contents) -> Result<String, PresentError> {
 
 fn box_section(contents: &Contents) -> String {
     let fit = contents.fit;
-    let (rms, largest) = (Digits::Fixed(3).write(100.0 * fit.rms), Digits::Fixed(2).write(100.0 * fit.largest));
-    let assumed = section_of(include_str!("../../../paper/reconstruction.md"), "Assumed beyond the paper");
+    let (rms, largest) = (
+        Digits::Fixed(3).write(100.0 * fit.rms),
+        Digits::Fixed(2).write(100.0 * fit.largest),
+    );
+    let assumed = section_of(
+        include_str!("../../../paper/reconstruction.md"),
+        "Assumed beyond the paper",
+    );
     format!(
         "<p>The paper prints neither coordinates nor masses. The box here was reconstructed from its results and \
          reproduces its published frequencies to {rms} % RMS, {largest} % at worst. Agreement with those frequencies \
@@ -182,16 +285,29 @@ fn box_section(contents: &Contents) -> String {
 fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     let found = |result: &CaseResult| {
         let case = &result.case;
-        Ok((format!("Case {}", case.number), preflight_of(&case.model()?, &result.test, &case.settings)?))
+        Ok((
+            format!("Case {}", case.number),
+            preflight_of(&case.model()?, &result.test, &case.settings)?,
+        ))
     };
-    let found = contents.results.iter().map(found).collect::<Result<Vec<_>, PresentError>>()?;
+    let found = contents
+        .results
+        .iter()
+        .map(found)
+        .collect::<Result<Vec<_>, PresentError>>()?;
     Ok(table(&preflight::findings_table(&found)))
 }
 
 /// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
 fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
-    let is_published = |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
-    let runs: Vec<FewerModesRun> = contents.fewer_modes.iter().filter(is_published).cloned().collect();
+    let is_published =
+        |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
+    let runs: Vec<FewerModesRun> = contents
+        .fewer_modes
+        .iter()
+        .filter(is_published)
+        .cloned()
+        .collect();
     let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
     let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest \
     analysis modes.</p>\n";
@@ -202,7 +318,10 @@ fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
 fn matrices_section(contents: &Contents) -> Result<String, PresentError> {
     let comparison = contents.matrices;
     let mut tables = matrices::knowledge_tables(comparison);
-    tables.push(matrices::factor_table(&Case::new(comparison.case)?, comparison));
+    tables.push(matrices::factor_table(
+        &Case::new(comparison.case)?,
+        comparison,
+    ));
     let lead = "<p>Closed forms (Baruch; Berman and Nagy) correct the stiffness matrix so that it has the test modes \
     exactly. Beside the factors on the elements: what each then knows of modes it was not shown, and of a change made \
     after the test.</p>\n";

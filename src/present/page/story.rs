@@ -6,7 +6,9 @@ use crate::cases::CaseResult;
 
 /// A part for every section of the words whose case or wing there is.
 pub(super) fn story(contents: &Contents) -> Vec<Part> {
-    let sections = include_str!("../../../paper/report.md").split("\n## ").skip(1);
+    let sections = include_str!("../../../paper/report.md")
+        .split("\n## ")
+        .skip(1);
     sections.filter_map(|text| part(text, contents)).collect()
 }
 
@@ -17,9 +19,17 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
     let mut pieces = body.split("\n- `");
     let mut body = prose(pieces.next()?);
     if let Some(number) = short.strip_prefix("Case ") {
-        body += &outcome(contents.results.iter().find(|result| result.case.number.to_string() == number)?);
+        body += &outcome(
+            contents
+                .results
+                .iter()
+                .find(|result| result.case.number.to_string() == number)?,
+        );
     } else if short != "Method" {
-        let wing = contents.wings.iter().find(|wing| wing.title.starts_with(short))?;
+        let wing = contents
+            .wings
+            .iter()
+            .find(|wing| wing.title.starts_with(short))?;
         body += &format!("<p class=\"note\">{}</p>\n", escaped(&wing.words()));
     }
     let seen = pieces.filter_map(|piece| {
@@ -28,15 +38,28 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
         Some(figure(drawn, words.trim()))
     });
     body += &figures("figures three", seen);
-    Some(named(&format!("story-{}", short.to_lowercase().replace(' ', "-")), short, heading, body))
+    Some(named(
+        &format!("story-{}", short.to_lowercase().replace(' ', "-")),
+        short,
+        heading,
+        body,
+    ))
 }
 
 /// What a case came to: its modeling error, or how near it is.
 fn outcome(result: &CaseResult) -> String {
     let Some(anomaly) = &result.anomaly else {
-        return format!("<p class=\"note\">{}</p>\n", result.correlation.verdict.in_words(&result.parameter_names));
+        return format!(
+            "<p class=\"note\">{}</p>\n",
+            result.correlation.verdict.in_words(&result.parameter_names)
+        );
     };
-    let (number, element, factor, ratio) = (result.case.number, &anomaly.parameter, anomaly.factor, anomaly.ratio);
+    let (number, element, factor, ratio) = (
+        result.case.number,
+        &anomaly.parameter,
+        anomaly.factor,
+        anomaly.ratio,
+    );
     format!(
         "<p class=\"finding\">Case {number}: element {element} asks for {factor:.1} times its stiffness in the first iteration, \
         {ratio:.1} times as much as any other. Look for a modeling error there.</p>\n"

@@ -15,20 +15,43 @@ impl Subject {
     /// Those of the first analysis.
     pub fn of_job(prepared: &Prepared, finished: Option<&Finished>) -> Result<Self, PresentError> {
         let whole = &prepared.source.whole;
-        let names: Vec<String> = whole.parameters().iter().map(|parameter| parameter.name.clone()).collect();
+        let names: Vec<String> = whole
+            .parameters()
+            .iter()
+            .map(|parameter| parameter.name.clone())
+            .collect();
         let ones = vec![1.0; names.len()];
-        let first = finished.map_or_else(|| prepared.analyze(&ones), |finished| Ok(finished.first.clone()))?;
+        let first = finished.map_or_else(
+            || prepared.analyze(&ones),
+            |finished| Ok(finished.first.clone()),
+        )?;
         let stem = prepared.job.stem();
         let geometry = &prepared.source.geometry;
-        let corners = |grids: &Vec<usize>| grids.iter().filter_map(|grid| geometry.places.get(grid).copied()).collect();
-        let lines =
-            prepared.data.lines.iter().filter(|_| geometry.elements.is_empty()).map(|line| corners(&line.to_vec()));
-        let mut frame: Vec<Vec<Vector3<f64>>> = geometry.elements.iter().map(corners).chain(lines).collect();
+        let corners = |grids: &Vec<usize>| {
+            grids
+                .iter()
+                .filter_map(|grid| geometry.places.get(grid).copied())
+                .collect()
+        };
+        let lines = prepared
+            .data
+            .lines
+            .iter()
+            .filter(|_| geometry.elements.is_empty())
+            .map(|line| corners(&line.to_vec()));
+        let mut frame: Vec<Vec<Vector3<f64>>> =
+            geometry.elements.iter().map(corners).chain(lines).collect();
         frame.retain(|corners| corners.len() > 1);
-        let still = |grid: &&usize| (0..3).all(|direction| !prepared.source.motions.contains_key(&(**grid, direction)));
+        let still = |grid: &&usize| {
+            (0..3).all(|direction| !prepared.source.motions.contains_key(&(**grid, direction)))
+        };
         let base = match finished.map(|finished| &finished.history) {
-            Some(History::Paper(run)) => Self::of(&stem, &names, &first.test, &run.initial, Some(run)),
-            Some(History::GaussNewton(Some((run, _)))) => Self::of_weighted(&stem, &names, &first, run),
+            Some(History::Paper(run)) => {
+                Self::of(&stem, &names, &first.test, &run.initial, Some(run))
+            }
+            Some(History::GaussNewton(Some((run, _)))) => {
+                Self::of_weighted(&stem, &names, &first, run)
+            }
             history => Self {
                 best: history.map(|_| 0),
                 stages: finished.into_iter().map(stopped).collect(),
@@ -40,13 +63,24 @@ impl Subject {
             ranges: whole.ranges(),
             sensors: prepared.placed.iter().map(sensor_point).collect(),
             frame,
-            grids: geometry.places.iter().map(|(grid, place)| (*grid, *place)).collect(),
-            supports: geometry.places.keys().filter(still).map(|grid| geometry.places[grid]).collect(),
+            grids: geometry
+                .places
+                .iter()
+                .map(|(grid, place)| (*grid, *place))
+                .collect(),
+            supports: geometry
+                .places
+                .keys()
+                .filter(still)
+                .map(|grid| geometry.places[grid])
+                .collect(),
             mass: prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last)),
             derivatives: Some(Derivatives::of(&first)?),
             ..base
         };
-        let Some(finished) = finished else { return Ok(subject) };
+        let Some(finished) = finished else {
+            return Ok(subject);
+        };
         let deviations = finished.factors.iter().zip(&finished.seen[1].deviations);
         Ok(Self {
             // Of the factor itself, from that of its logarithm.
@@ -58,28 +92,47 @@ impl Subject {
     }
 
     /// Gauss–Newton steps, each a stage of its own.
-    fn of_weighted(name: &str, names: &[String], first: &ModalModel, run: &WeightedCorrelation) -> Self {
+    fn of_weighted(
+        name: &str,
+        names: &[String],
+        first: &ModalModel,
+        run: &WeightedCorrelation,
+    ) -> Self {
         let stop = match run.stop {
             WeightedStop::Gradient => "gradient",
             WeightedStop::Step => "step",
             WeightedStop::Trials => "trials",
         };
         let last = run.iterations.len().saturating_sub(1);
-        let stages = run.iterations.iter().enumerate().map(|(number, iteration)| Stage {
-            factors: iteration.factors.clone(),
-            check: iteration.check.clone(),
-            inner: None,
-            stop: if number == last { stop.to_owned() } else { String::new() },
-        });
+        let stages = run
+            .iterations
+            .iter()
+            .enumerate()
+            .map(|(number, iteration)| Stage {
+                factors: iteration.factors.clone(),
+                check: iteration.check.clone(),
+                inner: None,
+                stop: if number == last {
+                    stop.to_owned()
+                } else {
+                    String::new()
+                },
+            });
         let stages: Vec<Stage> = stages.collect();
-        Self { best: stages.len().checked_sub(1), stages, ..Self::of(name, names, &first.test, &first.exact, None) }
+        Self {
+            best: stages.len().checked_sub(1),
+            stages,
+            ..Self::of(name, names, &first.test, &first.exact, None)
+        }
     }
 }
 
 /// How the grids move, see [`Subject::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
 /// combination of the corrected model's modes. None where the sensors cannot tell these apart.
 fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
-    let Prepared { source, sensors, .. } = prepared;
+    let Prepared {
+        source, sensors, ..
+    } = prepared;
     let ones = vec![1.0; finished.factors.len()];
     let whole = |factors: &[f64], model: &ModalModel| {
         let pairs = &model.exact.pairing.analysis_mode;
@@ -89,7 +142,10 @@ fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f6
         // Of the scale and sign of the shapes that are compared.
         let mut paired = all.select_columns(pairs);
         for (j, mut shape) in paired.column_iter_mut().enumerate() {
-            let (own, compared) = (seen.column(pairs[j]), model.exact.modes.shapes.column(pairs[j]));
+            let (own, compared) = (
+                seen.column(pairs[j]),
+                model.exact.modes.shapes.column(pairs[j]),
+            );
             shape *= model.exact.pairing.sign[j] * own.dot(&compared) / own.norm_squared();
         }
         Some((paired, all, seen))
@@ -100,12 +156,17 @@ fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f6
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
-            motion.map(|&(dof, coefficient)| coefficient * shape[dof]).sum()
+            motion
+                .map(|&(dof, coefficient)| coefficient * shape[dof])
+                .sum()
         })
     };
     let grids = || source.geometry.places.keys();
     let of = |shapes: DMatrix<f64>| {
-        shapes.column_iter().map(|shape| grids().map(|&grid| at(shape, grid)).collect()).collect()
+        shapes
+            .column_iter()
+            .map(|shape| grids().map(|&grid| at(shape, grid)).collect())
+            .collect()
     };
     Some([of(test), of(first), of(last)])
 }
@@ -113,10 +174,23 @@ fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f6
 /// The best that a stopped run has come to.
 fn stopped(finished: &Finished) -> Stage {
     let (factors, check) = (finished.factors.clone(), finished.last.exact.clone());
-    Stage { factors, check, inner: None, stop: "request".to_owned() }
+    Stage {
+        factors,
+        check,
+        inner: None,
+        stop: "request".to_owned(),
+    }
 }
 
 fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {
-    let direction = if sensor.direction < 3 { sensor.axis } else { Vector3::zeros() };
-    SensorPoint { name: sensor.name.clone(), place: sensor.place, direction }
+    let direction = if sensor.direction < 3 {
+        sensor.axis
+    } else {
+        Vector3::zeros()
+    };
+    SensorPoint {
+        name: sensor.name.clone(),
+        place: sensor.place,
+        direction,
+    }
 }

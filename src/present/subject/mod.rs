@@ -114,26 +114,46 @@ impl Derivatives {
         let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
             let i = first.exact.pairing.analysis_mode[j];
             match &first.shares[e] {
-                Share::Stiffness(share) => share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i]),
+                Share::Stiffness(share) => {
+                    share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
+                }
                 Share::Mass(share) => -0.5 * share[(i, i)],
             }
         });
-        Ok(Self { frequency, error_sum: changes.iter().map(|change| change / DERIVATIVE_STEP).collect() })
+        Ok(Self {
+            frequency,
+            error_sum: changes
+                .iter()
+                .map(|change| change / DERIVATIVE_STEP)
+                .collect(),
+        })
     }
 }
 
 impl Subject {
     /// A first model and what the outer loop made of it, if it ran; what that does not tell (title, sensors, frame, mass, deviations,
     /// derivatives) is left empty, to be filled in.
-    pub fn of(name: &str, parameters: &[String], test: &ModeSet, initial: &Check, run: Option<&Correlation>) -> Self {
+    pub fn of(
+        name: &str,
+        parameters: &[String],
+        test: &ModeSet,
+        initial: &Check,
+        run: Option<&Correlation>,
+    ) -> Self {
         let stage = |pass: &Pass| {
             let stop = match pass.inner.stop {
                 Stop::Tolerance => "tolerance",
                 Stop::LocalMinimum => "local minimum",
                 Stop::Iterations => "iterations",
             };
-            let (factors, check, inner) = (pass.factors.clone(), pass.check.clone(), pass.inner.clone());
-            Stage { factors, check, inner: Some(inner), stop: stop.to_owned() }
+            let (factors, check, inner) =
+                (pass.factors.clone(), pass.check.clone(), pass.inner.clone());
+            Stage {
+                factors,
+                check,
+                inner: Some(inner),
+                stop: stop.to_owned(),
+            }
         };
         Self {
             name: name.to_owned(),
@@ -161,21 +181,36 @@ impl Subject {
 
     /// The same with the panels, rods, grids and supports of a structure.
     pub fn on(mut self, structure: &Structure) -> Self {
-        self.frame = structure.elements().iter().map(|element| structure.corners(element)).collect();
-        self.grids = structure.grids().iter().map(|grid| (grid.label, grid.position)).collect();
-        let fixed = structure.grids().iter().filter(|grid| grid.constrained == [true; 3]);
+        self.frame = structure
+            .elements()
+            .iter()
+            .map(|element| structure.corners(element))
+            .collect();
+        self.grids = structure
+            .grids()
+            .iter()
+            .map(|grid| (grid.label, grid.position))
+            .collect();
+        let fixed = structure
+            .grids()
+            .iter()
+            .filter(|grid| grid.constrained == [true; 3]);
         self.supports = fixed.map(|grid| grid.position).collect();
         self
     }
 
     /// Whether the best is within tolerance.
     pub fn converged(&self) -> bool {
-        self.verdict.as_ref().is_some_and(|verdict| verdict.is_within)
+        self.verdict
+            .as_ref()
+            .is_some_and(|verdict| verdict.is_within)
     }
 
     /// What it came to in words.
     pub fn words(&self) -> String {
-        self.verdict.as_ref().map_or_else(String::new, |verdict| verdict.in_words(&self.parameters))
+        self.verdict
+            .as_ref()
+            .map_or_else(String::new, |verdict| verdict.in_words(&self.parameters))
     }
 
     fn best_stage(&self) -> Option<&Stage> {
@@ -184,24 +219,39 @@ impl Subject {
 
     /// The exact solution of the best stage.
     pub fn corrected(&self) -> &Check {
-        self.best_stage().map_or(&self.initial, |stage| &stage.check)
+        self.best_stage()
+            .map_or(&self.initial, |stage| &stage.check)
     }
 
     /// The factors of the best stage, all one without any.
     pub fn factors(&self) -> Vec<f64> {
-        self.best_stage().map_or_else(|| vec![1.0; self.parameters.len()], |stage| stage.factors.clone())
+        self.best_stage().map_or_else(
+            || vec![1.0; self.parameters.len()],
+            |stage| stage.factors.clone(),
+        )
     }
 
     /// Whether the factor of a parameter is at an end of its range.
     pub fn is_at_bound(&self, parameter: usize, factor: f64) -> bool {
-        self.ranges.get(parameter).copied().flatten().is_some_and(|range| range.has_end_at(factor))
+        self.ranges
+            .get(parameter)
+            .copied()
+            .flatten()
+            .is_some_and(|range| range.has_end_at(factor))
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
     pub fn inner_errors(&self, stage: usize) -> Vec<Errors> {
-        let before = stage.checked_sub(1).map_or(&self.initial, |before| &self.stages[before].check);
-        let inner = self.stages[stage].inner.iter().flat_map(|inner| &inner.iterations);
-        std::iter::once(before.errors).chain(inner.map(|iteration| iteration.errors)).collect()
+        let before = stage
+            .checked_sub(1)
+            .map_or(&self.initial, |before| &self.stages[before].check);
+        let inner = self.stages[stage]
+            .inner
+            .iter()
+            .flat_map(|inner| &inner.iterations);
+        std::iter::once(before.errors)
+            .chain(inner.map(|iteration| iteration.errors))
+            .collect()
     }
 
     /// How the modes of an exact solution, up to the highest that is paired, agree with the test's; paired ones are signed like them.
@@ -209,12 +259,23 @@ impl Subject {
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
     pub fn agreement(&self, check: &Check) -> Result<Agreement, Error> {
-        let highest = check.pairing.analysis_mode.iter().max().map_or(0, |mode| mode + 1);
+        let highest = check
+            .pairing
+            .analysis_mode
+            .iter()
+            .max()
+            .map_or(0, |mode| mode + 1);
         let mut modes: ModeSet = check.modes.lowest(highest)?.into();
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }
-        let orthogonality = |mass| cross_orthogonality(&modes.scaled_with(mass)?, &self.test.scaled_with(mass)?, mass);
+        let orthogonality = |mass| {
+            cross_orthogonality(
+                &modes.scaled_with(mass)?,
+                &self.test.scaled_with(mass)?,
+                mass,
+            )
+        };
         Ok(Agreement {
             assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,
             orthogonality: self.mass.as_ref().map(orthogonality).transpose()?,

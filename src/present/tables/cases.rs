@@ -18,7 +18,10 @@ use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
-fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<PublishedTable>, PresentError> {
+fn published(
+    numbers: [usize; 3],
+    result: &CaseResult,
+) -> Result<Option<PublishedTable>, PresentError> {
     match (numbers.get(result.case.number - 1), result.case.grouping) {
         (Some(&number), Grouping::Elements) => Ok(Some(PublishedTable::number(number)?)),
         _ => Ok(None),
@@ -26,13 +29,22 @@ fn published(numbers: [usize; 3], result: &CaseResult) -> Result<Option<Publishe
 }
 
 /// An empty table of a case, named by the paper's number if it has one.
-fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label: &'static str) -> Table {
+fn named(
+    result: &CaseResult,
+    paper: Option<&PublishedTable>,
+    what: &str,
+    label: &'static str,
+) -> Table {
     let case = result.case.number;
     let (name, of_paper) = match paper.map(|table| table.number) {
         Some(number) => (format!("table_{number}"), format!(" (Table {number})")),
         None => (format!("case_{case}_{what}"), String::new()),
     };
-    Table::new(name, format!("Case {case}: {what} and errors{of_paper}"), label)
+    Table::new(
+        name,
+        format!("Case {case}: {what} and errors{of_paper}"),
+        label,
+    )
 }
 
 /// Tables 3, 5, 7 (and the like for Case 4): frequencies and their percent errors, and the RMS errors.
@@ -41,34 +53,84 @@ fn named(result: &CaseResult, paper: Option<&PublishedTable>, what: &str, label:
 /// [`PresentError::Case`] if the published table were damaged, as for all tables of this module.
 pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let (paper, run) = (published([3, 5, 7], result)?, &result.correlation);
-    let checks = std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check)).enumerate();
+    let checks = std::iter::once(&run.initial)
+        .chain(run.passes.iter().map(|pass| &pass.check))
+        .enumerate();
     let stage = |(pass, check): (usize, &Check)| {
-        Stage::new("pass", pass, &check.frequencies_hz, &[check.errors.frequency_rms(), check.errors.shape_rms()])
+        Stage::new(
+            "pass",
+            pass,
+            &check.frequencies_hz,
+            &[check.errors.frequency_rms(), check.errors.shape_rms()],
+        )
     };
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
-    let table = table.notes(solver_note(result.solver, "", ", of the test configuration too;"));
-    let (test_hz, stages) = (result.test.frequencies_hz(), checks.map(stage).collect::<Vec<_>>());
-    Ok(stages::fill(table, &[], &test_hz, &stages, &MODE_ERRORS, paper.as_ref()))
+    let table = table.notes(solver_note(
+        result.solver,
+        "",
+        ", of the test configuration too;",
+    ));
+    let (test_hz, stages) = (
+        result.test.frequencies_hz(),
+        checks.map(stage).collect::<Vec<_>>(),
+    );
+    Ok(stages::fill(
+        table,
+        &[],
+        &test_hz,
+        &stages,
+        &MODE_ERRORS,
+        paper.as_ref(),
+    ))
 }
 
 /// Tables 4, 6, 8 (and the like for Case 4): gages and their percent errors, RMS per kind of element.
 pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
     let (paper, panels) = (published([4, 6, 8], result)?, &result.case.panels);
-    let kinds = [("shear RMS", ElementKind::ShearPanel), ("membrane RMS", ElementKind::Membrane)];
-    let kinds = kinds.into_iter().filter(|(_, kind)| panels.iter().any(|panel| panel.kind == *kind));
-    let (errors, kinds): (Vec<_>, Vec<_>) = kinds.map(|(label, kind)| ((label, PERCENT), kind)).unzip();
-    let gages = std::iter::once(result.case.first_gages()).chain(result.pass_gages.iter().cloned()).enumerate();
-    let rms = |gages: &[f64]| kinds.iter().map(|&kind| gage_rms(panels, gages, kind)).collect::<Vec<_>>();
-    let stages: Vec<Stage> = gages.map(|(pass, gages)| Stage::new("pass", pass, &gages, &rms(&gages))).collect();
+    let kinds = [
+        ("shear RMS", ElementKind::ShearPanel),
+        ("membrane RMS", ElementKind::Membrane),
+    ];
+    let kinds = kinds
+        .into_iter()
+        .filter(|(_, kind)| panels.iter().any(|panel| panel.kind == *kind));
+    let (errors, kinds): (Vec<_>, Vec<_>) =
+        kinds.map(|(label, kind)| ((label, PERCENT), kind)).unzip();
+    let gages = std::iter::once(result.case.first_gages())
+        .chain(result.pass_gages.iter().cloned())
+        .enumerate();
+    let rms = |gages: &[f64]| {
+        kinds
+            .iter()
+            .map(|&kind| gage_rms(panels, gages, kind))
+            .collect::<Vec<_>>()
+    };
+    let stages: Vec<Stage> = gages
+        .map(|(pass, gages)| Stage::new("pass", pass, &gages, &rms(&gages)))
+        .collect();
     let table = named(result, paper.as_ref(), "gages", "Element");
-    Ok(stages::fill(table, panels, &[], &stages, &errors, paper.as_ref()))
+    Ok(stages::fill(
+        table,
+        panels,
+        &[],
+        &stages,
+        &errors,
+        paper.as_ref(),
+    ))
 }
 
 /// The paper's iterations for every pass of a run, where it made that run (Table 13).
 pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, PresentError> {
     let paper = PublishedTable::number(13)?;
-    let (row, is_papers) = (result.case.number.to_string(), result.case.grouping == Grouping::Elements);
-    let printed = |pass: usize| paper.value(&row, &format!("pass_{pass}_iterations")).filter(|_| is_papers);
+    let (row, is_papers) = (
+        result.case.number.to_string(),
+        result.case.grouping == Grouping::Elements,
+    );
+    let printed = |pass: usize| {
+        paper
+            .value(&row, &format!("pass_{pass}_iterations"))
+            .filter(|_| is_papers)
+    };
     Ok((1..=result.correlation.passes.len()).map(printed).collect())
 }
 
@@ -80,16 +142,27 @@ fn last(result: &CaseResult) -> &Check {
 
 /// Iterations of every pass.
 fn iterations(result: &CaseResult) -> impl Iterator<Item = usize> {
-    result.correlation.passes.iter().map(|pass| pass.inner.iterations.len())
+    result
+        .correlation
+        .passes
+        .iter()
+        .map(|pass| pass.inner.iterations.len())
 }
 
 /// Table 13's iterations per pass (its seconds are a 1980s computer's; benches measure today's).
 pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
-    let most = results.iter().map(|result| result.correlation.passes.len()).max().unwrap_or(0);
+    let most = results
+        .iter()
+        .map(|result| result.correlation.passes.len())
+        .max()
+        .unwrap_or(0);
     let title = "Inner loop iterations per pass (Table 13)";
-    let mut table = Table::new("table_13", title, "Case").headings((1..=most).map(|pass| format!("Pass {pass}")), "");
+    let mut table = Table::new("table_13", title, "Case")
+        .headings((1..=most).map(|pass| format!("Pass {pass}")), "");
     for result in results {
-        let counts = iterations(result).map(|count| count as f64).zip(published_iterations(result)?);
+        let counts = iterations(result)
+            .map(|count| count as f64)
+            .zip(published_iterations(result)?);
         let cells = counts.map(|(count, printed)| Cell::beside(count, Digits::Fixed(0), printed));
         table.row(result.case.number, cells);
     }
@@ -99,13 +172,30 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
 /// The settings that each case was run with.
 pub fn settings_table(results: &[CaseResult]) -> Table {
     let mut table = Table::new("settings", "Settings of the loops", "Case")
-        .headings(["Step", "Changes", "R", "Limits", "TOLI", "TOLO", "Iterations", "Passes"], "")
+        .headings(
+            [
+                "Step",
+                "Changes",
+                "R",
+                "Limits",
+                "TOLI",
+                "TOLO",
+                "Iterations",
+                "Passes",
+            ],
+            "",
+        )
         .notes(["R and TOLI: first, and after. Iterations and passes: at most."]);
     for CaseResult { case, .. } in results {
         let (settings, inner) = (&case.settings, &case.settings.inner);
         let words = [
             inner.step.name().to_owned(),
-            if inner.accumulation == Accumulation::Sum { "add" } else { "multiply" }.to_owned(),
+            if inner.accumulation == Accumulation::Sum {
+                "add"
+            } else {
+                "multiply"
+            }
+            .to_owned(),
             format!("{} {}", inner.first_relaxation, inner.relaxation),
             format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
             format!("{} {}", inner.tolerance, settings.later_inner_tolerance),
@@ -131,12 +221,20 @@ pub fn fit_table(fit: &Fit) -> Table {
         in_words(stage),
     );
     let title = "The reconstructed box: computed frequencies at published gages against published";
-    let mut table = Table::new("fit", title, "Column").headings(["RMS", "Largest"], "%").notes([note]);
+    let mut table = Table::new("fit", title, "Column")
+        .headings(["RMS", "Largest"], "%")
+        .notes([note]);
     for column in &fit.columns {
         let differences: Vec<f64> = column.differences().collect();
-        let largest = differences.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let largest = differences
+            .iter()
+            .copied()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let label = format!("Case {} {}", column.case, in_words(&column.column));
-        table.row(label, percents([Some(rms(&differences)), largest], RMS_PERCENT));
+        table.row(
+            label,
+            percents([Some(rms(&differences)), largest], RMS_PERCENT),
+        );
     }
     table
 }
@@ -152,10 +250,24 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
     let sums = |of: fn(&CaseResult) -> f64| numbers(results.iter().map(of), Digits::Fixed(4));
     Table::new("outcome", "What became of every case", "Case")
         .labels(results.iter().map(|result| result.case.number))
-        .column("Passes", "", results.iter().map(|result| Cell::count(result.correlation.passes.len())))
+        .column(
+            "Passes",
+            "",
+            results
+                .iter()
+                .map(|result| Cell::count(result.correlation.passes.len())),
+        )
         .column("Error sum", "", sums(|result| last(result).errors.sum()))
-        .column("TOLO", "", sums(|result| result.case.settings.error_sum_tolerance))
-        .column("Outcome", "", results.iter().map(|result| Cell::text(outcome(result))))
+        .column(
+            "TOLO",
+            "",
+            sums(|result| result.case.settings.error_sum_tolerance),
+        )
+        .column(
+            "Outcome",
+            "",
+            results.iter().map(|result| Cell::text(outcome(result))),
+        )
         .notes([note])
         .notes(results.iter().filter_map(verdict))
 }
@@ -166,7 +278,11 @@ pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, Prese
     for result in results {
         tables.extend(tables_of(result)?);
     }
-    tables.extend([iteration_table(results)?, settings_table(results), fit_table(fit)]);
+    tables.extend([
+        iteration_table(results)?,
+        settings_table(results),
+        fit_table(fit),
+    ]);
     Ok(tables)
 }
 
@@ -182,7 +298,12 @@ pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let own = StepRule::default();
     if is_papers && result.case.number == CASES[3] {
         let detection = |reading| detection(&result.case.reconstruction, reading);
-        tables.push(detection_table(&READINGS.into_iter().map(detection).collect::<Result<Vec<_>, _>>()?));
+        tables.push(detection_table(
+            &READINGS
+                .into_iter()
+                .map(detection)
+                .collect::<Result<Vec<_>, _>>()?,
+        ));
     } else if is_papers && result.case.settings.inner.step != own {
         let mut columns = columns_of(result)?;
         columns.extend(columns_of(&run_by_reading(&result.case, own)?)?);
@@ -196,34 +317,63 @@ pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
 pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     let title = "RMS errors over nine modes, first and last model";
     let mut table = Table::new("summary", title, "Case")
-        .headings(["Frequency, first", "Frequency, last", "Shape, first", "Shape, last"], "%")
+        .headings(
+            [
+                "Frequency, first",
+                "Frequency, last",
+                "Shape, first",
+                "Shape, last",
+            ],
+            "%",
+        )
         .headings(["Iterations by pass", "Outcome"], "");
     for result in results {
         let paper = published([3, 5, 7], result)?;
         let name = format!("pass_{}", result.correlation.passes.len());
-        let ends = [("initial", &result.correlation.initial.errors), (&name, &last(result).errors)];
+        let ends = [
+            ("initial", &result.correlation.initial.errors),
+            (&name, &last(result).errors),
+        ];
         let rms = |row: &str, value: fn(&Errors) -> f64| {
             ends.map(|(stage, errors)| {
-                let printed = paper.as_ref().and_then(|paper| paper.value(row, &format!("{stage}_percent")));
+                let printed = paper
+                    .as_ref()
+                    .and_then(|paper| paper.value(row, &format!("{stage}_percent")));
                 Cell::beside(100.0 * value(errors), RMS_PERCENT, printed)
             })
         };
         let counts: Vec<String> = iterations(result).map(|count| count.to_string()).collect();
         let words = [counts.join(", "), outcome(result)].map(Cell::text);
-        let [frequency, shape] = [rms("frequency_rms", Errors::frequency_rms), rms("shape_rms", Errors::shape_rms)];
-        table.row(result.case.number, frequency.into_iter().chain(shape).chain(words));
+        let [frequency, shape] = [
+            rms("frequency_rms", Errors::frequency_rms),
+            rms("shape_rms", Errors::shape_rms),
+        ];
+        table.row(
+            result.case.number,
+            frequency.into_iter().chain(shape).chain(words),
+        );
     }
     Ok(table)
 }
 
 /// What became of a case, in a few words.
 pub fn outcome(result: &CaseResult) -> String {
-    let kind = if result.case.grouping == Grouping::Elements { "element " } else { "" };
-    let detected = result.anomaly.as_ref().map(|found| format!("modeling error detected in {kind}{}", found.parameter));
+    let kind = if result.case.grouping == Grouping::Elements {
+        "element "
+    } else {
+        ""
+    };
+    let detected = result
+        .anomaly
+        .as_ref()
+        .map(|found| format!("modeling error detected in {kind}{}", found.parameter));
     let (state, joint) = match (result.is_detection(), result.correlation.converged) {
         (true, _) => return detected.unwrap_or_else(|| "no modeling error detected".to_owned()),
         (_, true) => ("correlated", " but "),
         (_, false) => ("not converged", "; "),
     };
-    detected.map_or_else(|| state.to_owned(), |detected| format!("{state}{joint}{detected}"))
+    detected.map_or_else(
+        || state.to_owned(),
+        |detected| format!("{state}{joint}{detected}"),
+    )
 }

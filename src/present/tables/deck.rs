@@ -19,28 +19,68 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
     let (masses, shapes) = unit_shapes(modes, count);
     let dof = counted(modes.dof.len(), "degree", "degrees");
     let title = format!("Natural frequencies at {dof} of freedom with mass");
-    let (left_out, others): (Vec<&Unread>, Vec<&Unread>) =
-        deck.unread.iter().partition(|unread| unread.reason == Reason::Ignored);
-    let rigid = counted(modes.rigid_body, "rigid-body mode is", "rigid-body modes are");
-    let rigid = (modes.rigid_body > 0).then(|| format!("The structure hangs free: {rigid} not listed."));
+    let (left_out, others): (Vec<&Unread>, Vec<&Unread>) = deck
+        .unread
+        .iter()
+        .partition(|unread| unread.reason == Reason::Ignored);
+    let rigid = counted(
+        modes.rigid_body,
+        "rigid-body mode is",
+        "rigid-body modes are",
+    );
+    let rigid =
+        (modes.rigid_body > 0).then(|| format!("The structure hangs free: {rigid} not listed."));
     let frequencies = Table::new("frequencies", title, "Mode")
         .labels(1..=masses.len())
-        .column("Frequency", "Hz", numbers(modes.modes.frequencies_hz(), FREQUENCY))
+        .column(
+            "Frequency",
+            "Hz",
+            numbers(modes.modes.frequencies_hz(), FREQUENCY),
+        )
         .column("Generalized mass", "lbf·s²/in", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
         .notes(rigid);
-    let ignored = Table::new("ignored", "Cards left out by request: these modes lack what they say", "Card")
-        .labels(left_out.iter().map(|unread| &unread.card))
-        .column("Cards", "", left_out.iter().map(|unread| Cell::count(unread.count)))
-        .column("First line", "", left_out.iter().map(|unread| Cell::count(unread.line)));
-    let mut tables = if left_out.is_empty() { vec![frequencies] } else { vec![ignored, frequencies] };
-    let labels = || modes.dof.iter().map(|dof| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]));
+    let ignored = Table::new(
+        "ignored",
+        "Cards left out by request: these modes lack what they say",
+        "Card",
+    )
+    .labels(left_out.iter().map(|unread| &unread.card))
+    .column(
+        "Cards",
+        "",
+        left_out.iter().map(|unread| Cell::count(unread.count)),
+    )
+    .column(
+        "First line",
+        "",
+        left_out.iter().map(|unread| Cell::count(unread.line)),
+    );
+    let mut tables = if left_out.is_empty() {
+        vec![frequencies]
+    } else {
+        vec![ignored, frequencies]
+    };
+    let labels = || {
+        modes
+            .dof
+            .iter()
+            .map(|dof| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]))
+    };
     for (part, shapes) in shapes.chunks(MODES_PER_TABLE).enumerate() {
-        let (first, last) = (MODES_PER_TABLE * part + 1, MODES_PER_TABLE * part + shapes.len());
+        let (first, last) = (
+            MODES_PER_TABLE * part + 1,
+            MODES_PER_TABLE * part + shapes.len(),
+        );
         let title = format!("Shapes of modes {first} to {last}, largest component one");
-        let mut table = Table::new(format!("shapes_{first}_to_{last}"), title, "Grid").labels(labels());
+        let mut table =
+            Table::new(format!("shapes_{first}_to_{last}"), title, "Grid").labels(labels());
         for (mode, shape) in (first..).zip(shapes) {
-            table = table.column(format!("Mode {mode}"), "", numbers(shape.iter().copied(), SHAPE));
+            table = table.column(
+                format!("Mode {mode}"),
+                "",
+                numbers(shape.iter().copied(), SHAPE),
+            );
         }
         tables.push(table);
     }
@@ -59,11 +99,23 @@ pub fn not_read(unread: &Unread) -> String {
 }
 
 /// Generalized masses and shapes (by mode, then by DOF) of the lowest modes, of a largest component of one.
-pub(in crate::present) fn unit_shapes(modes: &WholeModes, count: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
+pub(in crate::present) fn unit_shapes(
+    modes: &WholeModes,
+    count: usize,
+) -> (Vec<f64>, Vec<Vec<f64>>) {
     // Shapes come with unit generalized mass and a positive largest component.
     let unit = |shape: nalgebra::DVectorView<f64>| {
         let largest = shape.amax();
-        (largest.powi(-2), shape.iter().map(|component| component / largest).collect())
+        (
+            largest.powi(-2),
+            shape.iter().map(|component| component / largest).collect(),
+        )
     };
-    modes.modes.shapes.column_iter().take(count).map(unit).unzip()
+    modes
+        .modes
+        .shapes
+        .column_iter()
+        .take(count)
+        .map(unit)
+        .unzip()
 }

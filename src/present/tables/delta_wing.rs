@@ -7,7 +7,9 @@ use crate::present::PresentError;
 use crate::present::subject::Subject;
 use crate::present::table::{Digits, Table, numbers, percents};
 use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
-use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
+use crate::studies::delta_wing::{
+    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
+};
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);
@@ -21,10 +23,17 @@ const FACTOR: Digits = Digits::Fixed(4);
 ///
 /// # Errors
 /// Those of the wing's analyses; [`PresentError::Case`] if what others found were damaged.
-pub fn delta_wing_tables(wing: &DeltaWing, run: &WingCorrelation) -> Result<Vec<Table>, PresentError> {
+pub fn delta_wing_tables(
+    wing: &DeltaWing,
+    run: &WingCorrelation,
+) -> Result<Vec<Table>, PresentError> {
     let subject = Subject::of_wing(wing, run)?;
     let mut paired = paired_table(&subject)?;
-    paired.rows.iter_mut().zip(TEST_MODES).for_each(|(row, mode)| row.label = mode.to_string());
+    paired
+        .rows
+        .iter_mut()
+        .zip(TEST_MODES)
+        .for_each(|(row, mode)| row.label = mode.to_string());
     Ok(vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
@@ -46,10 +55,19 @@ fn beside_others(
     (labels, computed): (&[String], &[f64]),
     others: &[Other],
 ) -> Result<Table, PresentError> {
-    let mut table = table.labels(labels).column("Computed", unit, numbers(computed.iter().copied(), PRINTED));
+    let mut table =
+        table
+            .labels(labels)
+            .column("Computed", unit, numbers(computed.iter().copied(), PRINTED));
     for (who, heading, digits, difference) in others {
-        let theirs = labels.iter().map(|label| known.required(label, heading)).collect::<Result<Vec<_>, _>>()?;
-        let differences = computed.iter().zip(&theirs).map(|(computed, theirs)| computed / theirs - 1.0);
+        let theirs = labels
+            .iter()
+            .map(|label| known.required(label, heading))
+            .collect::<Result<Vec<_>, _>>()?;
+        let differences = computed
+            .iter()
+            .zip(&theirs)
+            .map(|(computed, theirs)| computed / theirs - 1.0);
         let differences = percents(differences, *difference);
         table = table.column(*who, unit, numbers(theirs.iter().copied(), *digits));
         table = table.column(format!("{who} difference"), "%", differences);
@@ -63,27 +81,61 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
         TipLoad::LeadingEdge => ("le", "leading edge"),
     };
     let mut others = vec![
-        ("NASTRAN 1995", format!("{short}_1995_in"), PRINTED, SMALL_PERCENT),
+        (
+            "NASTRAN 1995",
+            format!("{short}_1995_in"),
+            PRINTED,
+            SMALL_PERCENT,
+        ),
         ("Measured", format!("{short}_experiment_in"), READ, PERCENT),
     ];
     if load == TipLoad::TrailingEdge {
         others.push(("Analog", "te_analog_in".to_owned(), READ, PERCENT));
     }
-    let title =
-        format!("Delta wing: deflections under {} lbf down at the tip's {long}, grid {}", wing.tip_load, load.grid());
+    let title = format!(
+        "Delta wing: deflections under {} lbf down at the tip's {long}, grid {}",
+        wing.tip_load,
+        load.grid()
+    );
     let table = Table::new(format!("delta_wing_deflections_{short}"), title, "Grid");
     let grids = MEASURED_GRIDS.map(|grid| grid.to_string());
-    beside_others(table, &known_deflections()?, "in", (&grids, &wing.deflections(load)?), &others)
+    beside_others(
+        table,
+        &known_deflections()?,
+        "in",
+        (&grids, &wing.deflections(load)?),
+        &others,
+    )
 }
 
 fn frequency_table(wing: &DeltaWing) -> Result<Table, PresentError> {
     let known = known_frequencies()?;
     let others: [Other; 2] = [
-        ("NASTRAN 1995", "frequency_1995_hz".to_owned(), PRINTED, SMALL_PERCENT),
-        ("Analog", "analog_hz".to_owned(), Digits::Significant(3), PERCENT),
+        (
+            "NASTRAN 1995",
+            "frequency_1995_hz".to_owned(),
+            PRINTED,
+            SMALL_PERCENT,
+        ),
+        (
+            "Analog",
+            "analog_hz".to_owned(),
+            Digits::Significant(3),
+            PERCENT,
+        ),
     ];
-    let table = Table::new("delta_wing_frequencies", "Delta wing: natural frequencies", "Mode");
-    beside_others(table, &known, "Hz", (&known.labels, &wing.modes()?.modes.frequencies_hz()), &others)
+    let table = Table::new(
+        "delta_wing_frequencies",
+        "Delta wing: natural frequencies",
+        "Mode",
+    );
+    beside_others(
+        table,
+        &known,
+        "Hz",
+        (&known.labels, &wing.modes()?.modes.frequencies_hz()),
+        &others,
+    )
 }
 
 fn group_table(run: &WingCorrelation) -> Table {
@@ -92,13 +144,24 @@ fn group_table(run: &WingCorrelation) -> Table {
         stiffness of any test mode.";
     let found = &run.correlation.best_factors;
     let first_errors = GROUPS.map(|group| group.first_over_true - 1.0);
-    let errors = GROUPS.iter().zip(found).map(|(group, factor)| factor / group.true_factor() - 1.0);
+    let errors = GROUPS
+        .iter()
+        .zip(found)
+        .map(|(group, factor)| factor / group.true_factor() - 1.0);
     Table::new("delta_wing_groups", title, "Group")
         .labels(GROUPS.map(|group| group.name))
         .column("First gage error", "%", percents(first_errors, PERCENT))
-        .column("True factor", "", numbers(GROUPS.iter().map(Group::true_factor), FACTOR))
+        .column(
+            "True factor",
+            "",
+            numbers(GROUPS.iter().map(Group::true_factor), FACTOR),
+        )
         .column("Found", "", numbers(found.iter().copied(), FACTOR))
         .column("Last gage error", "%", percents(errors, RMS_PERCENT))
-        .column("Largest share", "%", percents(run.shares.iter().copied(), RMS_PERCENT))
+        .column(
+            "Largest share",
+            "%",
+            percents(run.shares.iter().copied(), RMS_PERCENT),
+        )
         .notes([note])
 }

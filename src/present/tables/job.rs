@@ -26,8 +26,17 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
     let direction = |sensor: &PlacedSensor| {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
         // An axis of the test's own is told by its components.
-        let own = || format!(" ({:.2} {:.2} {:.2})", sensor.axis.x, sensor.axis.y, sensor.axis.z);
-        let own = if sensor.axis.amax() < 1.0 { own() } else { String::new() };
+        let own = || {
+            format!(
+                " ({:.2} {:.2} {:.2})",
+                sensor.axis.x, sensor.axis.y, sensor.axis.z
+            )
+        };
+        let own = if sensor.axis.amax() < 1.0 {
+            own()
+        } else {
+            String::new()
+        };
         Cell::text(format!("{sign}{}{own}", DIRECTIONS[sensor.direction]))
     };
     let placed = || prepared.placed.iter();
@@ -35,16 +44,37 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
         .labels(placed().map(|sensor| &sensor.name))
         .column("grid", "", placed().map(|sensor| Cell::count(sensor.grid)))
         .column("direction", "", placed().map(direction))
-        .column("distance", "", numbers(placed().map(|sensor| sensor.distance), Digits::Fixed(3)));
-    let models = finished.into_iter().flat_map(|finished| [&finished.first, &finished.last]);
+        .column(
+            "distance",
+            "",
+            numbers(placed().map(|sensor| sensor.distance), Digits::Fixed(3)),
+        );
+    let models = finished
+        .into_iter()
+        .flat_map(|finished| [&finished.first, &finished.last]);
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
-        let pairs: Vec<Option<usize>> = model.exact.pairing.analysis_mode.iter().copied().map(Some).collect();
-        let assurance = coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)?;
-        table = table.column(name, "", numbers(assurance.iter().copied(), Digits::Fixed(3)));
+        let pairs: Vec<Option<usize>> = model
+            .exact
+            .pairing
+            .analysis_mode
+            .iter()
+            .copied()
+            .map(Some)
+            .collect();
+        let assurance =
+            coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)?;
+        table = table.column(
+            name,
+            "",
+            numbers(assurance.iter().copied(), Digits::Fixed(3)),
+        );
     }
     let all = prepared.data.sensors.len();
     if all > prepared.placed.len() {
-        table.notes.push(format!("{} of the test's {all} sensors are not used.", all - prepared.placed.len()));
+        table.notes.push(format!(
+            "{} of the test's {all} sensors are not used.",
+            all - prepared.placed.len()
+        ));
     }
     Ok(table)
 }
@@ -61,38 +91,74 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
     let mut sentences: Vec<String> = Vec::new();
     match whole.condensed(&ones, &prepared.sensors) {
         Ok((condensed, mass)) => {
-            let model = DynamicModel { stiffness: condensed.stiffness, mass, shares: Vec::new() };
-            let mut findings = preflight(&model, &prepared.test, &prepared.job.correlation, &whole.ranges())?;
+            let model = DynamicModel {
+                stiffness: condensed.stiffness,
+                mass,
+                shares: Vec::new(),
+            };
+            let mut findings = preflight(
+                &model,
+                &prepared.test,
+                &prepared.job.correlation,
+                &whole.ranges(),
+            )?;
             if prepared.job.compare.modes == ComparedModes::Condensed {
                 let count = prepared.test.len().min(model.mass.nrows());
                 findings.extend(coarse_condensation(whole, &ones, &prepared.sensors, count)?);
             }
             sentences.extend(findings.iter().map(Finding::to_string));
         }
-        Err(error) => {
-            sentences.push(format!("the pre-flight looks at condensed matrices, which are not to be had: {error}"))
-        }
+        Err(error) => sentences.push(format!(
+            "the pre-flight looks at condensed matrices, which are not to be had: {error}"
+        )),
     }
-    let mut of_mode = |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
+    let mut of_mode =
+        |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
     for (mode, assurance) in &prepared.unpaired {
         let most = format!("modal assurance {assurance:.2} at most");
-        of_mode(*mode, format!("no mode of the first model is like it ({most}); it is left out"));
+        of_mode(
+            *mode,
+            format!("no mode of the first model is like it ({most}); it is left out"),
+        );
     }
     for (mode, report) in &prepared.deleted {
-        of_mode(*mode, format!("deleted by Appendix B ({:?})", report.verdict));
+        of_mode(
+            *mode,
+            format!("deleted by Appendix B ({:?})", report.verdict),
+        );
     }
-    for (mode, phase) in prepared.data.phase_collinearity.iter().enumerate().filter(|(_, phase)| **phase < COLLINEAR) {
-        of_mode(mode, format!("complex, with a phase collinearity of {phase:.2}"));
+    for (mode, phase) in prepared
+        .data
+        .phase_collinearity
+        .iter()
+        .enumerate()
+        .filter(|(_, phase)| **phase < COLLINEAR)
+    {
+        of_mode(
+            mode,
+            format!("complex, with a phase collinearity of {phase:.2}"),
+        );
     }
     if !prepared.data.skipped.is_empty() {
         let numbers: Vec<String> = prepared.data.skipped.iter().map(usize::to_string).collect();
-        sentences.push(format!("datasets of the Universal File that are not read: {}", numbers.join(", ")));
+        sentences.push(format!(
+            "datasets of the Universal File that are not read: {}",
+            numbers.join(", ")
+        ));
     }
-    let units = |units: &String| format!("the test's file is in units of {units}; nothing is converted");
+    let units =
+        |units: &String| format!("the test's file is in units of {units}; nothing is converted");
     sentences.extend(prepared.data.units.iter().map(units));
-    let labels = (1..=sentences.len()).map(|number| number.to_string()).chain(sentences.is_empty().then(String::new));
-    let cells = sentences.iter().map(Cell::text).chain([Cell::text("nothing doubtful")]);
-    Ok(Table::new("doubts", "Before the first step", "Number").labels(labels).column("Finding", "", cells))
+    let labels = (1..=sentences.len())
+        .map(|number| number.to_string())
+        .chain(sentences.is_empty().then(String::new));
+    let cells = sentences
+        .iter()
+        .map(Cell::text)
+        .chain([Cell::text("nothing doubtful")]);
+    Ok(Table::new("doubts", "Before the first step", "Number")
+        .labels(labels)
+        .column("Finding", "", cells))
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
@@ -102,7 +168,10 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
 /// Those of [`Prepared::weights`] and of the rankings.
 pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
     let parameters = prepared.source.whole.parameters();
-    let (first, weights) = (prepared.analyze(&vec![1.0; parameters.len()])?, prepared.weights()?);
+    let (first, weights) = (
+        prepared.analyze(&vec![1.0; parameters.len()])?,
+        prepared.weights()?,
+    );
     let suspects = by_single_fit(&first, &weights)?;
     let slopes = by_factor(&first, &prepared.job.correlation.inner)?;
     let residuals = residuals(&first, &weights)?;
@@ -116,21 +185,60 @@ pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
         first.exact.modes.len(),
     );
     let left = suspects.len().saturating_sub(MOST_SUSPECTS);
-    let less = format!("{} less.", counted(left, "parameter explains", "parameters explain"));
+    let less = format!(
+        "{} less.",
+        counted(left, "parameter explains", "parameters explain")
+    );
     let shown = || suspects.iter().take(MOST_SUSPECTS);
-    let slope = |parameter: usize| slopes.iter().find(|slope| slope.parameter == parameter).map(|slope| slope.factor);
-    Ok(Table::new("suspects", "Suspects: what one parameter alone explains", "Parameter")
-        .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
-        .column("factor", "", numbers(shown().map(|suspect| suspect.factor), Digits::Significant(3)))
-        .column("evidence", "", numbers(shown().map(|suspect| suspect.evidence), Digits::Significant(3)))
-        .column("paper's factor", "", numbers(shown().map(|suspect| slope(suspect.parameter)), Digits::Fixed(2)))
-        .notes([note])
-        .notes((left > 0).then_some(less)))
+    let slope = |parameter: usize| {
+        slopes
+            .iter()
+            .find(|slope| slope.parameter == parameter)
+            .map(|slope| slope.factor)
+    };
+    Ok(Table::new(
+        "suspects",
+        "Suspects: what one parameter alone explains",
+        "Parameter",
+    )
+    .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
+    .column(
+        "factor",
+        "",
+        numbers(
+            shown().map(|suspect| suspect.factor),
+            Digits::Significant(3),
+        ),
+    )
+    .column(
+        "evidence",
+        "",
+        numbers(
+            shown().map(|suspect| suspect.evidence),
+            Digits::Significant(3),
+        ),
+    )
+    .column(
+        "paper's factor",
+        "",
+        numbers(
+            shown().map(|suspect| slope(suspect.parameter)),
+            Digits::Fixed(2),
+        ),
+    )
+    .notes([note])
+    .notes((left > 0).then_some(less)))
 }
 
 /// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.
 pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, FileError> {
-    let names: Vec<&str> = prepared.source.whole.parameters().iter().map(|parameter| parameter.name.as_str()).collect();
+    let names: Vec<&str> = prepared
+        .source
+        .whole
+        .parameters()
+        .iter()
+        .map(|parameter| parameter.name.as_str())
+        .collect();
     let [before, after] = &finished.seen;
     let intervals = after.intervals(&finished.factors)?;
     let apart = format!(
@@ -142,20 +250,35 @@ pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, Fil
         after.singular_values.last().copied().unwrap_or_default(),
     );
     let parallel = |&(a, b, cosine): &(usize, usize, f64)| {
-        format!("{} and {} do nearly the same (cosine {cosine:+.3}).", names[a], names[b])
+        format!(
+            "{} and {} do nearly the same (cosine {cosine:+.3}).",
+            names[a], names[b]
+        )
     };
     let ends = |end: fn(&Range) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
-    let deviations = |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
-    Ok(Table::new("seen", "What the test sees of the parameters", "Parameter")
-        .labels(&names)
-        .column("factor", "", numbers(finished.factors.iter().copied(), Digits::Fixed(4)))
-        .column("least (95 %)", "", ends(|interval| interval.lower))
-        .column("most (95 %)", "", ends(|interval| interval.upper))
-        .column("deviation", "%", deviations(after))
-        .column("deviation before", "%", deviations(before))
-        .notes([apart])
-        .notes(after.parallel.iter().map(parallel))
-        .notes(after.blind.iter().map(|&e| format!("{} is hardly seen.", names[e]))))
+    let deviations =
+        |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
+    Ok(
+        Table::new("seen", "What the test sees of the parameters", "Parameter")
+            .labels(&names)
+            .column(
+                "factor",
+                "",
+                numbers(finished.factors.iter().copied(), Digits::Fixed(4)),
+            )
+            .column("least (95 %)", "", ends(|interval| interval.lower))
+            .column("most (95 %)", "", ends(|interval| interval.upper))
+            .column("deviation", "%", deviations(after))
+            .column("deviation before", "%", deviations(before))
+            .notes([apart])
+            .notes(after.parallel.iter().map(parallel))
+            .notes(
+                after
+                    .blind
+                    .iter()
+                    .map(|&e| format!("{} is hardly seen.", names[e])),
+            ),
+    )
 }
 
 /// Mean, standard deviation and quantiles of every factor over the samples that did not fail.
@@ -165,7 +288,15 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
         Vary::Start => "the first point",
         Vary::Subset => "sensors or modes left out",
     };
-    let (Summary { spreads, within, outside, failed }, vary) = (summary, study.vary.iter().map(name));
+    let (
+        Summary {
+            spreads,
+            within,
+            outside,
+            failed,
+        },
+        vary,
+    ) = (summary, study.vary.iter().map(name));
     let count = within + outside + failed.len();
     let note = format!(
         "{}, seed {}, with {}: {within} within tolerance, {outside} outside, {} failed.",
@@ -174,13 +305,24 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
         vary.collect::<Vec<_>>().join(" and "),
         failed.len(),
     );
-    let why = |first| format!("What failed does not count; --sample {first} says why sample {first} did.");
-    let mut table = Table::new("study", format!("{}: factors over many runs", study.prepared.title), "Parameter")
-        .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
-        .notes([note])
-        .notes(failed.first().map(why));
+    let why = |first| {
+        format!("What failed does not count; --sample {first} says why sample {first} did.")
+    };
+    let mut table = Table::new(
+        "study",
+        format!("{}: factors over many runs", study.prepared.title),
+        "Parameter",
+    )
+    .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
+    .notes([note])
+    .notes(failed.first().map(why));
     for (name, spread) in spreads {
-        let spread = spread.iter().flat_map(|spread| [vec![spread.mean, spread.deviation], spread.quantiles.to_vec()]);
+        let spread = spread.iter().flat_map(|spread| {
+            [
+                vec![spread.mean, spread.deviation],
+                spread.quantiles.to_vec(),
+            ]
+        });
         table.row(name, numbers(spread.flatten(), Digits::Fixed(4)));
     }
     table

@@ -23,13 +23,22 @@ const INCHES: Digits = Digits::Fixed(5);
 const PERCENT: Digits = Digits::Fixed(1);
 const RMS_PERCENT: Digits = Digits::Fixed(2);
 /// Errors under frequencies, with their digits.
-const MODE_ERRORS: [(&str, Digits); 2] = [("frequency RMS", RMS_PERCENT), ("shape RMS", RMS_PERCENT)];
+const MODE_ERRORS: [(&str, Digits); 2] =
+    [("frequency RMS", RMS_PERCENT), ("shape RMS", RMS_PERCENT)];
 
 /// What the paper's print of a table gets wrong, its rows and columns named as a reader sees them.
 fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
-    let words = |remark: &String| remark.split(' ').map(in_words).collect::<Vec<_>>().join(" ");
+    let words = |remark: &String| {
+        remark
+            .split(' ')
+            .map(in_words)
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
     let remarks = paper.into_iter().flat_map(|table| &table.remarks);
-    remarks.map(|remark| format!("The print: {}", words(remark))).collect()
+    remarks
+        .map(|remark| format!("The print: {}", words(remark)))
+        .collect()
 }
 
 /// A row or column of the published tables' files as a reader's words: `pass_1_percent` is the pass 1 error.

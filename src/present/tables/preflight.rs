@@ -12,7 +12,11 @@ pub fn findings_table(found: &[(String, Vec<Finding>)]) -> Table {
             table.row(name, [Cell::text("nothing")]);
         }
         for (place, finding) in findings.iter().enumerate() {
-            let label = if findings.len() == 1 { name.clone() } else { format!("{name}, {}", place + 1) };
+            let label = if findings.len() == 1 {
+                name.clone()
+            } else {
+                format!("{name}, {}", place + 1)
+            };
             table.row(label, [Cell::text(finding.to_string())]);
         }
     }

@@ -8,7 +8,12 @@ use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 
 /// Ends of column headings, and the units that they stand for.
-const UNITS: [(&str, &str); 4] = [("_hz", "Hz"), ("_in", "in"), ("_percent", "%"), ("_seconds", "s")];
+const UNITS: [(&str, &str); 4] = [
+    ("_hz", "Hz"),
+    ("_in", "in"),
+    ("_percent", "%"),
+    ("_seconds", "s"),
+];
 
 /// A table from 2 to 13 as printed, with what is wrong in the print; Table 13 has the CPU seconds of the paper's runs.
 ///
@@ -20,9 +25,13 @@ pub fn published_table(number: usize) -> Result<Table, PresentError> {
     let mut table = Table::new(format!("published_{number}"), &paper.title, "Row")
         .labels(labels.clone().map(|label| in_words(label)));
     for heading in &paper.headings {
-        let unit = UNITS.iter().find(|(end, _)| heading.ends_with(end)).map_or("", |(_, unit)| unit);
+        let unit = UNITS
+            .iter()
+            .find(|(end, _)| heading.ends_with(end))
+            .map_or("", |(_, unit)| unit);
         let cells = labels.clone().map(|label| paper.text(label, heading));
-        let cells = cells.map(|text| text.map_or(Cell::Blank, |text| Cell::Printed(text.to_owned())));
+        let cells =
+            cells.map(|text| text.map_or(Cell::Blank, |text| Cell::Printed(text.to_owned())));
         table = table.column(stage_title(heading), unit, cells);
     }
     Ok(table.notes(remarks(Some(&paper))))
@@ -49,10 +58,22 @@ pub fn root_error_table() -> Result<Table, PresentError> {
         .column("Change", "", springs(|problem| problem.change))
         .notes([note]);
     for rule in formulae(ORDERS) {
-        let largest =
-            |problem: &TwoMasses| Ok(problem.root_errors(rule)?.map(f64::abs).into_iter().fold(0.0, f64::max));
-        let errors: Vec<f64> = problems.iter().map(largest).collect::<Result<_, PresentError>>()?;
-        table = table.column(rule_name(rule), "%", percents(errors, Digits::Scientific(1)));
+        let largest = |problem: &TwoMasses| {
+            Ok(problem
+                .root_errors(rule)?
+                .map(f64::abs)
+                .into_iter()
+                .fold(0.0, f64::max))
+        };
+        let errors: Vec<f64> = problems
+            .iter()
+            .map(largest)
+            .collect::<Result<_, PresentError>>()?;
+        table = table.column(
+            rule_name(rule),
+            "%",
+            percents(errors, Digits::Scientific(1)),
+        );
     }
     Ok(table)
 }

@@ -10,21 +10,46 @@ use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers};
 
 /// A quantity of a column of gages: its label, its heading where it stands across, its digits and its value.
-type Quantity = (&'static str, &'static str, Digits, fn(&ReadingColumn) -> f64);
+type Quantity = (
+    &'static str,
+    &'static str,
+    Digits,
+    fn(&ReadingColumn) -> f64,
+);
 
 const QUANTITIES: [Quantity; 7] = [
-    ("shear RMS", "Shear", PERCENT, |column| 100.0 * column.gage_rms[0]),
-    ("membrane RMS", "Membrane", PERCENT, |column| 100.0 * column.gage_rms[1]),
-    ("frequency RMS", "Frequency", RMS_PERCENT, |column| 100.0 * column.rms[0]),
-    ("shape RMS", "Shape", RMS_PERCENT, |column| 100.0 * column.rms[1]),
-    ("iterations", "", Digits::Fixed(0), |column| column.iterations as f64),
-    ("correlation r", "r", Digits::Fixed(2), ReadingColumn::correlation),
-    ("RMS difference", "d", PERCENT, |column| 100.0 * column.difference()),
+    ("shear RMS", "Shear", PERCENT, |column| {
+        100.0 * column.gage_rms[0]
+    }),
+    ("membrane RMS", "Membrane", PERCENT, |column| {
+        100.0 * column.gage_rms[1]
+    }),
+    ("frequency RMS", "Frequency", RMS_PERCENT, |column| {
+        100.0 * column.rms[0]
+    }),
+    ("shape RMS", "Shape", RMS_PERCENT, |column| {
+        100.0 * column.rms[1]
+    }),
+    ("iterations", "", Digits::Fixed(0), |column| {
+        column.iterations as f64
+    }),
+    (
+        "correlation r",
+        "r",
+        Digits::Fixed(2),
+        ReadingColumn::correlation,
+    ),
+    ("RMS difference", "d", PERCENT, |column| {
+        100.0 * column.difference()
+    }),
 ];
 
 /// A quantity of a column beside the published number: iterations of passes stand in Table 13, their frequency and shape errors in
 /// the table before the gages.
-fn cell((label, _, digits, value): &Quantity, column: &ReadingColumn) -> Result<Cell, PresentError> {
+fn cell(
+    (label, _, digits, value): &Quantity,
+    column: &ReadingColumn,
+) -> Result<Cell, PresentError> {
     let (row, stage) = (label.replace(' ', "_").to_lowercase(), &column.stage);
     let (table, row, end) = match &row[..] {
         "iterations" if column.table < 10 => (13, (column.table / 2 - 1).to_string(), "iterations"),
@@ -32,7 +57,11 @@ fn cell((label, _, digits, value): &Quantity, column: &ReadingColumn) -> Result<
         _ => (column.table, row, "percent"),
     };
     let printed = PublishedTable::number(table)?.value(&row, &format!("{stage}_{end}"));
-    Ok(Cell::beside(Some(value(column)).filter(|value| !value.is_nan()), *digits, printed))
+    Ok(Cell::beside(
+        Some(value(column)).filter(|value| !value.is_nan()),
+        *digits,
+        printed,
+    ))
 }
 
 /// What a column is called: `Case 1 pass 2`, `Table 11 FEM 7`.
@@ -47,24 +76,40 @@ fn column_name(column: &ReadingColumn) -> String {
 /// The gage errors of a case pass by pass, by the reading it is run by and by others, percent, beside the print; with what is
 /// left of the other errors, the iterations, and how the gage errors go with the printed ones.
 pub fn case_readings(case: usize, columns: &[ReadingColumn]) -> Result<Table, PresentError> {
-    let title = format!("Case {case}: gage errors in percent by the reading it is run by and by the library's own");
+    let title = format!(
+        "Case {case}: gage errors in percent by the reading it is run by and by the library's own"
+    );
     let mut table = Table::new(format!("case_{case}_readings"), title, "Element")
         .labels(1..=PANEL_COUNT)
         .labels(QUANTITIES.map(|quantity| quantity.0));
     for column in columns {
         let name = column_name(column).replace(&format!("Case {case} p"), "P");
         let gages = column.errors().zip(&column.published_errors);
-        let gages = gages.map(|(error, printed)| Cell::beside(100.0 * error, PERCENT, Some(100.0 * printed)));
-        let others = QUANTITIES.iter().map(|quantity| cell(quantity, column)).collect::<Result<Vec<_>, _>>()?;
-        table = table.column(format!("{name} {}", column.reading.name()), "", gages.chain(others));
+        let gages = gages
+            .map(|(error, printed)| Cell::beside(100.0 * error, PERCENT, Some(100.0 * printed)));
+        let others = QUANTITIES
+            .iter()
+            .map(|quantity| cell(quantity, column))
+            .collect::<Result<Vec<_>, _>>()?;
+        table = table.column(
+            format!("{name} {}", column.reading.name()),
+            "",
+            gages.chain(others),
+        );
     }
     Ok(table
         .notes(["Correlation and RMS difference, percent points, of the fifteen gage errors with the printed ones."]))
 }
 
 /// Every reading of the step against every published column of gages, and Case 4 by each.
-pub fn readings_tables(columns: &[ReadingColumn], detections: &[Detection]) -> Result<Vec<Table>, PresentError> {
-    let rows: Vec<_> = columns.iter().filter(|column| column.reading == READINGS[0]).collect();
+pub fn readings_tables(
+    columns: &[ReadingColumn],
+    detections: &[Detection],
+) -> Result<Vec<Table>, PresentError> {
+    let rows: Vec<_> = columns
+        .iter()
+        .filter(|column| column.reading == READINGS[0])
+        .collect();
     let one = |name: &str, title: &str, quantities: &[Quantity]| {
         let labels = rows.iter().map(|row| column_name(row));
         let mut table = Table::new(format!("readings_{name}"), title, "Column").labels(labels);
@@ -72,9 +117,13 @@ pub fn readings_tables(columns: &[ReadingColumn], detections: &[Detection]) -> R
             for reading in READINGS {
                 let find = |row: &ReadingColumn| {
                     let wanted = (row.table, &row.stage, reading);
-                    columns.iter().find(|other| (other.table, &other.stage, other.reading) == wanted)
+                    columns
+                        .iter()
+                        .find(|other| (other.table, &other.stage, other.reading) == wanted)
                 };
-                let cells = rows.iter().map(|row| find(row).map_or(Ok(Cell::Blank), |column| cell(quantity, column)));
+                let cells = rows
+                    .iter()
+                    .map(|row| find(row).map_or(Ok(Cell::Blank), |column| cell(quantity, column)));
                 let heading = format!("{} {}", quantity.1, reading.name());
                 table = table.column(heading.trim(), "", cells.collect::<Result<Vec<_>, _>>()?);
             }
@@ -97,17 +146,31 @@ pub fn readings_tables(columns: &[ReadingColumn], detections: &[Detection]) -> R
 /// What Case 4's first iteration asks for by each reading.
 pub fn detection_table(detections: &[Detection]) -> Table {
     let title = "Case 4: what the first iteration asks for by each reading of the step";
-    let printed = |found: &Detection| (found.reading == published_reading(CASES[3])).then_some(60.0);
+    let printed =
+        |found: &Detection| (found.reading == published_reading(CASES[3])).then_some(60.0);
     let factor = |found: &Detection| Cell::beside(found.factor, PERCENT, printed(found));
     let table = Table::new("case_4_readings", title, "Reading")
         .labels(detections.iter().map(|found| found.reading.name()))
         .column("Faulty element", "", detections.iter().map(factor))
-        .column("Next largest", "", numbers(detections.iter().map(|found| found.next), PERCENT))
-        .column("Ratio", "", numbers(detections.iter().map(|found| found.factor / found.next), PERCENT))
+        .column(
+            "Next largest",
+            "",
+            numbers(detections.iter().map(|found| found.next), PERCENT),
+        )
+        .column(
+            "Ratio",
+            "",
+            numbers(
+                detections.iter().map(|found| found.factor / found.next),
+                PERCENT,
+            ),
+        )
         .column(
             "Reported",
             "",
-            detections.iter().map(|found| Cell::text(if found.is_reported { "yes" } else { "no" })),
+            detections
+                .iter()
+                .map(|found| Cell::text(if found.is_reported { "yes" } else { "no" })),
         );
     table.notes([format!(
         "The box was fitted so that own gives 58.4 for the published 60; the others are what follows. A parameter is reported when \
@@ -117,16 +180,32 @@ pub fn detection_table(detections: &[Detection]) -> Table {
 
 /// Which reading every part of the paper is run by, and why.
 fn reading_of_each_case() -> Table {
-    let mut table = Table::new("readings_used", "The reading each part of the paper is run by", "Part")
-        .headings(["Reading", "Because"], "");
+    let mut table = Table::new(
+        "readings_used",
+        "The reading each part of the paper is run by",
+        "Part",
+    )
+    .headings(["Reading", "Because"], "");
     let relative = "its printed gages: panels that the modes hardly feel stay behind";
     let rows = [
-        ("Case 1", published_reading(1), "its panels all move alike, which needs their stiffness"),
+        (
+            "Case 1",
+            published_reading(1),
+            "its panels all move alike, which needs their stiffness",
+        ),
         ("Case 2", published_reading(2), relative),
         ("Case 3", published_reading(3), relative),
-        ("Case 4", published_reading(4), "the faulty element stands out only by its stiffness"),
+        (
+            "Case 4",
+            published_reading(4),
+            "the faulty element stands out only by its stiffness",
+        ),
         ("Tables 9 to 12", published_reading(2), relative),
-        ("any other model", StepRule::default(), "one rule that runs all four cases without a fitted number"),
+        (
+            "any other model",
+            StepRule::default(),
+            "one rule that runs all four cases without a fitted number",
+        ),
     ];
     for (part, reading, why) in rows {
         table.row(part, [Cell::text(reading.name()), Cell::text(why)]);

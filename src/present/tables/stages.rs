@@ -16,8 +16,16 @@ pub(super) struct Stage {
 impl Stage {
     /// The first model, which has the number zero, or what a pass or a run came to.
     pub fn new(what: &str, number: usize, values: &[f64], errors: &[f64]) -> Self {
-        let name = if number == 0 { "initial".to_owned() } else { format!("{what}_{number}") };
-        Self { name, values: values.to_vec(), errors: errors.to_vec() }
+        let name = if number == 0 {
+            "initial".to_owned()
+        } else {
+            format!("{what}_{number}")
+        };
+        Self {
+            name,
+            values: values.to_vec(),
+            errors: errors.to_vec(),
+        }
     }
 }
 
@@ -45,34 +53,72 @@ pub(super) fn fill(
         [] => ("Hz", HERTZ, test_hz),
         _ => ("in", INCHES, &[TEST_GAGE; PANEL_COUNT][..]),
     };
-    let count = stages.iter().map(|stage| stage.values.len()).max().unwrap_or(0);
-    let labels = (0..count).map(|row| panels.get(row).map_or(row + 1, |panel| panel.label).to_string());
-    let labels: Vec<String> = labels.chain(errors.iter().map(|(label, _)| label.to_string())).collect();
+    let count = stages
+        .iter()
+        .map(|stage| stage.values.len())
+        .max()
+        .unwrap_or(0);
+    let labels = (0..count).map(|row| {
+        panels
+            .get(row)
+            .map_or(row + 1, |panel| panel.label)
+            .to_string()
+    });
+    let labels: Vec<String> = labels
+        .chain(errors.iter().map(|(label, _)| label.to_string()))
+        .collect();
     let column = |heading: String, numbers: &dyn Fn(usize) -> (Option<f64>, Digits)| {
         let cell = |(row, label): (usize, &String)| {
-            let printed = label.trim_start_matches("inner ").replace(' ', "_").to_lowercase();
+            let printed = label
+                .trim_start_matches("inner ")
+                .replace(' ', "_")
+                .to_lowercase();
             let (number, digits) = numbers(row);
-            Cell::beside(number, digits, paper.and_then(|paper| paper.value(&printed, &heading)))
+            Cell::beside(
+                number,
+                digits,
+                paper.and_then(|paper| paper.value(&printed, &heading)),
+            )
         };
         labels.iter().enumerate().map(cell).collect::<Vec<_>>()
     };
     let mut table = table.labels(&labels);
     if !panels.is_empty() {
-        let kinds = panels.iter().map(|panel| Cell::text(kind_letter(panel.kind)));
-        table = table.column("Type", "", kinds).notes(["S shear panel, M membrane."]);
+        let kinds = panels
+            .iter()
+            .map(|panel| Cell::text(kind_letter(panel.kind)));
+        table = table
+            .column("Type", "", kinds)
+            .notes(["S shear panel, M membrane."]);
     }
     let (target, suffix) = (|row: usize| targets.get(row).copied(), unit.to_lowercase());
-    table = table.column("GVT", unit, column(format!("gvt_{suffix}"), &|row| (target(row), digits)));
+    table = table.column(
+        "GVT",
+        unit,
+        column(format!("gvt_{suffix}"), &|row| (target(row), digits)),
+    );
     for stage in stages {
         let title = stage_title(&stage.name);
         let value = |row: usize| stage.values.get(row).copied();
         let percent = |row: usize| match row.checked_sub(count) {
-            Some(under) => (stage.errors.get(under).map(|error| 100.0 * error), errors[under].1),
-            None => (value(row).zip(target(row)).map(|(value, target)| 100.0 * (value / target - 1.0)), PERCENT),
+            Some(under) => (
+                stage.errors.get(under).map(|error| 100.0 * error),
+                errors[under].1,
+            ),
+            None => (
+                value(row)
+                    .zip(target(row))
+                    .map(|(value, target)| 100.0 * (value / target - 1.0)),
+                PERCENT,
+            ),
         };
-        let values = column(format!("{}_{suffix}", stage.name), &|row| (value(row), digits));
+        let values = column(format!("{}_{suffix}", stage.name), &|row| {
+            (value(row), digits)
+        });
         let percents = column(format!("{}_percent", stage.name), &percent);
-        table = table.column(&title, unit, values).column(title + " error", "%", percents);
+        table = table
+            .column(&title, unit, values)
+            .column(title + " error", "%", percents);
     }
     table.notes(remarks(paper))
 }

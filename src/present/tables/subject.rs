@@ -14,7 +14,11 @@ const MARKS: [(&str, f64, f64); 2] = [("good", 0.95, 0.05), ("acceptable", 0.90,
 
 /// An empty table of a subject.
 fn table_of(subject: &Subject, name: &str, title: &str, label: &'static str) -> Table {
-    Table::new(format!("{}_{name}", subject.name), format!("{}: {title}", subject.title), label)
+    Table::new(
+        format!("{}_{name}", subject.name),
+        format!("{}: {title}", subject.title),
+        label,
+    )
 }
 
 /// Every test mode with its partner in the first and in the corrected model: frequencies and their differences, modal assurance
@@ -32,19 +36,38 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
     let corrected = (!subject.stages.is_empty()).then(|| ("Corrected", subject.corrected()));
     for (name, check) in [("First", &subject.initial)].into_iter().chain(corrected) {
         let agreement = subject.agreement(check)?;
-        let (own, others): (Vec<f64>, Vec<f64>) = (0..test_hz.len()).map(|mode| agreement.pair(check, mode)).unzip();
+        let (own, others): (Vec<f64>, Vec<f64>) = (0..test_hz.len())
+            .map(|mode| agreement.pair(check, mode))
+            .unzip();
         let rms = [check.errors.frequency_rms(), check.errors.shape_rms()];
-        let differences = check.frequencies_hz.iter().zip(&test_hz).map(|(hertz, test)| hertz / test - 1.0);
+        let differences = check
+            .frequencies_hz
+            .iter()
+            .zip(&test_hz)
+            .map(|(hertz, test)| hertz / test - 1.0);
         let partners = check.pairing.analysis_mode.iter().enumerate();
         let assurance = partners.map(|(mode, &partner)| agreement.assurance[(partner, mode)]);
         let words = |(own, others): (&f64, &f64)| {
-            let mark = MARKS.iter().find(|(_, least, most)| own >= least && others <= most);
+            let mark = MARKS
+                .iter()
+                .find(|(_, least, most)| own >= least && others <= most);
             Cell::text(mark.map_or("poor", |mark| mark.0))
         };
-        verdict = (format!("{name} is"), own.iter().zip(&others).map(words).collect());
+        verdict = (
+            format!("{name} is"),
+            own.iter().zip(&others).map(words).collect(),
+        );
         table = table
-            .column(name, "Hz", numbers(check.frequencies_hz.iter().copied(), HERTZ))
-            .column(format!("{name} error"), "%", percents(differences.chain(rms), RMS_PERCENT))
+            .column(
+                name,
+                "Hz",
+                numbers(check.frequencies_hz.iter().copied(), HERTZ),
+            )
+            .column(
+                format!("{name} error"),
+                "%",
+                percents(differences.chain(rms), RMS_PERCENT),
+            )
             .column(format!("{name} MAC"), "", numbers(assurance, THREE));
         if subject.mass.is_some() {
             table = table.column(format!("{name} cross"), "", numbers(own, THREE));
@@ -60,35 +83,72 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
         acceptable: 0.90 and 0.10. MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
     );
     let solver = solver_note(&subject.solver, " of the model", ";");
-    Ok(table.column(verdict.0, "", verdict.1).notes(solver).notes([note]))
+    Ok(table
+        .column(verdict.0, "", verdict.1)
+        .notes(solver)
+        .notes([note]))
 }
 
 impl Agreement {
     /// Of a test mode and its partner: the magnitude of their cross-orthogonality, or their assurance without mass, and the largest
     /// other entry of either's row and column.
     fn pair(&self, check: &Check, mode: usize) -> (f64, f64) {
-        let (matrix, i) = (self.orthogonality.as_ref().unwrap_or(&self.assurance), check.pairing.analysis_mode[mode]);
-        let row = (0..matrix.ncols()).filter(|&j| j != mode).map(|j| matrix[(i, j)].abs());
-        let column = (0..matrix.nrows()).filter(|&k| k != i).map(|k| matrix[(k, mode)].abs());
-        (matrix[(i, mode)].abs(), row.chain(column).fold(0.0, f64::max))
+        let (matrix, i) = (
+            self.orthogonality.as_ref().unwrap_or(&self.assurance),
+            check.pairing.analysis_mode[mode],
+        );
+        let row = (0..matrix.ncols())
+            .filter(|&j| j != mode)
+            .map(|j| matrix[(i, j)].abs());
+        let column = (0..matrix.nrows())
+            .filter(|&k| k != i)
+            .map(|k| matrix[(k, mode)].abs());
+        (
+            matrix[(i, mode)].abs(),
+            row.chain(column).fold(0.0, f64::max),
+        )
     }
 }
 
 /// Factors of the corrected model with their standard deviations, their bounds, and what must be known of each.
 pub fn factor_table(subject: &Subject) -> Table {
     let factors = subject.factors();
-    let bounds = |end: fn(Range) -> f64| numbers(subject.ranges.iter().map(move |range| range.map(end)), THREE);
+    let bounds = |end: fn(Range) -> f64| {
+        numbers(
+            subject.ranges.iter().map(move |range| range.map(end)),
+            THREE,
+        )
+    };
     let remark = |(e, factor): (usize, &f64)| {
-        let is_unseen = subject.verdict.as_ref().is_some_and(|verdict| verdict.unseen.contains(&e));
-        let remarks = [(subject.is_at_bound(e, *factor), "at bound"), (is_unseen, "hardly seen")];
-        let remarks: Vec<&str> = remarks.into_iter().filter(|(is_so, _)| *is_so).map(|(_, remark)| remark).collect();
+        let is_unseen = subject
+            .verdict
+            .as_ref()
+            .is_some_and(|verdict| verdict.unseen.contains(&e));
+        let remarks = [
+            (subject.is_at_bound(e, *factor), "at bound"),
+            (is_unseen, "hardly seen"),
+        ];
+        let remarks: Vec<&str> = remarks
+            .into_iter()
+            .filter(|(is_so, _)| *is_so)
+            .map(|(_, remark)| remark)
+            .collect();
         Cell::text(remarks.join(", "))
     };
-    let mut table = table_of(subject, "factors", "factors on the first model", "Parameter")
-        .labels(&subject.parameters)
-        .column("Factor", "", numbers(factors.iter().copied(), THREE));
+    let mut table = table_of(
+        subject,
+        "factors",
+        "factors on the first model",
+        "Parameter",
+    )
+    .labels(&subject.parameters)
+    .column("Factor", "", numbers(factors.iter().copied(), THREE));
     if let Some(deviations) = &subject.deviations {
-        table = table.column("Standard deviation", "", numbers(deviations.iter().copied(), THREE));
+        table = table.column(
+            "Standard deviation",
+            "",
+            numbers(deviations.iter().copied(), THREE),
+        );
     }
     table
         .column("Lower bound", "", bounds(|range| range.lower))
@@ -103,24 +163,49 @@ pub fn history_table(subject: &Subject) -> Table {
         .headings(["Error sum inner", "Error sum exact"], "%");
     for (row, stage) in subject.stages.iter().enumerate() {
         let errors = subject.inner_errors(row);
-        let inner = errors.last().filter(|_| stage.inner.is_some()).map(|last| last.sum());
-        let iterations = if stage.inner.is_some() { errors.len() - 1 } else { 1 };
+        let inner = errors
+            .last()
+            .filter(|_| stage.inner.is_some())
+            .map(|last| last.sum());
+        let iterations = if stage.inner.is_some() {
+            errors.len() - 1
+        } else {
+            1
+        };
         let sums = percents([inner, Some(stage.check.errors.sum())], RMS_PERCENT);
-        table.row(row + 1, [Cell::count(iterations), Cell::text(&stage.stop)].into_iter().chain(sums));
+        table.row(
+            row + 1,
+            [Cell::count(iterations), Cell::text(&stage.stop)]
+                .into_iter()
+                .chain(sums),
+        );
     }
-    let words = |[pass, test, from, to]: [usize; 4]| format!("in pass {pass} test mode {test} from {from} to {to}");
-    let words = swaps(subject).into_iter().map(words).collect::<Vec<_>>().join("; ");
+    let words = |[pass, test, from, to]: [usize; 4]| {
+        format!("in pass {pass} test mode {test} from {from} to {to}")
+    };
+    let words = swaps(subject)
+        .into_iter()
+        .map(words)
+        .collect::<Vec<_>>()
+        .join("; ");
     let swapped = (!words.is_empty()).then(|| format!("Other modes of the model answer: {words}."));
     table.notes(swapped).notes([subject.words()])
 }
 
 /// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.
 pub fn swaps(subject: &Subject) -> Vec<[usize; 4]> {
-    let checks = std::iter::once(&subject.initial).chain(subject.stages.iter().map(|stage| &stage.check));
+    let checks =
+        std::iter::once(&subject.initial).chain(subject.stages.iter().map(|stage| &stage.check));
     let pairs: Vec<&Vec<usize>> = checks.map(|check| &check.pairing.analysis_mode).collect();
     let of_stage = |(stage, both): (usize, &[&Vec<usize>])| {
-        let modes = both[0].iter().zip(both[1]).enumerate().filter(|(_, (from, to))| from != to);
-        modes.map(|(test, (from, to))| [stage + 1, test + 1, from + 1, to + 1]).collect::<Vec<_>>()
+        let modes = both[0]
+            .iter()
+            .zip(both[1])
+            .enumerate()
+            .filter(|(_, (from, to))| from != to);
+        modes
+            .map(|(test, (from, to))| [stage + 1, test + 1, from + 1, to + 1])
+            .collect::<Vec<_>>()
     };
     pairs.windows(2).enumerate().flat_map(of_stage).collect()
 }
@@ -129,15 +214,27 @@ pub fn swaps(subject: &Subject) -> Vec<[usize; 4]> {
 pub fn derivative_table(subject: &Subject) -> Option<Table> {
     let derivatives = subject.derivatives.as_ref()?;
     let title = "derivatives at the first model, for one percent of each parameter";
-    let mut table = table_of(subject, "derivatives", title, "Parameter").labels(&subject.parameters);
+    let mut table =
+        table_of(subject, "derivatives", title, "Parameter").labels(&subject.parameters);
     for (mode, column) in (1..).zip(derivatives.frequency.column_iter()) {
-        table = table.column(format!("Mode {mode}"), "%", numbers(column.iter().copied(), THREE));
+        table = table.column(
+            format!("Mode {mode}"),
+            "%",
+            numbers(column.iter().copied(), THREE),
+        );
     }
-    Some(table.column("Error sum", "points", numbers(derivatives.error_sum.iter().copied(), THREE)))
+    Some(table.column(
+        "Error sum",
+        "points",
+        numbers(derivatives.error_sum.iter().copied(), THREE),
+    ))
 }
 
 /// What did the finite element analyses, when it was not the crate itself.
 pub(super) fn solver_note(solver: &str, before: &str, after: &str) -> Option<String> {
-    (solver != BUILT_IN)
-        .then(|| format!("Finite element analyses{before} by {solver}{after} everything else by this program."))
+    (solver != BUILT_IN).then(|| {
+        format!(
+            "Finite element analyses{before} by {solver}{after} everything else by this program."
+        )
+    })
 }

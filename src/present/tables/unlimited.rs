@@ -15,7 +15,11 @@ pub fn unlimited_factors(result: &CaseResult) -> Vec<Factor> {
         value,
         // The paper quotes one factor: about 60, for the faulty cover of Case 4.
         published: ((result.case.number, &name[..]) == (4, "8")).then_some(60.0),
-        remark: result.anomaly.as_ref().filter(|anomaly| anomaly.parameter == *name).map(|_| ANOMALY),
+        remark: result
+            .anomaly
+            .as_ref()
+            .filter(|anomaly| anomaly.parameter == *name)
+            .map(|_| ANOMALY),
         ..Factor::default()
     };
     names.iter().zip(factors).map(factor).collect()
@@ -30,17 +34,32 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
         None if bounds.contains(factor.value) => Cell::text("within bounds"),
         remark => Cell::text(remark.unwrap_or("limited")),
     };
-    let kind = if result.case.grouping == Grouping::Elements { "element" } else { "group" };
-    let anomalies = factors.iter().filter(|factor| factor.remark.is_some()).map(|Factor { name, value, .. }| {
-        let next = factors.iter().filter(|other| other.name != *name).map(|other| other.value).fold(f64::MIN, f64::max);
-        let asks = format!("{kind} {name} asks for {value:.1} times its stiffness, the next for {next:.1}");
-        format!("Anomaly: {asks}: look for a modeling error there.")
-    });
+    let kind = if result.case.grouping == Grouping::Elements {
+        "element"
+    } else {
+        "group"
+    };
+    let anomalies = factors.iter().filter(|factor| factor.remark.is_some()).map(
+        |Factor { name, value, .. }| {
+            let next = factors
+                .iter()
+                .filter(|other| other.name != *name)
+                .map(|other| other.value)
+                .fold(f64::MIN, f64::max);
+            let asks = format!(
+                "{kind} {name} asks for {value:.1} times its stiffness, the next for {next:.1}"
+            );
+            format!("Anomaly: {asks}: look for a modeling error there.")
+        },
+    );
     let number = |factor: &Factor| Cell::beside(factor.value, Digits::Fixed(1), factor.published);
     Table::new(format!("case_{case}_factors"), title, "Parameter")
         .labels(factors.iter().map(|factor| &factor.name))
         .column("Factor", "", factors.iter().map(number))
         .column("Verdict", "", factors.iter().map(word))
-        .notes([format!("Bounds of one iteration: {:.2} to {:.2}.", bounds.lower, bounds.upper)])
+        .notes([format!(
+            "Bounds of one iteration: {:.2} to {:.2}.",
+            bounds.lower, bounds.upper
+        )])
         .notes(anomalies)
 }

@@ -41,11 +41,20 @@ impl DeltaWing {
         let (structure, elements, sizes, stiffness) = self.parts()?;
         let dof = structure.free_dof().to_vec();
         let mass = lumped_mass(&elements, &sizes, dof.len())?;
-        whole_modes(&stiffness, MassDof { load_distribution: DMatrix::identity(dof.len(), dof.len()), dof, mass })
+        whole_modes(
+            &stiffness,
+            MassDof {
+                load_distribution: DMatrix::identity(dof.len(), dof.len()),
+                dof,
+                mass,
+            },
+        )
     }
 
     /// The structure, its unit element matrices, sizes and stiffness.
-    fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, FactorizedStiffness), Error> {
+    fn parts(
+        &self,
+    ) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, FactorizedStiffness), Error> {
         let structure = self.structure()?;
         let elements = element_matrices(&structure)?;
         let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
@@ -62,9 +71,18 @@ impl DeltaWing {
         // The z of every grid named here is free, whatever the depths and sizes of the wing are.
         let row = |grid: usize| structure.free_dof_index(grid, Z);
         let loaded = row(load.grid());
-        let at = |dof, _| if Some(dof) == loaded { -self.tip_load } else { 0.0 };
+        let at = |dof, _| {
+            if Some(dof) == loaded {
+                -self.tip_load
+            } else {
+                0.0
+            }
+        };
         let deflected = stiffness.solve(&DMatrix::from_fn(structure.free_dof().len(), 1, at))?;
-        Ok(MEASURED_GRIDS.iter().filter_map(|&grid| Some(deflected[row(grid)?])).collect())
+        Ok(MEASURED_GRIDS
+            .iter()
+            .filter_map(|&grid| Some(deflected[row(grid)?]))
+            .collect())
     }
 }
 

@@ -45,7 +45,11 @@ impl Group {
 }
 
 const fn group(name: &'static str, elements: &'static [usize], first_over_true: f64) -> Group {
-    Group { name, elements, first_over_true }
+    Group {
+        name,
+        elements,
+        first_over_true,
+    }
 }
 
 /// All covers and webs, by bay and by span, and what is wrong in the first model.
@@ -105,7 +109,10 @@ pub fn settings() -> Settings {
 /// The grids whose $z$ is measured: those of the upper surface that move.
 pub fn measured_grids(structure: &Structure) -> Vec<usize> {
     let grids = structure.grids().iter();
-    grids.filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z]).map(|grid| grid.label).collect()
+    grids
+        .filter(|grid| grid.position.z > 0.0 && !grid.constrained[Z])
+        .map(|grid| grid.label)
+        .collect()
 }
 
 /// The model with the wrong gages of [`GROUPS`], one parameter a group.
@@ -117,15 +124,28 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
     let elements = right.elements().iter().map(|element| {
         let wrong = GROUPS.iter().find(|g| g.elements.contains(&element.label));
         let ratio = wrong.map_or(1.0, |group| group.first_over_true);
-        let material = Material { density: element.material.density / ratio, ..element.material };
-        Element { size: ratio * element.size, material, ..element.clone() }
+        let material = Material {
+            density: element.material.density / ratio,
+            ..element.material
+        };
+        Element {
+            size: ratio * element.size,
+            material,
+            ..element.clone()
+        }
     });
     let structure = Structure::new(right.grids().to_vec(), elements.collect())?;
     let column = |grid| Some(vec![(structure.free_dof_index(grid, Z)?, 1.0)]);
-    let columns: Vec<_> = measured_grids(&structure).into_iter().filter_map(column).collect();
+    let columns: Vec<_> = measured_grids(&structure)
+        .into_iter()
+        .filter_map(column)
+        .collect();
     let mass = DMatrix::zeros(columns.len(), columns.len());
     let loads = LoadDistribution::new(structure.free_dof().len(), columns)?;
-    let parameters = GROUPS.iter().map(|g| Parameter::group(g.name, g.elements)).collect();
+    let parameters = GROUPS
+        .iter()
+        .map(|g| Parameter::group(g.name, g.elements))
+        .collect();
     FiniteElementModel::with_loads(structure, loads, mass, parameters)
 }
 
@@ -134,9 +154,15 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
 /// # Errors
 /// Those of [`DeltaWing::modes`] and [`ModeSet::from_measured`].
 pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
-    let (structure, tested) = (wing.structure()?, wing.modes()?.modes.select(&TEST_MODES.map(|mode| mode - 1)));
+    let (structure, tested) = (
+        wing.structure()?,
+        wing.modes()?.modes.select(&TEST_MODES.map(|mode| mode - 1)),
+    );
     let row = |grid: usize| structure.free_dof_index(grid, Z);
-    let rows: Vec<usize> = measured_grids(&structure).into_iter().filter_map(row).collect();
+    let rows: Vec<usize> = measured_grids(&structure)
+        .into_iter()
+        .filter_map(row)
+        .collect();
     ModeSet::from_measured(&tested.frequencies_hz(), &tested.shapes.select_rows(&rows))
 }
 
@@ -158,8 +184,17 @@ pub struct WingCorrelation {
 ///
 /// # Errors
 /// Those of [`first_model`], [`test_modes`], the analysis and the loops.
-pub fn correlate_wing(wing: &DeltaWing, progress: impl FnMut(usize, &Pass)) -> Result<WingCorrelation, Error> {
-    correlate_wing_with(wing, &settings(), BUILT_IN, |model, _| Ok(model.clone()), progress)
+pub fn correlate_wing(
+    wing: &DeltaWing,
+    progress: impl FnMut(usize, &Pass),
+) -> Result<WingCorrelation, Error> {
+    correlate_wing_with(
+        wing,
+        &settings(),
+        BUILT_IN,
+        |model, _| Ok(model.clone()),
+        progress,
+    )
 }
 
 /// Corrects the model of wrong gages by given settings, with another finite element analysis than the crate's own: `solver` is its name
@@ -180,10 +215,20 @@ pub fn correlate_wing_with<E: From<Error>>(
 ) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
     let test = test_modes(wing)?;
-    let mut analyze =
-        |factors: &[f64]| -> Result<ModalModel, E> { Ok(elements(&model, factors)?.analyze(factors, &test, None)?) };
+    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
+        Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+    };
     let first = analyze(&[1.0; GROUPS.len()])?;
-    let shares = first.test_shares.iter().map(|share| share.diagonal().max()).collect();
+    let shares = first
+        .test_shares
+        .iter()
+        .map(|share| share.diagonal().max())
+        .collect();
     let correlation = correlate(analyze, &model.factor_ranges()?, settings, progress)?;
-    Ok(WingCorrelation { solver, test, correlation, shares })
+    Ok(WingCorrelation {
+        solver,
+        test,
+        correlation,
+        shares,
+    })
 }

@@ -77,7 +77,10 @@ impl DeltaWing {
     /// # Errors
     /// As [`Self::parse`], if the data file were damaged.
     pub fn embedded() -> Result<Self, CaseError> {
-        Self::parse("paper/delta_wing.toml", include_str!("../../../paper/delta_wing.toml"))
+        Self::parse(
+            "paper/delta_wing.toml",
+            include_str!("../../../paper/delta_wing.toml"),
+        )
     }
 
     /// Reads a wing of this planform from TOML text; `name` stands in error messages.
@@ -88,17 +91,30 @@ impl DeltaWing {
         let read: Self = read_toml(name, "a delta wing: material, half depths and sizes", text)?;
         let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
         let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
-        let along_stations: Vec<usize> = (1..STATIONS.len()).map(|station| lines_at(station) - 1).collect();
+        let along_stations: Vec<usize> = (1..STATIONS.len())
+            .map(|station| lines_at(station) - 1)
+            .collect();
         for (what, table, lengths) in [
             ("half depths", &read.half_depths, &at_grids),
             ("post areas", &read.post_areas, &at_grids),
             ("spanwise cap areas", &read.spanwise_cap_areas, &along_lines),
-            ("chordwise cap areas", &read.chordwise_cap_areas, &along_stations),
+            (
+                "chordwise cap areas",
+                &read.chordwise_cap_areas,
+                &along_stations,
+            ),
         ] {
             check_length(what, table.len(), lengths.len())?;
-            table.iter().zip(lengths).try_for_each(|(row, &length)| check_length(what, row.len(), length))?;
+            table
+                .iter()
+                .zip(lengths)
+                .try_for_each(|(row, &length)| check_length(what, row.len(), length))?;
         }
-        check_length("leading-edge cap areas", read.leading_edge_cap_areas.len(), leading_edge().len() - 1)?;
+        check_length(
+            "leading-edge cap areas",
+            read.leading_edge_cap_areas.len(),
+            leading_edge().len() - 1,
+        )?;
         Ok(read)
     }
 
@@ -112,10 +128,19 @@ impl DeltaWing {
         let sheet = rods.with_density(self.sheet_density)?;
         let mut elements = Vec::new();
         // From the first numbers of each sort in NASA's deck.
-        for (first, members, material) in
-            [(1, self.covers(), sheet), (18, self.webs(), sheet), (60, self.posts(), rods), (100, self.caps(), rods)]
-        {
-            let element = |(label, (kind, grids, size))| Element { label, kind, grids, size, material };
+        for (first, members, material) in [
+            (1, self.covers(), sheet),
+            (18, self.webs(), sheet),
+            (60, self.posts(), rods),
+            (100, self.caps(), rods),
+        ] {
+            let element = |(label, (kind, grids, size))| Element {
+                label,
+                kind,
+                grids,
+                size,
+                material,
+            };
             elements.extend((first..).zip(members).map(element));
         }
         Structure::new(self.grids(), elements)
@@ -127,7 +152,11 @@ impl DeltaWing {
             for (station, &depth) in depths.iter().enumerate() {
                 let at = |label, z, constrained| {
                     let position = Vector3::new(STATIONS[station], LINES[line], z);
-                    Grid { label, position, constrained }
+                    Grid {
+                        label,
+                        position,
+                        constrained,
+                    }
                 };
                 let upper = [station == 0, false, station == SUPPORTED_STATION];
                 grids.push(at(mid_grid(line, station), 0.0, [true, true, false]));
@@ -147,7 +176,10 @@ impl DeltaWing {
                 let [root, tip] = [station - 1, station].map(|s| upper_grid(aft, s));
                 let inboard = upper_grid(forward, station - 1);
                 let (kind, grids) = match station < stations_on(forward) {
-                    true => (ElementKind::Membrane, vec![root, tip, upper_grid(forward, station), inboard]),
+                    true => (
+                        ElementKind::Membrane,
+                        vec![root, tip, upper_grid(forward, station), inboard],
+                    ),
                     false => (ElementKind::Triangle, vec![root, tip, inboard]),
                 };
                 covers.push((kind, grids, self.cover_gage));
@@ -161,37 +193,61 @@ impl DeltaWing {
         let mut sides = [along_lines(), along_stations()].concat();
         sides.extend(leading_edge().windows(2).map(|pair| [pair[0], pair[1]]));
         let web = |[a, b]: [usize; 2]| vec![a, b, b + SURFACE_STEP, a + SURFACE_STEP];
-        sides.into_iter().map(|side| (ElementKind::ShearPanel, web(side), self.web_gage)).collect()
+        sides
+            .into_iter()
+            .map(|side| (ElementKind::ShearPanel, web(side), self.web_gage))
+            .collect()
     }
 
     fn posts(&self) -> Vec<Member> {
         let post = |line, station| vec![mid_grid(line, station), upper_grid(line, station)];
         let of_line = |(line, areas): (usize, &Vec<f64>)| {
-            (0..).zip(areas.clone()).map(move |(station, area)| (ElementKind::Rod, post(line, station), area))
+            (0..)
+                .zip(areas.clone())
+                .map(move |(station, area)| (ElementKind::Rod, post(line, station), area))
         };
-        self.post_areas.iter().enumerate().flat_map(of_line).collect()
+        self.post_areas
+            .iter()
+            .enumerate()
+            .flat_map(of_line)
+            .collect()
     }
 
     /// Over the webs, those of the leading edge from the root out.
     fn caps(&self) -> Vec<Member> {
         let mut sides = [along_lines(), along_stations()].concat();
-        sides.extend(leading_edge().windows(2).rev().map(|pair| [pair[1], pair[0]]));
+        sides.extend(
+            leading_edge()
+                .windows(2)
+                .rev()
+                .map(|pair| [pair[1], pair[0]]),
+        );
         let areas = (self.spanwise_cap_areas.iter().flatten())
             .chain(self.chordwise_cap_areas.iter().flatten())
             .chain(&self.leading_edge_cap_areas);
         let cap = |ends: [usize; 2]| ends.map(|grid| grid + SURFACE_STEP).to_vec();
-        sides.into_iter().zip(areas).map(|(ends, &area)| (ElementKind::Rod, cap(ends), area)).collect()
+        sides
+            .into_iter()
+            .zip(areas)
+            .map(|(ends, &area)| (ElementKind::Rod, cap(ends), area))
+            .collect()
     }
 }
 
 /// How many stations a line has behind the leading edge.
 fn stations_on(line: usize) -> usize {
-    STATIONS.iter().filter(|x| **x + LINES[line] <= LEADING_EDGE).count()
+    STATIONS
+        .iter()
+        .filter(|x| **x + LINES[line] <= LEADING_EDGE)
+        .count()
 }
 
 /// How many lines a station has behind the leading edge.
 fn lines_at(station: usize) -> usize {
-    LINES.iter().filter(|y| STATIONS[station] + **y <= LEADING_EDGE).count()
+    LINES
+        .iter()
+        .filter(|y| STATIONS[station] + **y <= LEADING_EDGE)
+        .count()
 }
 
 /// Number of the grid in the mid-plane.
@@ -207,16 +263,22 @@ fn upper_grid(line: usize, station: usize) -> usize {
 /// Mid-plane grids at the ends of every member along a line, line by line from the root out.
 fn along_lines() -> Vec<[usize; 2]> {
     let side = |line, station| [mid_grid(line, station - 1), mid_grid(line, station)];
-    (0..LINES.len()).flat_map(|line| (1..stations_on(line)).map(move |station| side(line, station))).collect()
+    (0..LINES.len())
+        .flat_map(|line| (1..stations_on(line)).map(move |station| side(line, station)))
+        .collect()
 }
 
 /// The same along every station but the first: nothing shears the plane of symmetry.
 fn along_stations() -> Vec<[usize; 2]> {
     let side = |line, station| [mid_grid(line - 1, station), mid_grid(line, station)];
-    (1..STATIONS.len()).flat_map(|station| (1..lines_at(station)).map(move |line| side(line, station))).collect()
+    (1..STATIONS.len())
+        .flat_map(|station| (1..lines_at(station)).map(move |line| side(line, station)))
+        .collect()
 }
 
 /// Mid-plane grids on the leading edge, from the tip in.
 fn leading_edge() -> Vec<usize> {
-    (1..LINES.len()).map(|line| mid_grid(line, stations_on(line) - 1)).collect()
+    (1..LINES.len())
+        .map(|line| mid_grid(line, stations_on(line) - 1))
+        .collect()
 }

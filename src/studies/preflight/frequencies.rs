@@ -26,7 +26,11 @@ pub struct NamedFactor {
 }
 
 const fn named(factor: f64, name: &'static str, mistake: &'static str) -> NamedFactor {
-    NamedFactor { factor, name, mistake }
+    NamedFactor {
+        factor,
+        name,
+        mistake,
+    }
 }
 
 /// Square roots of 1000, 386.09 and 9.81.
@@ -37,15 +41,39 @@ const METERS: f64 = 3.132_091_952_673_165;
 /// The factors known, in both directions.
 pub const FACTORS: [NamedFactor; 10] = [
     named(TAU, "2π", "the test is in rad/s"),
-    named(1.0 / TAU, "1/2π", "the test was divided by 2π, or the model's mass and stiffness are for rad/s"),
+    named(
+        1.0 / TAU,
+        "1/2π",
+        "the test was divided by 2π, or the model's mass and stiffness are for rad/s",
+    ),
     named(60.0, "60", "the test is in rpm"),
     named(1.0 / 60.0, "1/60", "the test was divided by 60"),
-    named(THOUSAND, "√1000", "the model's mass is 1000 times too large, as grams for kilograms"),
-    named(1.0 / THOUSAND, "1/√1000", "the model's mass is 1000 times too small, as kilograms for grams"),
-    named(INCHES, "√386.09", "the model has weight in lbf for mass in lbf·s²/in"),
-    named(1.0 / INCHES, "1/√386.09", "the model's mass was divided by 386.09 in/s² twice"),
+    named(
+        THOUSAND,
+        "√1000",
+        "the model's mass is 1000 times too large, as grams for kilograms",
+    ),
+    named(
+        1.0 / THOUSAND,
+        "1/√1000",
+        "the model's mass is 1000 times too small, as kilograms for grams",
+    ),
+    named(
+        INCHES,
+        "√386.09",
+        "the model has weight in lbf for mass in lbf·s²/in",
+    ),
+    named(
+        1.0 / INCHES,
+        "1/√386.09",
+        "the model's mass was divided by 386.09 in/s² twice",
+    ),
     named(METERS, "√9.81", "the model has weight in N for mass in kg"),
-    named(1.0 / METERS, "1/√9.81", "the model's mass was divided by 9.81 m/s² twice"),
+    named(
+        1.0 / METERS,
+        "1/√9.81",
+        "the model's mass was divided by 9.81 m/s² twice",
+    ),
 ];
 
 /// One factor between all frequencies.
@@ -61,11 +89,19 @@ pub struct CommonFactor {
 
 /// Median of the logarithms of the ratios, and their mean deviation from it.
 fn spread(test: &[f64], analysis: &[f64]) -> (f64, f64) {
-    let mut logarithms: Vec<f64> = test.iter().zip(analysis).map(|(test, analysis)| (test / analysis).ln()).collect();
+    let mut logarithms: Vec<f64> = test
+        .iter()
+        .zip(analysis)
+        .map(|(test, analysis)| (test / analysis).ln())
+        .collect();
     logarithms.sort_by(f64::total_cmp);
     let last = logarithms.len().saturating_sub(1);
     let median = 0.5 * (logarithms[last / 2] + logarithms[last.div_ceil(2)]);
-    let deviation = logarithms.iter().map(|value| (value - median).abs()).sum::<f64>() / logarithms.len() as f64;
+    let deviation = logarithms
+        .iter()
+        .map(|value| (value - median).abs())
+        .sum::<f64>()
+        / logarithms.len() as f64;
     (median, deviation)
 }
 
@@ -76,9 +112,15 @@ pub(super) fn common_factor(test: &[f64], analysis: &[f64]) -> Option<CommonFact
     if deviation > MODEL_ERROR.ln() || distance(1.0) < UNNAMED.ln() {
         return None;
     }
-    let nearest = FACTORS.into_iter().min_by(|a, b| distance(a.factor).total_cmp(&distance(b.factor)));
+    let nearest = FACTORS
+        .into_iter()
+        .min_by(|a, b| distance(a.factor).total_cmp(&distance(b.factor)));
     let named = nearest.filter(|known| distance(known.factor) < MODEL_ERROR.ln());
-    Some(CommonFactor { median: median.exp(), deviation, named })
+    Some(CommonFactor {
+        median: median.exp(),
+        deviation,
+        named,
+    })
 }
 
 /// Two frequencies that would fit each other's shapes better.
@@ -96,14 +138,22 @@ pub struct FrequenciesExchanged {
 pub(super) fn exchanged(test: &[f64], analysis: &[f64]) -> Option<FrequenciesExchanged> {
     let before = spread(test, analysis).1;
     let mut frequencies = test.to_vec();
-    let mut best = FrequenciesExchanged { modes: [0; 2], before, after: before };
+    let mut best = FrequenciesExchanged {
+        modes: [0; 2],
+        before,
+        after: before,
+    };
     for b in 0..test.len() {
         for a in 0..b {
             frequencies.swap(a, b);
             let after = spread(&frequencies, analysis).1;
             frequencies.swap(a, b);
             if after < best.after {
-                best = FrequenciesExchanged { modes: [a, b], before, after };
+                best = FrequenciesExchanged {
+                    modes: [a, b],
+                    before,
+                    after,
+                };
             }
         }
     }

@@ -24,7 +24,9 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use crate::studies::whole_model::{CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
+use crate::studies::whole_model::{
+    CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel,
+};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{Look, changed, mend, paired_values, reordered};
@@ -44,7 +46,10 @@ pub const LARGEST_TOLERANCE: f64 = 0.2;
 /// Something that looks wrong. Places count from zero here and from one in [`std::fmt::Display`]'s words.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs, reason = "a variant's own sentence says what its fields are")]
+#[allow(
+    missing_docs,
+    reason = "a variant's own sentence says what its fields are"
+)]
 pub enum Finding {
     /// All frequencies are wrong by one factor.
     CommonFactor(CommonFactor),
@@ -54,13 +59,26 @@ pub enum Finding {
     FrequenciesExchanged(FrequenciesExchanged),
     /// Two test modes have nearly the same shape, by their modal assurance. Where the second frequency over the first is close to
     /// one, the mode was measured twice.
-    NearlySame { modes: [usize; 2], assurance: f64, frequency_ratio: f64 },
+    NearlySame {
+        modes: [usize; 2],
+        assurance: f64,
+        frequency_ratio: f64,
+    },
     /// A test mode and its analysis mode agree badly, by the magnitude of their cross-orthogonality, after the change named if there
     /// is one.
-    LowPair { test: usize, analysis: usize, cross: f64 },
+    LowPair {
+        test: usize,
+        analysis: usize,
+        cross: f64,
+    },
     /// There are more test modes than their shapes at the measured points tell apart: `distinct` is how many singular values of the
     /// shapes, at unit generalized mass, are not small.
-    TooManyModes { modes: usize, points: usize, distinct: usize, smallest: f64 },
+    TooManyModes {
+        modes: usize,
+        points: usize,
+        distinct: usize,
+        smallest: f64,
+    },
     /// The value of a tolerance looks like percent.
     Percent { setting: &'static str, value: f64 },
     /// A parameter may not keep its first value, for the bounds on its factor.
@@ -68,7 +86,10 @@ pub enum Finding {
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
     /// Condensation to the measured points makes a mode of the model itself too stiff.
-    CoarseCondensation { mode: usize, error: CondensationError },
+    CoarseCondensation {
+        mode: usize,
+        error: CondensationError,
+    },
 }
 
 /// The lowest `count` modes that condensation to the measured points raises by more than
@@ -82,18 +103,32 @@ pub fn coarse_condensation(
     sensors: &SparseMatrix,
     count: usize,
 ) -> Result<Vec<Finding>, Error> {
-    let errors = model.condensation_errors(factors, sensors, count)?.into_iter().enumerate();
+    let errors = model
+        .condensation_errors(factors, sensors, count)?
+        .into_iter()
+        .enumerate();
     let coarse = errors.filter(|(_, error)| error.frequency > LARGEST_CONDENSATION_ERROR);
-    Ok(coarse.map(|(mode, error)| Finding::CoarseCondensation { mode, error }).collect())
+    Ok(coarse
+        .map(|(mode, error)| Finding::CoarseCondensation { mode, error })
+        .collect())
 }
 
 /// Looks at a finite element model and its test before the first step.
 ///
 /// # Errors
 /// Those of the model's analysis and of [`preflight`].
-pub fn preflight_of(model: &FiniteElementModel, test: &ModeSet, settings: &Settings) -> Result<Vec<Finding>, Error> {
+pub fn preflight_of(
+    model: &FiniteElementModel,
+    test: &ModeSet,
+    settings: &Settings,
+) -> Result<Vec<Finding>, Error> {
     let ranges = model.factor_ranges()?;
-    preflight(&model.matrices(&vec![1.0; ranges.len()])?, test, settings, &ranges)
+    preflight(
+        &model.matrices(&vec![1.0; ranges.len()])?,
+        test,
+        settings,
+        &ranges,
+    )
 }
 
 /// The same of a model given by its matrices.
@@ -133,7 +168,11 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
             continue;
         };
         let (assurance, frequency_ratio) = (assurance[(a, b)], frequencies[b] / frequencies[a]);
-        findings.push(Finding::NearlySame { modes: [a, b], assurance, frequency_ratio });
+        findings.push(Finding::NearlySame {
+            modes: [a, b],
+            assurance,
+            frequency_ratio,
+        });
     }
     Ok((apart, findings))
 }
@@ -149,26 +188,51 @@ fn beside_the_model(
     let mut look = Look::new(&model.stiffness, &model.mass)?;
     let mended = mend(model, &look, test)?;
     let change = mended.as_ref().map(|mended| &mended.change);
-    let shapes = change.map_or_else(|| test.shapes.clone(), |change| changed(&test.shapes, change));
+    let shapes = change.map_or_else(
+        || test.shapes.clone(),
+        |change| changed(&test.shapes, change),
+    );
     if let Some(Change::Columns(order)) = change {
         look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
     }
-    let Some(cross) = look.cross(&shapes) else { return Ok(shapes) };
+    let Some(cross) = look.cross(&shapes) else {
+        return Ok(shapes);
+    };
     let pairing = pair_modes(&cross)?;
     let all = look.analysis.frequencies_hz();
-    let analysis: Vec<f64> = pairing.analysis_mode.iter().map(|&mode| all[mode]).collect();
+    let analysis: Vec<f64> = pairing
+        .analysis_mode
+        .iter()
+        .map(|&mode| all[mode])
+        .collect();
     let mut frequencies = test.frequencies_hz();
     let exchanged = frequencies::exchanged(&frequencies, &analysis);
-    if let Some(FrequenciesExchanged { modes: [a, b], before, after }) = exchanged {
+    if let Some(FrequenciesExchanged {
+        modes: [a, b],
+        before,
+        after,
+    }) = exchanged
+    {
         frequencies.swap(a, b);
         let modes = [places[a], places[b]];
-        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged { modes, before, after }));
+        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged {
+            modes,
+            before,
+            after,
+        }));
     }
     findings.extend(frequencies::common_factor(&frequencies, &analysis).map(Finding::CommonFactor));
     findings.extend(mended.map(Finding::Mended));
-    let low = paired_values(&cross, &pairing).into_iter().enumerate().filter(|(_, value)| *value < LOW_PAIR);
+    let low = paired_values(&cross, &pairing)
+        .into_iter()
+        .enumerate()
+        .filter(|(_, value)| *value < LOW_PAIR);
     let analysis = |mode: usize| pairing.analysis_mode[mode];
-    findings.extend(low.map(|(mode, cross)| Finding::LowPair { test: places[mode], analysis: analysis(mode), cross }));
+    findings.extend(low.map(|(mode, cross)| Finding::LowPair {
+        test: places[mode],
+        analysis: analysis(mode),
+        cross,
+    }));
     Ok(shapes)
 }
 
@@ -178,8 +242,16 @@ fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Er
     let overlap = symmetric_part(&test.shapes.tr_mul(&(mass * &test.shapes)));
     let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
     let smallest = squares[0].max(0.0).sqrt();
-    let distinct = squares.iter().filter(|square| **square >= LEAST_SINGULAR.powi(2)).count();
-    Ok((distinct < modes).then_some(Finding::TooManyModes { modes, points, distinct, smallest }))
+    let distinct = squares
+        .iter()
+        .filter(|square| **square >= LEAST_SINGULAR.powi(2))
+        .count();
+    Ok((distinct < modes).then_some(Finding::TooManyModes {
+        modes,
+        points,
+        distinct,
+        smallest,
+    }))
 }
 
 fn of_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
@@ -190,13 +262,17 @@ fn of_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
         ("frequency_tolerance", settings.frequency_tolerance),
         ("shape_tolerance", settings.shape_tolerance),
     ];
-    let large = tolerances.into_iter().filter(|(_, value)| *value > LARGEST_TOLERANCE);
+    let large = tolerances
+        .into_iter()
+        .filter(|(_, value)| *value > LARGEST_TOLERANCE);
     let percent = large.map(|(setting, value)| Finding::Percent { setting, value });
     let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
         let range = range.filter(|range| !range.contains(1.0))?;
         Some(Finding::ExcludesStart { parameter, range })
     });
-    let unbounded: Vec<usize> = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none()).collect();
+    let unbounded: Vec<usize> = (0..ranges.len())
+        .filter(|&parameter| ranges[parameter].is_none())
+        .collect();
     let unbounded = (!unbounded.is_empty()).then_some(Finding::Unbounded(unbounded));
     percent.chain(excluding).chain(unbounded).collect()
 }

@@ -50,14 +50,20 @@ pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
         return ((0..test.shapes.nrows()).collect(), 0.0);
     };
     for _ in 0..ROUNDS {
-        let pairing = look.cross(&test.shapes.select_rows(&order)).and_then(|cross| pair_modes(&cross).ok());
-        let Some(analysis) = pairing.and_then(|pairing| paired(&look.analysis, &pairing).ok()) else { break };
+        let pairing = look
+            .cross(&test.shapes.select_rows(&order))
+            .and_then(|cross| pair_modes(&cross).ok());
+        let Some(analysis) = pairing.and_then(|pairing| paired(&look.analysis, &pairing).ok())
+        else {
+            break;
+        };
         match matched(&unit(analysis.shapes), &shapes) {
             Some(next) if next != order => order = next,
             _ => break,
         }
     }
-    let agreement = |order: &[usize], least| Ok(look.agreement_above(&test.shapes.select_rows(order), least));
+    let agreement =
+        |order: &[usize], least| Ok(look.agreement_above(&test.shapes.select_rows(order), least));
     exchange(order.clone(), agreement).unwrap_or((order, 0.0))
 }
 
@@ -72,7 +78,8 @@ fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
 
 /// For every row the nearest row of the other matrix, each taken once, the closest first.
 fn matched(rows: &DMatrix<f64>, others: &DMatrix<f64>) -> Option<Vec<usize>> {
-    let nearness = |other: usize, row: usize| 1.0 / (1.0 + (rows.row(row) - others.row(other)).norm_squared());
+    let nearness =
+        |other: usize, row: usize| 1.0 / (1.0 + (rows.row(row) - others.row(other)).norm_squared());
     let nearness = DMatrix::from_fn(others.nrows(), rows.nrows(), nearness);
     Some(pair_modes(&nearness).ok()?.analysis_mode)
 }
@@ -84,7 +91,10 @@ fn matched(rows: &DMatrix<f64>, others: &DMatrix<f64>) -> Option<Vec<usize>> {
 /// $$ \mathrm{diag}(V_F \Omega_F^{-2} V_F^t) \quad \text{and} \quad \mathrm{diag}(V_G \Omega_G^{-2} V_G^t), $$
 ///
 /// has the same rank in model and test. The better of both is taken.
-pub(super) fn flexibility_order(model: &DynamicModel, test: &ModeSet) -> Result<(Vec<usize>, f64), Error> {
+pub(super) fn flexibility_order(
+    model: &DynamicModel,
+    test: &ModeSet,
+) -> Result<(Vec<usize>, f64), Error> {
     let agreement = |order: &[usize], least: f64| {
         let look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
         Ok(look.agreement_above(&test.shapes, least))
@@ -94,15 +104,28 @@ pub(super) fn flexibility_order(model: &DynamicModel, test: &ModeSet) -> Result<
     let look = Look::new(&model.stiffness, &model.mass)?;
     let ranks = |modes: &ModeSet| {
         let term = |(shape, omega_squared): (&f64, &f64)| shape * shape / omega_squared;
-        let flexibility =
-            |point: usize| -> f64 { modes.shapes.row(point).iter().zip(&modes.omega_squared).map(term).sum() };
+        let flexibility = |point: usize| -> f64 {
+            modes
+                .shapes
+                .row(point)
+                .iter()
+                .zip(&modes.omega_squared)
+                .map(term)
+                .sum()
+        };
         let mut points: Vec<usize> = (0..count).collect();
         points.sort_by(|&a, &b| flexibility(a).total_cmp(&flexibility(b)));
         points
     };
-    let (of_model, of_test) = (ranks(&look.analysis), ranks(&test.scaled_with(&model.mass)?));
+    let (of_model, of_test) = (
+        ranks(&look.analysis),
+        ranks(&test.scaled_with(&model.mass)?),
+    );
     let mut order = vec![0; count];
-    of_test.iter().zip(&of_model).for_each(|(&test, &model)| order[test] = model);
+    of_test
+        .iter()
+        .zip(&of_model)
+        .for_each(|(&test, &model)| order[test] = model);
     let ranked = exchange(order, agreement)?;
     Ok(if ranked.1 > given.1 { ranked } else { given })
 }

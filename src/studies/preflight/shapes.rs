@@ -63,7 +63,11 @@ impl<'a> Look<'a> {
     pub fn new(stiffness: &DMatrix<f64>, mass: &'a DMatrix<f64>) -> Result<Self, Error> {
         let analysis = solve(stiffness, mass, mass.nrows())?;
         let projection = analysis.shapes.tr_mul(mass);
-        Ok(Self { mass, analysis, projection })
+        Ok(Self {
+            mass,
+            analysis,
+            projection,
+        })
     }
 
     /// Cross-orthogonality with test shapes of any scale; none for a shape without generalized mass.
@@ -84,7 +88,8 @@ impl<'a> Look<'a> {
     pub fn agreement_above(&self, shapes: &DMatrix<f64>, least: f64) -> Option<f64> {
         let cross = self.cross(shapes)?;
         // Every mode paired with its best bounds the agreement, and costs no sorting.
-        let bound = cross.column_iter().map(|column| column.amax()).sum::<f64>() / cross.ncols() as f64;
+        let bound =
+            cross.column_iter().map(|column| column.amax()).sum::<f64>() / cross.ncols() as f64;
         if bound <= least {
             return None;
         }
@@ -96,7 +101,12 @@ impl<'a> Look<'a> {
 
 /// The magnitudes of cross-orthogonality of the pairs, in the order of the test modes.
 pub(super) fn paired_values(cross: &DMatrix<f64>, pairing: &Pairing) -> Vec<f64> {
-    pairing.analysis_mode.iter().enumerate().map(|(test, &mode)| cross[(mode, test)].abs()).collect()
+    pairing
+        .analysis_mode
+        .iter()
+        .enumerate()
+        .map(|(test, &mode)| cross[(mode, test)].abs())
+        .collect()
 }
 
 /// The test shapes after a change.
@@ -128,10 +138,16 @@ fn is_enough(before: f64, after: f64) -> bool {
 /// is another order of the points, and where that leaves one, another order of the columns of $T$, for which the model
 /// is solved anew. An order of the points is always compared with the same order of the columns: they differ by the
 /// masses alone.
-pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<Option<Mended>, Error> {
+pub(super) fn mend(
+    model: &DynamicModel,
+    look: &Look,
+    test: &ModeSet,
+) -> Result<Option<Mended>, Error> {
     let shapes = &test.shapes;
     let (points, modes) = shapes.shape();
-    let Some(before) = look.agreement_above(shapes, 0.0) else { return Ok(None) };
+    let Some(before) = look.agreement_above(shapes, 0.0) else {
+        return Ok(None);
+    };
     let mut best: Vec<(Change, f64)> = Vec::new();
     let reversals = (0..points).map(Change::Reversed);
     let exchanges = (0..points).flat_map(|b| (0..b).map(move |a| Change::Exchanged([a, b])));
@@ -142,8 +158,12 @@ pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<
             add(&mut best, change, agreement);
         }
     }
-    let enough = best.first().filter(|single| is_enough(before, single.1)).cloned();
-    let (mut chosen, mut after) = enough.map_or((None, before), |(change, after)| (Some(change), after));
+    let enough = best
+        .first()
+        .filter(|single| is_enough(before, single.1))
+        .cloned();
+    let (mut chosen, mut after) =
+        enough.map_or((None, before), |(change, after)| (Some(change), after));
     if is_low(look, shapes, chosen.as_ref()) {
         let (order, agreement) = best_order(look, test);
         if is_enough(after, agreement) {
@@ -155,7 +175,8 @@ pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<
         Some(flexibility_order(model, test)?)
     } else if let Some(order) = chosen.as_ref().and_then(|change| order_of(change, points)) {
         let look = Look::new(&reordered(&model.stiffness, &order), &model.mass)?;
-        look.agreement_above(shapes, 0.0).map(|agreement| (order, agreement))
+        look.agreement_above(shapes, 0.0)
+            .map(|agreement| (order, agreement))
     } else {
         None
     };
@@ -166,9 +187,16 @@ pub(super) fn mend(model: &DynamicModel, look: &Look, test: &ModeSet) -> Result<
             (chosen, after) = (Some(change), agreement);
         }
     }
-    let Some(change) = chosen else { return Ok(None) };
+    let Some(change) = chosen else {
+        return Ok(None);
+    };
     let next = best.into_iter().find(|(other, _)| *other != change);
-    Ok(Some(Mended { change, before, after, next }))
+    Ok(Some(Mended {
+        change,
+        before,
+        after,
+        next,
+    }))
 }
 
 /// Adds a change and its agreement to the two best so far, of which the better stands first.
@@ -182,7 +210,11 @@ fn add(best: &mut Vec<(Change, f64)>, change: Change, agreement: f64) {
 fn is_low(look: &Look, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
     let shapes = change.map_or_else(|| shapes.clone(), |change| changed(shapes, change));
     let low = |cross: DMatrix<f64>| {
-        pair_modes(&cross).is_ok_and(|pairing| paired_values(&cross, &pairing).iter().any(|value| *value < LOW_PAIR))
+        pair_modes(&cross).is_ok_and(|pairing| {
+            paired_values(&cross, &pairing)
+                .iter()
+                .any(|value| *value < LOW_PAIR)
+        })
     };
     look.cross(&shapes).is_some_and(low)
 }
@@ -203,6 +235,9 @@ fn order_of(change: &Change, points: usize) -> Option<Vec<usize>> {
 /// The order that undoes another.
 fn inverse(order: &[usize]) -> Vec<usize> {
     let mut inverse = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(place, &of)| inverse[of] = place);
+    order
+        .iter()
+        .enumerate()
+        .for_each(|(place, &of)| inverse[of] = place);
     inverse
 }

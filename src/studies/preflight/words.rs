@@ -9,8 +9,14 @@ use std::fmt::{Display, Formatter, Result};
 /// Places from one: the first and the last of them when none is missing between.
 fn list(places: &[usize]) -> String {
     match places {
-        [first, .., last] if places.is_sorted_by(|a, b| a + 1 == *b) => format!("{} to {}", first + 1, last + 1),
-        _ => places.iter().map(|place| (place + 1).to_string()).collect::<Vec<_>>().join(", "),
+        [first, .., last] if places.is_sorted_by(|a, b| a + 1 == *b) => {
+            format!("{} to {}", first + 1, last + 1)
+        }
+        _ => places
+            .iter()
+            .map(|place| (place + 1).to_string())
+            .collect::<Vec<_>>()
+            .join(", "),
     }
 }
 
@@ -41,44 +47,85 @@ impl Display for Finding {
                 let said = named.map_or_else(|| "by no mistake known here.".to_owned(), said);
                 format!("Test frequencies are {median:.4} times the model's, {said}")
             }
-            Self::Mended(Mended { change, before, after, next }) => {
+            Self::Mended(Mended {
+                change,
+                before,
+                after,
+                next,
+            }) => {
                 let words = change.to_string();
                 let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
-                let next = next.iter().map(|(next, agreement)| format!("; the next best, {next}, to {agreement:.3}"));
+                let next = next
+                    .iter()
+                    .map(|(next, agreement)| format!("; the next best, {next}, to {agreement:.3}"));
                 let next: String = next.collect();
                 format!(
                     "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
                 )
             }
-            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], before, after }) => {
+            Self::FrequenciesExchanged(FrequenciesExchanged {
+                modes: [a, b],
+                before,
+                after,
+            }) => {
                 let (a, b, before, after) = (a + 1, b + 1, 100.0 * before, 100.0 * after);
                 format!(
                     "Frequencies of test modes {a} and {b} exchanged? It would lower the mean deviation of the ratios from \
                     {before:.1} to {after:.1} %."
                 )
             }
-            Self::NearlySame { modes: [a, b], assurance, frequency_ratio } => {
+            Self::NearlySame {
+                modes: [a, b],
+                assurance,
+                frequency_ratio,
+            } => {
                 let is_same = (frequency_ratio - 1.0).abs() < SAME_FREQUENCY;
-                let (a, b, end) = (a + 1, b + 1, if is_same { "; measured twice?" } else { "." });
-                format!("Test modes {a} and {b} are nearly the same shape, modal assurance {assurance:.3}{end}")
+                let (a, b, end) = (
+                    a + 1,
+                    b + 1,
+                    if is_same { "; measured twice?" } else { "." },
+                );
+                format!(
+                    "Test modes {a} and {b} are nearly the same shape, modal assurance {assurance:.3}{end}"
+                )
             }
-            Self::LowPair { test, analysis, cross } => {
+            Self::LowPair {
+                test,
+                analysis,
+                cross,
+            } => {
                 let (a, b) = (test + 1, analysis + 1);
-                format!("Test mode {a} and analysis mode {b} have a cross-orthogonality of {cross:.3} only.")
+                format!(
+                    "Test mode {a} and analysis mode {b} have a cross-orthogonality of {cross:.3} only."
+                )
             }
-            Self::TooManyModes { modes, points, distinct, smallest } => format!(
+            Self::TooManyModes {
+                modes,
+                points,
+                distinct,
+                smallest,
+            } => format!(
                 "{modes} test modes at {points} points: only {distinct} are told apart, the smallest singular value is \
                 {smallest:.3}."
             ),
             Self::Percent { setting, value } => {
                 let percent = 100.0 * value;
-                format!("{setting} is {value}, that is {percent} %: a percentage where a fraction is meant?")
+                format!(
+                    "{setting} is {value}, that is {percent} %: a percentage where a fraction is meant?"
+                )
             }
-            Self::ExcludesStart { parameter, range: Range { lower, upper } } => {
+            Self::ExcludesStart {
+                parameter,
+                range: Range { lower, upper },
+            } => {
                 let parameter = parameter + 1;
-                format!("Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value.")
+                format!(
+                    "Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value."
+                )
             }
-            Self::Unbounded(parameters) => format!("Parameters without bounds: {}.", list(parameters)),
+            Self::Unbounded(parameters) => {
+                format!("Parameters without bounds: {}.", list(parameters))
+            }
         };
         f.write_str(&words)
     }

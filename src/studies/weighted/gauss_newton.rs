@@ -35,7 +35,11 @@ pub struct WeightedSettings {
 impl Default for WeightedSettings {
     /// A prior of $\tau$ = 1, a factor of $e$, which decides where the test is silent alone; 1e-4 and a hundred trials.
     fn default() -> Self {
-        Self { prior_deviation: 1.0, tolerance: 1e-4, trials: 100 }
+        Self {
+            prior_deviation: 1.0,
+            tolerance: 1e-4,
+            trials: 100,
+        }
     }
 }
 
@@ -120,10 +124,15 @@ pub fn gauss_newton<E: From<Error>>(
     positive_setting("prior_deviation", settings.prior_deviation)?;
     positive_setting("tolerance", settings.tolerance)?;
     check_length("parameter limits", ranges.len(), first.len())?;
-    ranges.iter().flatten().try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
+    ranges
+        .iter()
+        .flatten()
+        .try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
     let prior = settings.prior_deviation.powi(-2);
     let mut place_at = |factors: Vec<f64>| -> Result<Place, E> {
-        let within = |(&factor, range): (&f64, &Option<Range>)| range.map_or(factor, |range| range.clamp(factor));
+        let within = |(&factor, range): (&f64, &Option<Range>)| {
+            range.map_or(factor, |range| range.clamp(factor))
+        };
         let factors: Vec<f64> = factors.iter().zip(ranges).map(within).collect();
         let model = analyze(&factors)?;
         check_length("parameter factors", factors.len(), model.shares.len())?;
@@ -131,22 +140,48 @@ pub fn gauss_newton<E: From<Error>>(
         let (residuals, jacobian) = (residuals(&model, weights)?, jacobian(&model, weights)?);
         let objective = 0.5 * (residuals.norm_squared() + prior * logs.norm_squared());
         let gradient = jacobian.tr_mul(&residuals) + prior * &logs;
-        let curvature = jacobian.tr_mul(&jacobian) + prior * DMatrix::identity(logs.len(), logs.len());
-        Ok(Place { factors, exact: model.exact, jacobian, objective, gradient, curvature })
+        let curvature =
+            jacobian.tr_mul(&jacobian) + prior * DMatrix::identity(logs.len(), logs.len());
+        Ok(Place {
+            factors,
+            exact: model.exact,
+            jacobian,
+            objective,
+            gradient,
+            curvature,
+        })
     };
     let mut place = place_at(first.to_vec())?;
     let initial = place.exact.clone();
     let (mut iterations, mut damping, mut growth, mut trials) = (Vec::new(), FIRST_DAMPING, 2.0, 0);
     let stop = loop {
-        let Place { factors, gradient, curvature, .. } = &place;
+        let Place {
+            factors,
+            gradient,
+            curvature,
+            ..
+        } = &place;
         let room = |(range, factor): (&Option<Range>, &f64)| {
-            let range = range.unwrap_or(Range { lower: 0.0, upper: f64::INFINITY });
-            Range { lower: (range.lower / factor).ln(), upper: (range.upper / factor).ln() }
+            let range = range.unwrap_or(Range {
+                lower: 0.0,
+                upper: f64::INFINITY,
+            });
+            Range {
+                lower: (range.lower / factor).ln(),
+                upper: (range.upper / factor).ln(),
+            }
         };
         let room: Vec<Range> = ranges.iter().zip(factors).map(room).collect();
-        let is_free = |&e: &usize| if gradient[e] > 0.0 { room[e].lower < 0.0 } else { room[e].upper > 0.0 };
+        let is_free = |&e: &usize| {
+            if gradient[e] > 0.0 {
+                room[e].lower < 0.0
+            } else {
+                room[e].upper > 0.0
+            }
+        };
         let free: Vec<usize> = (0..first.len()).filter(is_free).collect();
-        let is_flat = |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
+        let is_flat =
+            |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
         if free.iter().all(is_flat) {
             break WeightedStop::Gradient;
         }
@@ -159,7 +194,13 @@ pub fn gauss_newton<E: From<Error>>(
             break WeightedStop::Step;
         }
         trials += 1;
-        let next = place_at(factors.iter().zip(&step).map(|(factor, step)| factor * step.exp()).collect())?;
+        let next = place_at(
+            factors
+                .iter()
+                .zip(&step)
+                .map(|(factor, step)| factor * step.exp())
+                .collect(),
+        )?;
         let promised = -gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
         let fall = place.objective - next.objective;
         if !(fall > 0.0 && promised > 0.0) {
@@ -167,14 +208,32 @@ pub fn gauss_newton<E: From<Error>>(
             continue;
         }
         place = next;
-        let (factors, check, objective) = (place.factors.clone(), place.exact.clone(), place.objective);
-        iterations.push(WeightedIteration { factors, check, objective });
+        let (factors, check, objective) =
+            (place.factors.clone(), place.exact.clone(), place.objective);
+        iterations.push(WeightedIteration {
+            factors,
+            check,
+            objective,
+        });
         damping *= (1.0 - (2.0 * fall / promised - 1.0).powi(3)).max(1.0 / 3.0);
         growth = 2.0;
     };
     let identifiability = identifiability(&place.jacobian, settings.prior_deviation)?;
-    let (Place { factors, objective, .. }, analyses) = (place, trials + 1);
-    Ok(WeightedCorrelation { initial, iterations, factors, objective, analyses, stop, identifiability })
+    let (
+        Place {
+            factors, objective, ..
+        },
+        analyses,
+    ) = (place, trials + 1);
+    Ok(WeightedCorrelation {
+        initial,
+        iterations,
+        factors,
+        objective,
+        analyses,
+        stop,
+        identifiability,
+    })
 }
 
 /// The damped step of the `free` parameters within their `room` below and above: one that would leave it stops at its bound.
@@ -191,15 +250,22 @@ fn bounded_step(
         let right = -(gradient + curvature * &step).select_rows(&free);
         let mut left = curvature.select_rows(&free).select_columns(&free);
         (0..free.len()).for_each(|e| left[(e, e)] *= 1.0 + damping);
-        let factor = left.cholesky().ok_or(Error::NotPositiveDefinite { what: "damped curvature", dof: 0 })?;
+        let factor = left.cholesky().ok_or(Error::NotPositiveDefinite {
+            what: "damped curvature",
+            dof: 0,
+        })?;
         let solved = factor.solve(&right);
         let within = |place: &usize| room[free[*place]].contains(solved[*place]);
         let (inside, beyond): (Vec<usize>, Vec<usize>) = (0..free.len()).partition(within);
         if beyond.is_empty() {
-            inside.iter().for_each(|&place| step[free[place]] = solved[place]);
+            inside
+                .iter()
+                .for_each(|&place| step[free[place]] = solved[place]);
             return Ok(step);
         }
-        beyond.into_iter().for_each(|place| step[free[place]] = room[free[place]].clamp(solved[place]));
+        beyond
+            .into_iter()
+            .for_each(|place| step[free[place]] = room[free[place]].clamp(solved[place]));
         free = inside.into_iter().map(|place| free[place]).collect();
     }
 }
@@ -217,15 +283,24 @@ pub fn from_several_starts<E: From<Error>>(
     starts: usize,
     seed: u64,
 ) -> Result<(WeightedCorrelation, usize), E> {
-    let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) = (seed, Vec::new(), None);
+    let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) =
+        (seed, Vec::new(), None);
     let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
     for start in 0..starts {
-        let first: Vec<f64> = ranges.iter().map(|_| if start == 0 { 1.0 } else { draw() }).collect();
+        let first: Vec<f64> = ranges
+            .iter()
+            .map(|_| if start == 0 { 1.0 } else { draw() })
+            .collect();
         let found = gauss_newton(&mut analyze, &first, ranges, weights, settings)?;
         objectives.push(found.objective);
-        best = best.filter(|best| best.objective <= found.objective).or(Some(found));
+        best = best
+            .filter(|best| best.objective <= found.objective)
+            .or(Some(found));
     }
     let best = best.ok_or(Error::Empty { what: "starts" })?;
-    let reached = objectives.iter().filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE).count();
+    let reached = objectives
+        .iter()
+        .filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE)
+        .count();
     Ok((best, reached))
 }

@@ -44,29 +44,56 @@ pub struct Identifiability {
 ///
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
-pub fn identifiability(jacobian: &DMatrix<f64>, prior_deviation: f64) -> Result<Identifiability, Error> {
+pub fn identifiability(
+    jacobian: &DMatrix<f64>,
+    prior_deviation: f64,
+) -> Result<Identifiability, Error> {
     positive_setting("prior_deviation", prior_deviation)?;
     check_finite("Jacobian", jacobian)?;
     let count = jacobian.ncols();
     at_least_one("parameters or residuals", jacobian.len())?;
-    let mut singular_values = jacobian.clone().svd(false, false).singular_values.as_slice().to_vec();
+    let mut singular_values = jacobian
+        .clone()
+        .svd(false, false)
+        .singular_values
+        .as_slice()
+        .to_vec();
     singular_values.resize(count, 0.0);
     let smallest = singular_values[count - 1];
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
-    let blind: Vec<usize> = (0..count).filter(|&e| lengths[e] <= BLIND_FRACTION * longest).collect();
+    let blind: Vec<usize> = (0..count)
+        .filter(|&e| lengths[e] <= BLIND_FRACTION * longest)
+        .collect();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
     let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
     let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
-    let information = jacobian.tr_mul(jacobian) + DMatrix::identity(count, count) / prior_deviation.powi(2);
-    let factor = information.cholesky().ok_or(Error::NotPositiveDefinite { what: "information", dof: 0 })?;
+    let information =
+        jacobian.tr_mul(jacobian) + DMatrix::identity(count, count) / prior_deviation.powi(2);
+    let factor = information.cholesky().ok_or(Error::NotPositiveDefinite {
+        what: "information",
+        dof: 0,
+    })?;
     let covariance = factor.inverse();
-    let deviations: Vec<f64> = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
+    let deviations: Vec<f64> = covariance
+        .diagonal()
+        .iter()
+        .map(|variance| variance.sqrt())
+        .collect();
     Ok(Identifiability {
-        condition: if smallest > 0.0 { singular_values[0] / smallest } else { f64::INFINITY },
-        parallel: parallel.filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE).collect(),
+        condition: if smallest > 0.0 {
+            singular_values[0] / smallest
+        } else {
+            f64::INFINITY
+        },
+        parallel: parallel
+            .filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE)
+            .collect(),
         subset: subset(jacobian, 1.0 / prior_deviation),
-        learned: deviations.iter().map(|deviation| 1.0 - (deviation / prior_deviation).powi(2)).collect(),
+        learned: deviations
+            .iter()
+            .map(|deviation| 1.0 - (deviation / prior_deviation).powi(2))
+            .collect(),
         singular_values,
         blind,
         covariance,
@@ -79,7 +106,10 @@ fn subset(jacobian: &DMatrix<f64>, least: f64) -> Vec<usize> {
     let factors = as_faer(jacobian).col_piv_qr();
     let (order, r) = (factors.P().arrays().0, factors.R());
     let count = r.nrows().min(r.ncols());
-    (0..count).take_while(|&e| r[(e, e)].abs() > least).map(|e| order[e]).collect()
+    (0..count)
+        .take_while(|&e| r[(e, e)].abs() > least)
+        .map(|e| order[e])
+        .collect()
 }
 
 impl Identifiability {
@@ -94,7 +124,10 @@ impl Identifiability {
         check_length("parameter factors", factors.len(), self.deviations.len())?;
         let interval = |(&factor, &deviation): (&f64, &f64)| {
             let ratio = (NORMAL_95 * deviation).exp();
-            Range { lower: factor / ratio, upper: factor * ratio }
+            Range {
+                lower: factor / ratio,
+                upper: factor * ratio,
+            }
         };
         Ok(factors.iter().zip(&self.deviations).map(interval).collect())
     }

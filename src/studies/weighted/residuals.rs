@@ -12,7 +12,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
-pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
+pub const DEVIATIONS: Noise = Noise {
+    shape: 0.02,
+    frequency: 0.005,
+};
 
 /// The same weights for every one of `modes` test modes: one over the standard deviations.
 ///
@@ -21,7 +24,13 @@ pub const DEVIATIONS: Noise = Noise { shape: 0.02, frequency: 0.005 };
 pub fn equal_weights(deviations: Noise, modes: usize) -> Result<Vec<ModeWeight>, Error> {
     positive_setting("standard deviation of frequencies", deviations.frequency)?;
     positive_setting("standard deviation of shapes", deviations.shape)?;
-    Ok(vec![ModeWeight { frequency: 1.0 / deviations.frequency, shape: 1.0 / deviations.shape }; modes])
+    Ok(vec![
+        ModeWeight {
+            frequency: 1.0 / deviations.frequency,
+            shape: 1.0 / deviations.shape
+        };
+        modes
+    ])
 }
 
 /// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors.
@@ -40,18 +49,31 @@ pub fn equal_weights(deviations: Noise, modes: usize) -> Result<Vec<ModeWeight>,
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
 pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
     check_weights(weights, model.test.len())?;
-    let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, &model.test, weights);
+    let residuals = residuals_of(
+        &model.exact.modes,
+        &model.exact.pairing,
+        &model.test,
+        weights,
+    );
     finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
 }
 
 /// The residuals of any modes, of weights that fit.
-pub(crate) fn residuals_of(modes: &ModeSet, pairing: &Pairing, test: &ModeSet, weights: &[ModeWeight]) -> DVector<f64> {
+pub(crate) fn residuals_of(
+    modes: &ModeSet,
+    pairing: &Pairing,
+    test: &ModeSet,
+    weights: &[ModeWeight],
+) -> DVector<f64> {
     let rows = 1 + test.shapes.nrows();
     let mut residuals = DVector::zeros(rows * test.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
-        residuals[rows * j] = weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
+        residuals[rows * j] =
+            weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
         let (_, apart) = scaled(modes, i, test, j);
-        residuals.rows_mut(rows * j + 1, rows - 1).copy_from(&(weights[j].shape * apart));
+        residuals
+            .rows_mut(rows * j + 1, rows - 1)
+            .copy_from(&(weights[j].shape * apart));
     }
     residuals
 }
@@ -81,7 +103,11 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
     check_weights(weights, model.test.len())?;
     let (modes, test) = (&model.exact.modes, &model.test);
-    let (k, rows, count) = (&modes.omega_squared, 1 + test.shapes.nrows(), model.shares.len());
+    let (k, rows, count) = (
+        &modes.omega_squared,
+        1 + test.shapes.nrows(),
+        model.shares.len(),
+    );
     let mut jacobian = DMatrix::zeros(rows * test.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
         let change = |r: usize, share: &Share| match share {
@@ -92,15 +118,22 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         // The share of every other mode that each parameter adds to this one (n × p).
         let added = DMatrix::from_fn(k.len(), count, |r, e| {
             let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
-            if apart.abs() > held { change(r, &model.shares[e]) / apart } else { 0.0 }
+            if apart.abs() > held {
+                change(r, &model.shares[e]) / apart
+            } else {
+                0.0
+            }
         });
         let (v, (scale, apart)) = (modes.shapes.column(i), scaled(modes, i, test, j));
         let moved = &modes.shapes * added;
         let along = (scale * v + &apart).transpose() * &moved / v.norm_squared();
         let shape = weights[j].shape * (scale * moved - v * along);
-        jacobian.view_mut((rows * j + 1, 0), (rows - 1, count)).copy_from(&shape);
+        jacobian
+            .view_mut((rows * j + 1, 0), (rows - 1, count))
+            .copy_from(&shape);
         for (e, share) in model.shares.iter().enumerate() {
-            jacobian[(rows * j, e)] = weights[j].frequency * ratio * change(i, share) / (2.0 * k[i]);
+            jacobian[(rows * j, e)] =
+                weights[j].frequency * ratio * change(i, share) / (2.0 * k[i]);
         }
     }
     finite("Jacobian", jacobian)

@@ -51,7 +51,11 @@ impl WholeModel {
     /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::TooMany`] for a row of
     /// an element beyond them; [`Error::NotPositive`] for its size; [`Error::Empty`] without parameters; [`Error::StartOutside`] for
     /// a range that excludes one.
-    pub fn new(stiffness: SparseMatrix, mass: SparseMatrix, parameters: Vec<WholeParameter>) -> Result<Self, Error> {
+    pub fn new(
+        stiffness: SparseMatrix,
+        mass: SparseMatrix,
+        parameters: Vec<WholeParameter>,
+    ) -> Result<Self, Error> {
         let count = stiffness.rows();
         let check = |what, matrix: &SparseMatrix| {
             check_length(what, matrix.rows(), count)?;
@@ -63,11 +67,13 @@ impl WholeModel {
         for WholeParameter { name, share, range } in &parameters {
             match share {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
-                WholeShare::Elements(members) => members.iter().try_for_each(|(element, size)| {
-                    check_element(element, count)?;
-                    check_symmetric("element stiffness", &element.unit)?;
-                    positive("size", || format!("element {}", element.label), *size)
-                })?,
+                WholeShare::Elements(members) => {
+                    members.iter().try_for_each(|(element, size)| {
+                        check_element(element, count)?;
+                        check_symmetric("element stiffness", &element.unit)?;
+                        positive("size", || format!("element {}", element.label), *size)
+                    })?
+                }
                 WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
             }
             if let Some(Range { lower, upper }) = *range {
@@ -77,7 +83,11 @@ impl WholeModel {
                 }
             }
         }
-        Ok(Self { stiffness, mass, parameters })
+        Ok(Self {
+            stiffness,
+            mass,
+            parameters,
+        })
     }
 
     /// Number of degrees of freedom.
@@ -92,7 +102,10 @@ impl WholeModel {
 
     /// The bounds on every parameter's factor.
     pub fn ranges(&self) -> Vec<Option<Range>> {
-        self.parameters.iter().map(|parameter| parameter.range).collect()
+        self.parameters
+            .iter()
+            .map(|parameter| parameter.range)
+            .collect()
     }
 
     /// Stiffness and mass at the given parameter factors.
@@ -101,7 +114,10 @@ impl WholeModel {
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
-        let (mut stiffness, mut mass) = (self.stiffness.entries().to_vec(), self.mass.entries().to_vec());
+        let (mut stiffness, mut mass) = (
+            self.stiffness.entries().to_vec(),
+            self.mass.entries().to_vec(),
+        );
         for (parameter, &factor) in self.parameters.iter().zip(factors) {
             positive("factor", || format!("parameter {}", parameter.name), factor)?;
             let change = factor - 1.0;
@@ -109,13 +125,16 @@ impl WholeModel {
                 _ if change == 0.0 => {}
                 WholeShare::Stiffness(matrix) => stiffness.extend(matrix.times_number(change)),
                 WholeShare::Elements(members) => {
-                    let entries = members.iter().map(|(element, size)| stiffness_entries(element, change * size));
+                    let entries = members
+                        .iter()
+                        .map(|(element, size)| stiffness_entries(element, change * size));
                     stiffness.extend(entries.flatten());
                 }
                 WholeShare::Mass(matrix) => mass.extend(matrix.times_number(change)),
             }
         }
-        let sum = |what, entries| SparseMatrix::new(what, self.dof_count(), self.dof_count(), entries);
+        let sum =
+            |what, entries| SparseMatrix::new(what, self.dof_count(), self.dof_count(), entries);
         Ok((sum("stiffness", stiffness)?, sum("mass", mass)?))
     }
 
@@ -143,12 +162,19 @@ impl WholeModel {
         (test, pair): (&ModeSet, Pair),
         count: usize,
     ) -> Result<ModalModel, Error> {
-        let ModeSet { omega_squared, mut shapes } = self.modes(factors, count)?.vibrations;
+        let ModeSet {
+            omega_squared,
+            mut shapes,
+        } = self.modes(factors, count)?.vibrations;
         let seen = sensors.times(&shapes)?;
         let modes = Modes::ascending(omega_squared, seen.clone());
         for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
             // Turned with what the sensors see of it.
-            shape *= if modes.shapes.column(mode) == seen.column(mode) { 1.0 } else { -1.0 };
+            shape *= if modes.shapes.column(mode) == seen.column(mode) {
+                1.0
+            } else {
+                -1.0
+            };
         }
         ModalModel::at_sensors(modes, test, pair, self.shares(factors, &shapes)?)
     }
@@ -159,15 +185,26 @@ impl WholeModel {
     /// # Errors
     /// Those of [`Self::at`]; [`Error::Dependent`] for a sensor that is a combination of those before it;
     /// [`Error::NotPositiveDefinite`] for a structure that is not held.
-    pub fn condensed(&self, factors: &[f64], sensors: &SparseMatrix) -> Result<(Condensed, DMatrix<f64>), Error> {
+    pub fn condensed(
+        &self,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+    ) -> Result<(Condensed, DMatrix<f64>), Error> {
         let (stiffness, mass) = self.at(factors)?;
-        let factor = Factor::new("structural stiffness", &stiffness)?.check_positive("structural stiffness")?;
+        let factor = Factor::new("structural stiffness", &stiffness)?
+            .check_positive("structural stiffness")?;
         let distribution = sensors.dense().transpose();
         let deflections = factor.solve(&distribution)?;
         let stiffness = dynamic_stiffness(&symmetric_part(&distribution.tr_mul(&deflections)))?;
         let transformation = deflections * &stiffness;
         let mass = mass.through(&transformation.transpose())?;
-        Ok((Condensed { stiffness, transformation }, mass))
+        Ok((
+            Condensed {
+                stiffness,
+                transformation,
+            },
+            mass,
+        ))
     }
 
     /// The paper's way to the same as [`Self::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.
@@ -181,8 +218,16 @@ impl WholeModel {
         test: &ModeSet,
         count: Option<usize>,
     ) -> Result<ModalModel, Error> {
-        let (Condensed { stiffness, transformation }, mass) = self.condensed(factors, sensors)?;
-        ModalModel::new(&stiffness, &mass, test, count, |shapes| self.shares(factors, &(&transformation * shapes)))
+        let (
+            Condensed {
+                stiffness,
+                transformation,
+            },
+            mass,
+        ) = self.condensed(factors, sensors)?;
+        ModalModel::new(&stiffness, &mass, test, count, |shapes| {
+            self.shares(factors, &(&transformation * shapes))
+        })
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.
@@ -190,9 +235,13 @@ impl WholeModel {
         let transposed = shapes.transpose();
         let share = |(parameter, &factor): (&WholeParameter, &f64)| {
             Ok(match &parameter.share {
-                WholeShare::Stiffness(matrix) => Share::Stiffness(factor * matrix.through(&transposed)?),
+                WholeShare::Stiffness(matrix) => {
+                    Share::Stiffness(factor * matrix.through(&transposed)?)
+                }
                 WholeShare::Elements(members) => {
-                    let present = members.iter().map(|(element, size)| (element, factor * size));
+                    let present = members
+                        .iter()
+                        .map(|(element, size)| (element, factor * size));
                     Share::Stiffness(generalized_stiffness(&transposed, present))
                 }
                 WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&transposed)?),

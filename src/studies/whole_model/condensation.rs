@@ -29,17 +29,25 @@ impl WholeModel {
     ///
     /// # Errors
     /// Those of [`Self::modes`]; [`Error::TooMany`] when fewer move a sensor.
-    pub fn seen_modes(&self, factors: &[f64], sensors: &SparseMatrix, count: usize) -> Result<ModeSet, Error> {
+    pub fn seen_modes(
+        &self,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        count: usize,
+    ) -> Result<ModeSet, Error> {
         let mut wanted = count;
         loop {
             let (modes, is_all) = match self.modes(factors, wanted) {
-                Err(Error::TooMany { available, .. }) if available > 0 => (self.modes(factors, available)?, true),
+                Err(Error::TooMany { available, .. }) if available > 0 => {
+                    (self.modes(factors, available)?, true)
+                }
                 found => (found?, false),
             };
             let mut set = modes.vibrations;
             set.shapes = sensors.times(&set.shapes)?;
             let most = set.shapes.amax();
-            let seen = (0..set.len()).filter(|&mode| set.shapes.column(mode).amax() > UNSEEN * most);
+            let seen =
+                (0..set.len()).filter(|&mode| set.shapes.column(mode).amax() > UNSEEN * most);
             let seen: Vec<usize> = seen.take(count).collect();
             if seen.len() == count {
                 return Ok(set.select(&seen));
@@ -68,13 +76,21 @@ impl WholeModel {
         let condensed = solve(&condensed.stiffness, &mass, count)?;
         let whole = self.seen_modes(factors, sensors, count)?;
         let assurance = modal_assurance(&whole.shapes, &condensed.shapes)?;
-        let (whole_hz, partners) = (whole.frequencies_hz(), pair_modes(&assurance)?.analysis_mode);
+        let (whole_hz, partners) = (
+            whole.frequencies_hz(),
+            pair_modes(&assurance)?.analysis_mode,
+        );
         let error = |(mode, condensed_hz): (usize, f64)| CondensationError {
             whole_hz: whole_hz[partners[mode]],
             frequency: condensed_hz / whole_hz[partners[mode]] - 1.0,
             shape: 1.0 - assurance[(partners[mode], mode)],
         };
-        Ok(condensed.frequencies_hz().into_iter().enumerate().map(error).collect())
+        Ok(condensed
+            .frequencies_hz()
+            .into_iter()
+            .enumerate()
+            .map(error)
+            .collect())
     }
 
     /// Limits of [`crate::method::appendix_b::examine`] that do not blame the test for condensation: raised by what
@@ -92,7 +108,14 @@ impl WholeModel {
         let (_, mass) = self.condensed(factors, sensors)?;
         let moved = orthogonalize(&self.seen_modes(factors, sensors, count)?, &mass)?.movement;
         let most = |of: fn(&Movement) -> f64| moved.iter().map(of).fold(0.0, f64::max);
-        let (frequency, shape) = (most(|moved| moved.frequency.abs()), most(|moved| moved.shape));
-        Ok(MovementLimits { frequency: limits.frequency + frequency, shape: limits.shape + shape, ..*limits })
+        let (frequency, shape) = (
+            most(|moved| moved.frequency.abs()),
+            most(|moved| moved.shape),
+        );
+        Ok(MovementLimits {
+            frequency: limits.frequency + frequency,
+            shape: limits.shape + shape,
+            ..*limits
+        })
     }
 }

@@ -34,9 +34,23 @@ impl Factor {
 
     /// The plan for sums of square matrices of one size.
     pub(super) fn plan(matrices: &[&SparseMatrix]) -> Result<Arc<FactorizationPlan>, Error> {
-        let count = matrices.iter().map(|matrix| matrix.rows()).max().unwrap_or(0);
-        let coupled = |row: usize| matrices.iter().flat_map(|matrix| matrix.column(row)).map(|entry| entry.0).collect();
-        Ok(Arc::new(FactorizationPlan::of_matrices(count, coupled, |_| Vector3::zeros())?))
+        let count = matrices
+            .iter()
+            .map(|matrix| matrix.rows())
+            .max()
+            .unwrap_or(0);
+        let coupled = |row: usize| {
+            matrices
+                .iter()
+                .flat_map(|matrix| matrix.column(row))
+                .map(|entry| entry.0)
+                .collect()
+        };
+        Ok(Arc::new(FactorizationPlan::of_matrices(
+            count,
+            coupled,
+            |_| Vector3::zeros(),
+        )?))
     }
 
     /// As [`Self::new`] of a sum of matrices, each times its number, by their plan.
@@ -46,26 +60,50 @@ impl Factor {
         terms: &[(f64, &SparseMatrix)],
     ) -> Result<Self, Error> {
         let failed = || Error::NoConvergence("sparse factorization");
-        let sum = terms.iter().flat_map(|(number, matrix)| matrix.times_number(*number));
+        let sum = terms
+            .iter()
+            .flat_map(|(number, matrix)| matrix.times_number(*number));
         let mut entries = plan.entries_of(sum).ok_or_else(failed)?;
         // A positive definite matrix then has a unit diagonal.
-        let scale = plan.scale(&mut entries, |entry| if entry == 0.0 { 1.0 } else { entry.abs() });
+        let scale = plan.scale(
+            &mut entries,
+            |entry| if entry == 0.0 { 1.0 } else { entry.abs() },
+        );
         let (values, is_done) = plan.factor(&entries, false)?;
-        let SymbolicCholeskyRaw::Supernodal(supernodal) = plan.symbolic.raw() else { return Err(failed()) };
+        let SymbolicCholeskyRaw::Supernodal(supernodal) = plan.symbolic.raw() else {
+            return Err(failed());
+        };
         let factor = SupernodalLdltRef::new(supernodal, &values);
         let blocks = (0..supernodal.n_supernodes()).map(|node| factor.supernode(node).val());
-        let pivots: Vec<f64> =
-            blocks.flat_map(|block| (0..block.ncols()).map(move |column| block[(column, column)])).collect();
-        if let Some(at) = pivots.iter().position(|pivot| !pivot.is_finite() || *pivot == 0.0) {
-            return Err(Error::NotPositiveDefinite { what, dof: plan.order[at] });
+        let pivots: Vec<f64> = blocks
+            .flat_map(|block| (0..block.ncols()).map(move |column| block[(column, column)]))
+            .collect();
+        if let Some(at) = pivots
+            .iter()
+            .position(|pivot| !pivot.is_finite() || *pivot == 0.0)
+        {
+            return Err(Error::NotPositiveDefinite {
+                what,
+                dof: plan.order[at],
+            });
         }
         is_done.then_some(()).ok_or_else(failed)?;
-        let factor = Self { plan: Arc::clone(plan), values, scale, pivots };
+        let factor = Self {
+            plan: Arc::clone(plan),
+            values,
+            scale,
+            pivots,
+        };
         let solved = |right: &DVector<f64>| {
             let column = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
             factor.solved(column).column(0).into_owned()
         };
-        check_solution(what, |x| plan.times(&entries, x), solved, &start_vector(factor.scale.len()))?;
+        check_solution(
+            what,
+            |x| plan.times(&entries, x),
+            solved,
+            &start_vector(factor.scale.len()),
+        )?;
         Ok(factor)
     }
 
@@ -73,7 +111,8 @@ impl Factor {
     fn solved(&self, mut columns: DMatrix<f64>) -> DMatrix<f64> {
         let (symbolic, count) = (&self.plan.symbolic, columns.ncols());
         let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(count, Par::Seq));
-        let view = MatMut::from_column_major_slice_mut(columns.as_mut_slice(), self.scale.len(), count);
+        let view =
+            MatMut::from_column_major_slice_mut(columns.as_mut_slice(), self.scale.len(), count);
         let factor = LdltRef::new(symbolic, &self.values);
         factor.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
         columns
@@ -84,10 +123,12 @@ impl Factor {
     /// # Errors
     /// [`Error::WrongShape`] unless it has a row per row of the matrix.
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        let (count, columns, FactorizationPlan { order, turn, .. }) = (self.scale.len(), right.ncols(), &*self.plan);
+        let (count, columns, FactorizationPlan { order, turn, .. }) =
+            (self.scale.len(), right.ncols(), &*self.plan);
         check_shape("right-hand sides", right, count, columns)?;
-        let solved =
-            self.solved(DMatrix::from_fn(count, columns, |at, column| self.scale[at] * right[(order[at], column)]));
+        let solved = self.solved(DMatrix::from_fn(count, columns, |at, column| {
+            self.scale[at] * right[(order[at], column)]
+        }));
         let at = |row: usize, column: usize| self.scale[turn[row]] * solved[(turn[row], column)];
         Ok(DMatrix::from_fn(count, columns, at))
     }
@@ -104,12 +145,22 @@ impl Factor {
     pub fn check_positive(self, what: &'static str) -> Result<Self, Error> {
         let round_off = 32.0 * f64::EPSILON * (self.pivots.len() as f64).sqrt();
         let (pivot, dof) = self.smallest_pivot();
-        if pivot > round_off { Ok(self) } else { Err(Error::NotPositiveDefinite { what, dof }) }
+        if pivot > round_off {
+            Ok(self)
+        } else {
+            Err(Error::NotPositiveDefinite { what, dof })
+        }
     }
 
     /// The smallest pivot of the matrix scaled to unit diagonal, and the row of the matrix that it belongs to.
     pub fn smallest_pivot(&self) -> (f64, usize) {
-        let pivots = self.pivots.iter().copied().zip(self.plan.order.iter().copied());
-        pivots.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0))
+        let pivots = self
+            .pivots
+            .iter()
+            .copied()
+            .zip(self.plan.order.iter().copied());
+        pivots
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or((0.0, 0))
     }
 }

@@ -42,14 +42,21 @@ const APART: f64 = 1e-5;
 ///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
 /// chapters 3 and 13.
-pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize) -> Result<CountedModes, Error> {
+pub fn lowest_modes(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    count: usize,
+) -> Result<CountedModes, Error> {
     stiffness.check_symmetric("stiffness")?;
     mass.check_symmetric("mass")?;
     check_count("modes", count, stiffness.rows())?;
     if stiffness.rows() <= MOST_DENSE_ROWS {
         let all = counted_modes(&stiffness.dense(), &mass.dense())?;
         check_count(FINITE, count, all.vibrations.len())?;
-        return Ok(CountedModes { vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations, ..all });
+        return Ok(CountedModes {
+            vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations,
+            ..all
+        });
     }
     let factor_at = factors(stiffness, mass)?;
     let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
@@ -57,14 +64,24 @@ pub fn lowest_modes(stiffness: &SparseMatrix, mass: &SparseMatrix, count: usize)
     loop {
         let (_, shapes, is_all) = subspace(&factor, mass, wanted, FOUND)?;
         let omega_squared = squared_frequencies(stiffness, &shapes)?;
-        let rigid = omega_squared.iter().take_while(|value| **value < RIGID * shift).count();
+        let rigid = omega_squared
+            .iter()
+            .take_while(|value| **value < RIGID * shift)
+            .count();
         if shapes.ncols() == wanted && wanted < count + rigid + BEYOND {
             wanted = count + rigid + BEYOND;
             continue;
         }
         check_count(FINITE, count, omega_squared.len() - rigid)?;
         check_number(&factor_at, &omega_squared, rigid + count, is_all)?;
-        return Ok(CountedModes::of(&ModeSet { omega_squared, shapes }, rigid, count));
+        return Ok(CountedModes::of(
+            &ModeSet {
+                omega_squared,
+                shapes,
+            },
+            rigid,
+            count,
+        ));
     }
 }
 
@@ -81,7 +98,11 @@ fn factors<'a>(
 type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 
 /// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies.
-fn shifted(factor: At, stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<(Factor, f64), Error> {
+fn shifted(
+    factor: At,
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+) -> Result<(Factor, f64), Error> {
     if let Ok(factor) = factor("stiffness", 0.0)
         && factor.smallest_pivot().0 > SMALLEST_PIVOT
     {
@@ -91,7 +112,10 @@ fn shifted(factor: At, stiffness: &SparseMatrix, mass: &SparseMatrix) -> Result<
     let factor_at = |shift: f64| factor(what, shift)?.check_positive(what);
     let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
     let (roots, ..) = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?;
-    let highest = roots.iter().map(|root| 1.0 / root - first).fold(1e-4 * first, f64::max);
+    let highest = roots
+        .iter()
+        .map(|root| 1.0 / root - first)
+        .fold(1e-4 * first, f64::max);
     Ok((factor_at(highest)?, highest))
 }
 
@@ -100,13 +124,23 @@ type Found = (Vec<f64>, DMatrix<f64>, bool);
 
 /// The `wanted` largest roots of $A = (K + \sigma M)^{-1} M$, or all if there are fewer, descending, with their shapes (rows × m) of
 /// unit generalized mass.
-fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64) -> Result<Found, Error> {
+fn subspace(
+    factor: &Factor,
+    mass: &SparseMatrix,
+    wanted: usize,
+    tolerance: f64,
+) -> Result<Found, Error> {
     let times = |block: &DMatrix<f64>| factor.solve(&mass.times(block)?);
     let keep = wanted + BLOCK;
     let most = keep + keep.max(4 * BLOCK);
-    let (mut basis, mut images) = (DMatrix::zeros(mass.rows(), 0), DMatrix::zeros(mass.rows(), 0));
+    let (mut basis, mut images) = (
+        DMatrix::zeros(mass.rows(), 0),
+        DMatrix::zeros(mass.rows(), 0),
+    );
     let mut state = 0;
-    let random = DMatrix::from_fn(mass.rows(), BLOCK, |_, _| split_mix_64(&mut state) as f64 / u64::MAX as f64 - 0.5);
+    let random = DMatrix::from_fn(mass.rows(), BLOCK, |_, _| {
+        split_mix_64(&mut state) as f64 / u64::MAX as f64 - 0.5
+    });
     let mut next = orthonormal(mass, &basis, times(&random)?)?;
     for _ in 0..RESTARTS {
         while next.ncols() > 0 && basis.ncols() < most {
@@ -119,29 +153,46 @@ fn subspace(factor: &Factor, mass: &SparseMatrix, wanted: usize, tolerance: f64)
         let small = symmetric_part(&basis.tr_mul(&mass.times(&images)?));
         let (values, vectors) = symmetric_eigen("subspace", &small)?;
         let largest: Vec<usize> = (0..values.len()).rev().take(keep).collect();
-        let (roots, vectors) = (values.select_rows(&largest), vectors.select_columns(&largest));
+        let (roots, vectors) = (
+            values.select_rows(&largest),
+            vectors.select_columns(&largest),
+        );
         (basis, images) = (&basis * &vectors, images * vectors);
         let residuals = &images - &basis * DMatrix::from_diagonal(&roots);
         let weighted = mass.times(&residuals)?;
         let is_found = |mode: usize| {
-            let residual = residuals.column(mode).dot(&weighted.column(mode)).max(0.0).sqrt();
+            let residual = residuals
+                .column(mode)
+                .dot(&weighted.column(mode))
+                .max(0.0)
+                .sqrt();
             residual <= tolerance * roots[mode] + 100.0 * f64::EPSILON * roots[0]
         };
         let count = wanted.min(roots.len());
         if is_all || (0..count).all(is_found) {
             // The image has the massless motions right too.
             let mut shapes = images.columns(0, count).into_owned();
-            shapes.column_iter_mut().zip(&roots).for_each(|(mut shape, root)| shape /= *root);
+            shapes
+                .column_iter_mut()
+                .zip(&roots)
+                .for_each(|(mut shape, root)| shape /= *root);
             return Ok((roots.iter().take(count).copied().collect(), shapes, is_all));
         }
-        let open: Vec<usize> = (0..roots.len()).filter(|&mode| !is_found(mode)).take(BLOCK).collect();
+        let open: Vec<usize> = (0..roots.len())
+            .filter(|&mode| !is_found(mode))
+            .take(BLOCK)
+            .collect();
         next = orthonormal(mass, &basis, residuals.select_columns(&open))?;
     }
     Err(Error::NoConvergence("modes of a sparse pencil"))
 }
 
 /// The columns of `block` made orthonormal in the mass, to `basis` and to each other; those that are combinations are left out.
-fn orthonormal(mass: &SparseMatrix, basis: &DMatrix<f64>, mut block: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+fn orthonormal(
+    mass: &SparseMatrix,
+    basis: &DMatrix<f64>,
+    mut block: DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
     // Once leaves the round-off of what was taken away, twice is enough.
     for round in 0..3 {
         if round > 0 {
@@ -150,24 +201,41 @@ fn orthonormal(mass: &SparseMatrix, basis: &DMatrix<f64>, mut block: DMatrix<f64
         }
         let gram = symmetric_part(&block.tr_mul(&mass.times(&block)?));
         // The first time each column is brought to unit size alone.
-        let gram = if round == 0 { DMatrix::from_diagonal(&gram.diagonal()) } else { gram };
+        let gram = if round == 0 {
+            DMatrix::from_diagonal(&gram.diagonal())
+        } else {
+            gram
+        };
         let (values, vectors) = symmetric_eigen("block", &gram)?;
         // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
-        let least = if round == 0 { 0.0 } else { (1e-14 * values[values.len() - 1]).max(1e-20) };
-        let independent: Vec<usize> = (0..values.len()).filter(|&column| values[column] > least).collect();
+        let least = if round == 0 {
+            0.0
+        } else {
+            (1e-14 * values[values.len() - 1]).max(1e-20)
+        };
+        let independent: Vec<usize> = (0..values.len())
+            .filter(|&column| values[column] > least)
+            .collect();
         if independent.is_empty() {
             return Ok(DMatrix::zeros(mass.rows(), 0));
         }
-        let scale = values.select_rows(&independent).map(|value| 1.0 / value.sqrt());
+        let scale = values
+            .select_rows(&independent)
+            .map(|value| 1.0 / value.sqrt());
         block *= vectors.select_columns(&independent) * DMatrix::from_diagonal(&scale);
     }
     Ok(block)
 }
 
 /// Rayleigh's quotient of every shape of unit generalized mass, which a shift has taken no digits from.
-fn squared_frequencies(stiffness: &SparseMatrix, shapes: &DMatrix<f64>) -> Result<DVector<f64>, Error> {
+fn squared_frequencies(
+    stiffness: &SparseMatrix,
+    shapes: &DMatrix<f64>,
+) -> Result<DVector<f64>, Error> {
     let forces = stiffness.times(shapes)?;
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| shapes.column(mode).dot(&forces.column(mode)).max(0.0)))
+    Ok(DVector::from_fn(shapes.ncols(), |mode, _| {
+        shapes.column(mode).dot(&forces.column(mode)).max(0.0)
+    }))
 }
 
 /// Refuses squared frequencies (rad²/s², ascending, rigid-body modes among them) that are not all the lowest ones of a pencil: one
@@ -188,9 +256,16 @@ pub fn check_none_missed(
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
-fn check_number(factor: At, omega_squared: &DVector<f64>, needed: usize, is_all: bool) -> Result<(), Error> {
+fn check_number(
+    factor: At,
+    omega_squared: &DVector<f64>,
+    needed: usize,
+    is_all: bool,
+) -> Result<(), Error> {
     let last = omega_squared.len();
-    let gap = |place: &usize| omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place];
+    let gap = |place: &usize| {
+        omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place]
+    };
     let found = (needed..last).find(gap).unwrap_or(last);
     let next = match found {
         _ if found < last => omega_squared[found],
@@ -199,9 +274,19 @@ fn check_number(factor: At, omega_squared: &DVector<f64>, needed: usize, is_all:
         _ => (1.0 + 2.0 * APART) * omega_squared[last - 1],
     };
     let bound = |part: f64| omega_squared[found - 1] + part * (next - omega_squared[found - 1]);
-    let factor_at = |bound: f64| factor("pencil at a bound on its frequencies", -bound).map(|factor| (bound, factor));
+    let factor_at = |bound: f64| {
+        factor("pencil at a bound on its frequencies", -bound).map(|factor| (bound, factor))
+    };
     // Nothing is exchanged in this factorization: at one place a part of the structure may vibrate by itself, and no other at another.
     let (bound, factor) = factor_at(bound(0.5)).or_else(|_| factor_at(bound(0.4)))?;
     let counted = factor.negative_count();
-    if counted == found { Ok(()) } else { Err(Error::Miscounted { bound, counted, found }) }
+    if counted == found {
+        Ok(())
+    } else {
+        Err(Error::Miscounted {
+            bound,
+            counted,
+            found,
+        })
+    }
 }

@@ -36,7 +36,12 @@ impl SparseMatrix {
             check_count("rows of a matrix", row.saturating_add(1), rows)?;
             check_count("columns of a matrix", column.saturating_add(1), columns)?;
             if !value.is_finite() {
-                return Err(Error::NotFinite { what, row, column, value });
+                return Err(Error::NotFinite {
+                    what,
+                    row,
+                    column,
+                    value,
+                });
             }
         }
         entries.sort_by_key(|&(row, column, _)| (column, row));
@@ -49,7 +54,11 @@ impl SparseMatrix {
         });
         entries.retain(|entry| entry.2 != 0.0);
         entries.shrink_to_fit();
-        Ok(Self { rows, columns, entries })
+        Ok(Self {
+            rows,
+            columns,
+            entries,
+        })
     }
 
     /// Number of rows.
@@ -79,9 +88,17 @@ impl SparseMatrix {
     }
 
     fn transposed(&self) -> Self {
-        let mut entries: Vec<_> = self.entries.iter().map(|&(row, column, value)| (column, row, value)).collect();
+        let mut entries: Vec<_> = self
+            .entries
+            .iter()
+            .map(|&(row, column, value)| (column, row, value))
+            .collect();
         entries.sort_by_key(|&(row, column, _)| (column, row));
-        Self { rows: self.columns, columns: self.rows, entries }
+        Self {
+            rows: self.columns,
+            columns: self.rows,
+            entries,
+        }
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -101,7 +118,9 @@ impl SparseMatrix {
 
     /// Its entries times a number.
     pub(super) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.entries.iter().map(move |&(row, column, value)| (row, column, number * value))
+        self.entries
+            .iter()
+            .map(move |&(row, column, value)| (row, column, number * value))
     }
 
     /// $V^t A V$ of a symmetric matrix for the transposed shapes $V^t$ (m × rows), m × m: only the rows of $V$ where the matrix has
@@ -116,7 +135,9 @@ impl SparseMatrix {
         let (mut sum, mut forces) = (DMatrix::zeros(modes, modes), DVector::zeros(modes));
         for column in self.entries.chunk_by(|a, b| a.1 == b.1) {
             forces.fill(0.0);
-            column.iter().for_each(|&(row, _, value)| forces.axpy(value, &transposed_shapes.column(row), 1.0));
+            column.iter().for_each(|&(row, _, value)| {
+                forces.axpy(value, &transposed_shapes.column(row), 1.0)
+            });
             sum.ger(1.0, &forces, &transposed_shapes.column(column[0].1), 1.0);
         }
         Ok(symmetric_part(&sum))
@@ -128,27 +149,42 @@ impl SparseMatrix {
     /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
-        let entries = self.times_number(1.0).chain(self.transposed().times_number(-1.0)).collect();
+        let entries = self
+            .times_number(1.0)
+            .chain(self.transposed().times_number(-1.0))
+            .collect();
         let difference = Self::new(what, self.rows, self.columns, entries)?;
-        let largest = self.entries.iter().fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
+        let largest = self
+            .entries
+            .iter()
+            .fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
         let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > SYMMETRY * largest;
         match difference.entries.iter().find(is_apart) {
-            Some(&(row, column, difference)) => {
-                Err(Error::NotSymmetric { what, row, column, difference: difference.abs() / largest })
-            }
+            Some(&(row, column, difference)) => Err(Error::NotSymmetric {
+                what,
+                row,
+                column,
+                difference: difference.abs() / largest,
+            }),
             None => Ok(()),
         }
     }
 
     /// The sum of the diagonal.
     pub fn trace(&self) -> f64 {
-        self.entries.iter().filter(|entry| entry.0 == entry.1).map(|entry| entry.2).sum()
+        self.entries
+            .iter()
+            .filter(|entry| entry.0 == entry.1)
+            .map(|entry| entry.2)
+            .sum()
     }
 
     /// The same as a dense matrix.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.rows, self.columns);
-        self.entries.iter().for_each(|&(row, column, value)| dense[(row, column)] = value);
+        self.entries
+            .iter()
+            .for_each(|&(row, column, value)| dense[(row, column)] = value);
         dense
     }
 }

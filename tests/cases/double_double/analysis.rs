@@ -3,7 +3,9 @@
 use super::elements::{Material, Point, load_distribution, number};
 use super::noise::Noise;
 use crate::common::double_double::Dd;
-use crate::common::double_double_matrices::{Rows, eigen, inverse, product, rows, solve, transposed_product};
+use crate::common::double_double_matrices::{
+    Rows, eigen, inverse, product, rows, solve, transposed_product,
+};
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, rod_ends};
 use corfem::method::structure::ElementKind;
@@ -57,8 +59,15 @@ pub struct Pairing {
 
 impl Modes {
     pub fn lowest(&self, count: usize) -> Self {
-        let shapes = self.shapes.iter().map(|row| row[..count].to_vec()).collect();
-        Self { omega_squared: self.omega_squared[..count].to_vec(), shapes }
+        let shapes = self
+            .shapes
+            .iter()
+            .map(|row| row[..count].to_vec())
+            .collect();
+        Self {
+            omega_squared: self.omega_squared[..count].to_vec(),
+            shapes,
+        }
     }
 }
 
@@ -67,23 +76,44 @@ impl Box {
         let reconstruction = &case.reconstruction;
         let material = Material::of(reconstruction);
         let element = |kind: ElementKind, grids: &[usize]| {
-            let corners: Vec<Point> = grids.iter().map(|grid| reconstruction.grids[grid].map(number)).collect();
+            let corners: Vec<Point> = grids
+                .iter()
+                .map(|grid| reconstruction.grids[grid].map(number))
+                .collect();
             let unit = material.element(kind, &corners);
             // The root's grids come last and are held.
-            let dof: Vec<usize> = grids.iter().flat_map(|grid| (0..3).map(move |axis| 3 * (grid - 1) + axis)).collect();
+            let dof: Vec<usize> = grids
+                .iter()
+                .flat_map(|grid| (0..3).map(move |axis| 3 * (grid - 1) + axis))
+                .collect();
             let free: Vec<usize> = (0..dof.len()).filter(|&local| dof[local] < 36).collect();
             let at_free = rows(free.len(), free.len(), |i, j| unit[free[i]][free[j]]);
-            (free.iter().map(|&local| dof[local]).collect::<Vec<_>>(), at_free)
+            (
+                free.iter().map(|&local| dof[local]).collect::<Vec<_>>(),
+                at_free,
+            )
         };
         let mut rods = rows(36, 36, |_, _| Dd::ZERO);
         for ends in rod_ends() {
-            add(&mut rods, &element(ElementKind::Rod, &ends), number(case.rod_area));
+            add(
+                &mut rods,
+                &element(ElementKind::Rod, &ends),
+                number(case.rod_area),
+            );
         }
         Self {
-            panels: case.panels.iter().map(|panel| element(panel.kind, &panel.grids)).collect(),
+            panels: case
+                .panels
+                .iter()
+                .map(|panel| element(panel.kind, &panel.grids))
+                .collect(),
             rods,
             t: load_distribution(reconstruction),
-            mass: reconstruction.masses.iter().map(|&mass| number(mass)).collect(),
+            mass: reconstruction
+                .masses
+                .iter()
+                .map(|&mass| number(mass))
+                .collect(),
         }
     }
 
@@ -109,8 +139,12 @@ impl Box {
 
     fn modes_of(&self, dynamic: &Rows) -> Modes {
         let root: Vec<Dd> = self.mass.iter().map(|mass| mass.sqrt()).collect();
-        let (omega_squared, vectors) = eigen(&rows(9, 9, |i, j| dynamic[i][j] / (root[i] * root[j])));
-        Modes { omega_squared, shapes: rows(9, 9, |i, j| vectors[i][j] / root[i]) }
+        let (omega_squared, vectors) =
+            eigen(&rows(9, 9, |i, j| dynamic[i][j] / (root[i] * root[j])));
+        Modes {
+            omega_squared,
+            shapes: rows(9, 9, |i, j| vectors[i][j] / root[i]),
+        }
     }
 
     /// All nine modes at gages.
@@ -119,7 +153,13 @@ impl Box {
     }
 
     /// The model of the lowest modes at gages.
-    pub fn analyze(&self, gages: &[Dd], test: &Modes, analysis_modes: usize, noise: &mut Noise) -> Model {
+    pub fn analyze(
+        &self,
+        gages: &[Dd],
+        test: &Modes,
+        analysis_modes: usize,
+        noise: &mut Noise,
+    ) -> Model {
         let (dynamic, transformation) = self.condense(gages, noise);
         let modes = self.modes_of(&dynamic).lowest(analysis_modes);
         let through = |shapes: &Rows, e: usize| {
@@ -131,13 +171,19 @@ impl Box {
         };
         let of_test = |e: usize| {
             let (share, squares) = (through(&test.shapes, e), &test.omega_squared);
-            rows(share.len(), share.len(), |i, j| share[i][j] / (squares[i] * squares[j]).sqrt())
+            rows(share.len(), share.len(), |i, j| {
+                share[i][j] / (squares[i] * squares[j]).sqrt()
+            })
         };
         Model {
             cross: rows(analysis_modes, test.omega_squared.len(), |i, j| {
-                (0..9).map(|d| modes.shapes[d][i] * self.mass[d] * test.shapes[d][j]).sum()
+                (0..9)
+                    .map(|d| modes.shapes[d][i] * self.mass[d] * test.shapes[d][j])
+                    .sum()
             }),
-            shares: (0..PANEL_COUNT).map(|e| through(&modes.shapes, e)).collect(),
+            shares: (0..PANEL_COUNT)
+                .map(|e| through(&modes.shapes, e))
+                .collect(),
             test_shares: (0..PANEL_COUNT).map(of_test).collect(),
             gages: gages.to_vec(),
             modes,
@@ -162,33 +208,66 @@ pub fn pair(cross: &Rows) -> Pairing {
     for _ in 0..tests {
         let open: Vec<(usize, usize)> = (0..tests)
             .filter(|&j| mode[j] == usize::MAX)
-            .flat_map(|j| (0..count).filter(|i| !mode.contains(i)).map(move |i| (i, j)))
+            .flat_map(|j| {
+                (0..count)
+                    .filter(|i| !mode.contains(i))
+                    .map(move |i| (i, j))
+            })
             .collect();
-        let nearer = |a: (usize, usize), b: (usize, usize)| if distance(b.0, b.1) < distance(a.0, a.1) { b } else { a };
-        let (i, j) = open.iter().copied().reduce(nearer).expect("as many modes as tests");
+        let nearer = |a: (usize, usize), b: (usize, usize)| {
+            if distance(b.0, b.1) < distance(a.0, a.1) {
+                b
+            } else {
+                a
+            }
+        };
+        let (i, j) = open
+            .iter()
+            .copied()
+            .reduce(nearer)
+            .expect("as many modes as tests");
         // Only a pair that shares its mode or its test mode competes with it.
         let rivals = open.iter().filter(|&&(a, b)| (a == i) != (b == j));
         let behind = rivals.map(|&(a, b)| (distance(a, b) - distance(i, j)).to_f64());
         margin = behind.fold(margin, f64::min);
         mode[j] = i;
     }
-    let sign = (0..tests).map(|j| if cross[mode[j]][j] < Dd::ZERO { -Dd::ONE } else { Dd::ONE }).collect();
+    let sign = (0..tests)
+        .map(|j| {
+            if cross[mode[j]][j] < Dd::ZERO {
+                -Dd::ONE
+            } else {
+                Dd::ONE
+            }
+        })
+        .collect();
     Pairing { mode, sign, margin }
 }
 
 /// The error sum (5, 6).
 pub fn errors(modes: &Modes, pairing: &Pairing, test: &Modes) -> Errors {
-    let largest = |shapes: &Rows, j: usize| shapes.iter().map(|row| row[j].abs()).fold(Dd::ZERO, Dd::larger);
+    let largest = |shapes: &Rows, j: usize| {
+        shapes
+            .iter()
+            .map(|row| row[j].abs())
+            .fold(Dd::ZERO, Dd::larger)
+    };
     let dof_count = number(test.shapes.len() as f64);
     let (mut frequency, mut shape) = (Dd::ZERO, Dd::ZERO);
     for (j, (&i, &sign)) in pairing.mode.iter().zip(&pairing.sign).enumerate() {
         let ratio = (modes.omega_squared[i] / test.omega_squared[j]).sqrt() - Dd::ONE;
         frequency += ratio * ratio;
-        let (analyzed, tested) = (sign / largest(&modes.shapes, i), largest(&test.shapes, j).recip());
+        let (analyzed, tested) = (
+            sign / largest(&modes.shapes, i),
+            largest(&test.shapes, j).recip(),
+        );
         for (v, w) in modes.shapes.iter().zip(&test.shapes) {
             let difference = v[i] * analyzed - w[j] * tested;
             shape += difference * difference / dof_count;
         }
     }
-    Errors { frequency: frequency.sqrt(), shape: shape.sqrt() }
+    Errors {
+        frequency: frequency.sqrt(),
+        shape: shape.sqrt(),
+    }
 }

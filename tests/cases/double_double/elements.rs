@@ -32,7 +32,11 @@ fn dot(a: &[Dd], b: &[Dd]) -> Dd {
 }
 
 fn cross(a: Point, b: Point) -> Point {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 fn unit(a: Point) -> Point {
@@ -45,8 +49,15 @@ fn outer(scale: Dd, a: &[Dd]) -> Rows {
 
 impl Material {
     pub fn of(reconstruction: &Reconstruction) -> Self {
-        let (e, nu) = (number(reconstruction.youngs_modulus), number(reconstruction.poissons_ratio));
-        Self { e, nu, g: e / (number(2.0) * (Dd::ONE + nu)) }
+        let (e, nu) = (
+            number(reconstruction.youngs_modulus),
+            number(reconstruction.poissons_ratio),
+        );
+        Self {
+            e,
+            nu,
+            g: e / (number(2.0) * (Dd::ONE + nu)),
+        }
     }
 
     /// The stiffness of an element of unit size.
@@ -55,7 +66,10 @@ impl Material {
             (ElementKind::Rod, &[a, b]) => {
                 let along = minus(b, a);
                 let n = unit(along);
-                outer(self.e / dot(&along, &along).sqrt(), &[-n[0], -n[1], -n[2], n[0], n[1], n[2]])
+                outer(
+                    self.e / dot(&along, &along).sqrt(),
+                    &[-n[0], -n[1], -n[2], n[0], n[1], n[2]],
+                )
             }
             (ElementKind::ShearPanel, &[a, b, c, d]) => self.shear_panel([a, b, c, d]),
             (ElementKind::Membrane, &[a, b, c, d]) => self.membrane([a, b, c, d]),
@@ -84,7 +98,10 @@ impl Material {
         let (i, k) = (unit(minus(b, a)), unit(normal));
         let j = cross(k, i);
         let mut strain = rows(3, 9, |_, _| Dd::ZERO);
-        for (n, opposite) in [minus(c, b), minus(a, c), minus(b, a)].into_iter().enumerate() {
+        for (n, opposite) in [minus(c, b), minus(a, c), minus(b, a)]
+            .into_iter()
+            .enumerate()
+        {
             let gradient = times((area + area).recip(), cross(k, opposite));
             let (dx, dy) = (dot(&gradient, &i), dot(&gradient, &j));
             for axis in 0..3 {
@@ -95,7 +112,8 @@ impl Material {
         }
         let e = area * self.e / (Dd::ONE - self.nu * self.nu);
         rows(9, 9, |p, q| {
-            let [[xp, xq], [yp, yq], [sp, sq]] = [0, 1, 2].map(|row: usize| [strain[row][p], strain[row][q]]);
+            let [[xp, xq], [yp, yq], [sp, sq]] =
+                [0, 1, 2].map(|row: usize| [strain[row][p], strain[row][q]]);
             e * (xp * xq + yp * yq + self.nu * (xp * yq + yp * xq)) + area * self.g * sp * sq
         })
     }
@@ -120,7 +138,10 @@ impl Material {
         for &(s, ws) in &rule {
             for &(t, wt) in &rule {
                 let (mut at, mut by_s, mut by_t) = ([Dd::ZERO; 3], [Dd::ZERO; 3], [Dd::ZERO; 3]);
-                for (corner, (a, b)) in flat.iter().zip([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) {
+                for (corner, (a, b)) in
+                    flat.iter()
+                        .zip([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+                {
                     let (a, b) = (number(a), number(b));
                     for axis in 0..3 {
                         at[axis] += quarter * (one + a * s) * (one + b * t) * corner[axis];
@@ -131,7 +152,8 @@ impl Material {
                 let determinant = by_s[0] * by_t[1] - by_s[1] * by_t[0];
                 let at_point = dot(&line, &at);
                 let flow = dot(&line, &flat[0]) * dot(&line, &flat[1]) / (at_point * at_point);
-                let [to_p, to_q] = [p, q].map(|end| [end[0] - end[2] * at[0], end[1] - end[2] * at[1]]);
+                let [to_p, to_q] =
+                    [p, q].map(|end| [end[0] - end[2] * at[0], end[1] - end[2] * at[1]]);
                 let cotangent = dot(&to_p, &to_q) / (to_p[0] * to_q[1] - to_p[1] * to_q[0]);
                 let strain = one + two * cotangent * cotangent / (one + self.nu);
                 energy += ws * wt * determinant * flow * flow / (two * self.g) * strain;
@@ -154,7 +176,10 @@ fn gauss_legendre(count: usize) -> Vec<(Dd, Dd)> {
             let (m, of) = (number(m as f64), number((2 * m - 1) as f64));
             (before, value) = (value, (of * s * value - (m - Dd::ONE) * before) / m);
         }
-        (value, number(count as f64) * (s * value - before) / (s * s - Dd::ONE))
+        (
+            value,
+            number(count as f64) * (s * value - before) / (s * s - Dd::ONE),
+        )
     };
     let point = |k: usize| {
         let start = number((std::f64::consts::PI * (k as f64 - 0.25) / (count as f64 + 0.5)).cos());
@@ -174,11 +199,16 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Rows {
     let xi = number(reconstruction.mid_chord_fraction);
     let (two, three) = (number(2.0), number(3.0));
     let (square, cube) = (xi * xi, xi * xi * xi);
-    let hermite =
-        [Dd::ONE - three * square + two * cube, xi - two * square + cube, three * square - two * cube, cube - square];
+    let hermite = [
+        Dd::ONE - three * square + two * cube,
+        xi - two * square + cube,
+        three * square - two * cube,
+        cube - square,
+    ];
     let mut t = rows(36, 9, |_, _| Dd::ZERO);
     for rib in 0..3 {
-        let [rear_upper, rear_lower, front_upper, front_lower] = [1, 2, 3, 4].map(|corner| 4 * rib + corner);
+        let [rear_upper, rear_lower, front_upper, front_lower] =
+            [1, 2, 3, 4].map(|corner| 4 * rib + corner);
         let chord = minus(at(front_upper), at(rear_upper));
         let mid = 3 * rib + 1;
         for (upper, lower, own, displacement, rotation) in [

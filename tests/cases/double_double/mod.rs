@@ -37,12 +37,21 @@ const ALL_MODES: (usize, usize) = (9, 9);
 fn assert_agree(what: &str, found: &[f64], exact: &[Dd], noisy: &[Vec<Dd>]) {
     assert_eq!(found.len(), exact.len(), "{what}");
     let largest = |others: &[Dd]| {
-        let apart = others.iter().zip(exact).map(|(&other, &exact)| ((other - exact) / exact).abs().to_f64());
+        let apart = others
+            .iter()
+            .zip(exact)
+            .map(|(&other, &exact)| ((other - exact) / exact).abs().to_f64());
         apart.fold(0.0, f64::max)
     };
-    let condition = noisy.iter().map(|numbers| largest(numbers) / NOISE).fold(1.0, f64::max);
+    let condition = noisy
+        .iter()
+        .map(|numbers| largest(numbers) / NOISE)
+        .fold(1.0, f64::max);
     let apart = largest(&found.iter().copied().map(Dd::from).collect::<Vec<_>>());
-    assert!(apart <= CHAIN_ROUND_OFF * condition, "{what}: {apart:e} apart, condition {condition:e}");
+    assert!(
+        apart <= CHAIN_ROUND_OFF * condition,
+        "{what}: {apart:e} apart, condition {condition:e}"
+    );
 }
 
 /// The crate's pass beside the chain's: error sums, gages, squared frequencies, and the two errors of the check.
@@ -50,17 +59,30 @@ fn assert_pass(what: &str, found: [&[f64]; 4], pass: usize, exact: &History, noi
     let [error_sums, gages, squares, errors] = found;
     let of_check = |pass: &Pass| vec![pass.errors.frequency, pass.errors.shape];
     let compare = |name: &str, found: &[f64], of: &dyn Fn(&Pass) -> Vec<Dd>| {
-        let noisy: Vec<Vec<Dd>> = noisy.iter().map(|history| of(&history.passes[pass])).collect();
-        assert_agree(&format!("{what}, pass {}, {name}", pass + 1), found, &of(&exact.passes[pass]), &noisy);
+        let noisy: Vec<Vec<Dd>> = noisy
+            .iter()
+            .map(|history| of(&history.passes[pass]))
+            .collect();
+        assert_agree(
+            &format!("{what}, pass {}, {name}", pass + 1),
+            found,
+            &of(&exact.passes[pass]),
+            &noisy,
+        );
     };
     compare("error sums", error_sums, &|pass| pass.error_sums.clone());
     compare("gages", gages, &|pass| pass.gages.clone());
-    compare("squared frequencies", squares, &|pass| pass.omega_squared.clone());
+    compare("squared frequencies", squares, &|pass| {
+        pass.omega_squared.clone()
+    });
     compare("errors", errors, &of_check);
 }
 
 fn with_noise(case: &Case, settings: &Settings, modes: (usize, usize)) -> Vec<History> {
-    SEEDS.into_iter().map(|seed| run(case, settings, modes, Noise::of(NOISE, seed))).collect()
+    SEEDS
+        .into_iter()
+        .map(|seed| run(case, settings, modes, Noise::of(NOISE, seed)))
+        .collect()
 }
 
 /// Runs a case both ways and compares them.
@@ -69,22 +91,53 @@ fn compared(case: &Case) -> (CaseResult, History) {
     let exact = run(case, &case.settings, ALL_MODES, Noise::none());
     let noisy = with_noise(case, &case.settings, ALL_MODES);
     assert_eq!(found.correlation.passes.len(), exact.passes.len());
-    for (row, (pass, exact_pass)) in found.correlation.passes.iter().zip(&exact.passes).enumerate() {
-        let halvings: Vec<usize> = pass.inner.iterations.iter().map(|iteration| iteration.halvings).collect();
-        assert_eq!((pass.inner.stop, halvings), (exact_pass.stop, exact_pass.halvings.clone()));
-        let error_sums: Vec<f64> = pass.inner.iterations.iter().map(|iteration| iteration.errors.sum()).collect();
+    for (row, (pass, exact_pass)) in found
+        .correlation
+        .passes
+        .iter()
+        .zip(&exact.passes)
+        .enumerate()
+    {
+        let halvings: Vec<usize> = pass
+            .inner
+            .iterations
+            .iter()
+            .map(|iteration| iteration.halvings)
+            .collect();
+        assert_eq!(
+            (pass.inner.stop, halvings),
+            (exact_pass.stop, exact_pass.halvings.clone())
+        );
+        let error_sums: Vec<f64> = pass
+            .inner
+            .iterations
+            .iter()
+            .map(|iteration| iteration.errors.sum())
+            .collect();
         let modes = &pass.check.pairing.analysis_mode;
-        let squares: Vec<f64> = modes.iter().map(|&mode| pass.check.modes.omega_squared[mode]).collect();
+        let squares: Vec<f64> = modes
+            .iter()
+            .map(|&mode| pass.check.modes.omega_squared[mode])
+            .collect();
         let errors = [pass.check.errors.frequency, pass.check.errors.shape];
         let what = format!("Case {}, {:?}", case.number, case.settings.inner.step);
-        assert_pass(&what, [&error_sums, &found.pass_gages[row], &squares, &errors], row, &exact, &noisy);
+        assert_pass(
+            &what,
+            [&error_sums, &found.pass_gages[row], &squares, &errors],
+            row,
+            &exact,
+            &noisy,
+        );
     }
     (found, exact)
 }
 
 /// The decision that would be the first to fall otherwise.
 fn nearest(decisions: &[Decision]) -> &Decision {
-    decisions.iter().min_by(|a, b| a.margin.total_cmp(&b.margin)).expect("there are decisions")
+    decisions
+        .iter()
+        .min_by(|a, b| a.margin.total_cmp(&b.margin))
+        .expect("there are decisions")
 }
 
 /// Which decision of each case hangs on least, and on how much.
@@ -106,11 +159,20 @@ fn the_cases_are_those_of_double_double_and_no_decision_hangs_on_round_off() {
 /// A case by the readings that it is not run by.
 fn assert_other_readings(number: usize) {
     let case = Case::new(number).expect("a case");
-    for reading in READINGS.into_iter().filter(|&reading| reading != case.settings.inner.step) {
-        let case = Case { settings: case.settings_by(reading), ..case.clone() };
+    for reading in READINGS
+        .into_iter()
+        .filter(|&reading| reading != case.settings.inner.step)
+    {
+        let case = Case {
+            settings: case.settings_by(reading),
+            ..case.clone()
+        };
         let (_, exact) = compared(&case);
         let decision = nearest(&exact.decisions);
-        assert!(decision.margin > NEAREST_DECISION, "Case {number}, {reading:?}: {decision:?}");
+        assert!(
+            decision.margin > NEAREST_DECISION,
+            "Case {number}, {reading:?}: {decision:?}"
+        );
     }
 }
 
@@ -137,20 +199,42 @@ fn other_readings_of_case_4_are_those_of_double_double_too() {
 #[test]
 fn passes_with_fewer_modes_are_those_of_double_double() {
     let case = Case::new(PUBLISHED_CASE).expect("a case");
-    let settings = Settings { least_passes: 1, most_passes: 1, ..case.settings.clone() };
+    let settings = Settings {
+        least_passes: 1,
+        most_passes: 1,
+        ..case.settings.clone()
+    };
     for modes in PUBLISHED_RUNS {
         let found = fewer_modes_run(&case, modes.0, modes.1).expect("it runs");
         let exact = run(&case, &settings, modes, Noise::none());
         let noisy = with_noise(&case, &settings, modes);
-        assert_eq!((found.iterations, found.stop), (exact.passes[0].error_sums.len(), exact.passes[0].stop));
+        assert_eq!(
+            (found.iterations, found.stop),
+            (exact.passes[0].error_sums.len(), exact.passes[0].stop)
+        );
         let square = |&frequency: &f64| (2.0 * PI * frequency).powi(2);
-        let squares: Vec<f64> = found.exact.frequencies_hz[..modes.0].iter().map(square).collect();
+        let squares: Vec<f64> = found.exact.frequencies_hz[..modes.0]
+            .iter()
+            .map(square)
+            .collect();
         let root = (modes.0 as f64).sqrt();
-        let errors = [root * found.exact.frequency_rms, root * found.exact.shape_rms];
+        let errors = [
+            root * found.exact.frequency_rms,
+            root * found.exact.shape_rms,
+        ];
         let what = format!("{modes:?}");
-        assert_pass(&what, [&found.inner_error_sums, &found.gages_in, &squares, &errors], 0, &exact, &noisy);
+        assert_pass(
+            &what,
+            [&found.inner_error_sums, &found.gages_in, &squares, &errors],
+            0,
+            &exact,
+            &noisy,
+        );
         let decision = nearest(&exact.decisions);
-        assert!(decision.margin > NEAREST_DECISION, "{modes:?}: {decision:?}");
+        assert!(
+            decision.margin > NEAREST_DECISION,
+            "{modes:?}: {decision:?}"
+        );
     }
 }
 
@@ -161,7 +245,8 @@ fn exactly(value: Dd) -> BigRational {
 
 /// Whether a number is within some units of the last place of an exact one.
 fn is_within(found: Dd, exact: BigRational, units: f64) -> bool {
-    let allowed = BigRational::from_float(units * DD_EPSILON).expect("a finite number") * exactly(found.abs());
+    let allowed = BigRational::from_float(units * DD_EPSILON).expect("a finite number")
+        * exactly(found.abs());
     let apart = exactly(found) - exact;
     -allowed.clone() <= apart && apart <= allowed
 }
@@ -193,7 +278,11 @@ fn jacobis_rotations_find_the_modes_of_a_chain() {
     let chain = rows(9, 9, entry);
     let (values, vectors) = eigen(&chain);
     for (j, value) in values.iter().enumerate() {
-        assert_relative_eq!(value.to_f64(), 2.0 - 2.0 * ((j + 1) as f64 * PI / 10.0).cos(), max_relative = ROUND_OFF);
+        assert_relative_eq!(
+            value.to_f64(),
+            2.0 - 2.0 * ((j + 1) as f64 * PI / 10.0).cos(),
+            max_relative = ROUND_OFF
+        );
     }
     let through = transposed_product(&vectors, &product(&chain, &vectors));
     for (i, row) in through.iter().enumerate() {

@@ -2,9 +2,13 @@
 
 use super::{mass_norm, modes, relative_difference};
 use crate::common::measured::{FreeStructure, free_beam, free_truss, held_chain, with_raw_shapes};
-use crate::common::tolerances::{BALANCE_EQUATIONS, BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ROUND_OFF};
+use crate::common::tolerances::{
+    BALANCE_EQUATIONS, BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ROUND_OFF,
+};
 use approx::assert_relative_eq;
-use corfem::method::appendix_b::{ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, SYMMETRIC, balance, rigid_body_vectors};
+use corfem::method::appendix_b::{
+    ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, SYMMETRIC, balance, rigid_body_vectors,
+};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -25,7 +29,11 @@ fn relative_resultant(
 /// Suspension rates at a fraction of what the lowest test frequency allows.
 fn rates(structure: &FreeStructure, lowest: f64, fractions: &[f64]) -> Vec<f64> {
     let largest = LARGEST_SUSPENSION_RATIO * lowest;
-    fractions.iter().take(structure.dofs.len()).map(|fraction| fraction * largest).collect()
+    fractions
+        .iter()
+        .take(structure.dofs.len())
+        .map(|fraction| fraction * largest)
+        .collect()
 }
 
 proptest! {

@@ -10,7 +10,10 @@ use nalgebra::{DMatrix, dmatrix, dvector};
 
 /// Three unit masses at −1, 0 and 1, one of the outer moved: {1} takes a third, {x} a half, 1/6 (1, −2, 1) remains.
 fn three_masses() -> (DMatrix<f64>, DMatrix<f64>) {
-    (DMatrix::identity(3, 3), dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0])
+    (
+        DMatrix::identity(3, 3),
+        dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0],
+    )
 }
 
 #[test]
@@ -18,9 +21,21 @@ fn three_free_masses_by_hand() {
     let (mass, rigid_body) = three_masses();
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
     let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
-    assert_relative_eq!(balanced.coefficients, dmatrix![-1.0 / 3.0; 0.5], max_relative = ROUND_OFF);
-    assert_relative_eq!(balanced.shapes, dmatrix![1.0; -2.0; 1.0] / 6.0, max_relative = ROUND_OFF);
-    assert_relative_eq!(balanced.change[0], (5.0_f64 / 6.0).sqrt(), max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        balanced.coefficients,
+        dmatrix![-1.0 / 3.0; 0.5],
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.shapes,
+        dmatrix![1.0; -2.0; 1.0] / 6.0,
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.change[0],
+        (5.0_f64 / 6.0).sqrt(),
+        max_relative = ROUND_OFF
+    );
 }
 
 #[test]
@@ -32,7 +47,11 @@ fn three_suspended_masses_by_hand() {
     let raw = modes(&[omega_squared], dmatrix![1.0; 0.0; 0.0]);
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
     let plunge = -(omega_squared - k) / (3.0 * omega_squared - 2.0 * k);
-    assert_relative_eq!(balanced.coefficients, dmatrix![plunge; 0.5], max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        balanced.coefficients,
+        dmatrix![plunge; 0.5],
+        max_relative = ROUND_OFF
+    );
     let change = (3.0 * plunge * plunge + 2.0 * 0.25_f64).sqrt();
     assert_relative_eq!(balanced.change[0], change, max_relative = ROUND_OFF);
 }
@@ -42,10 +61,21 @@ fn each_mode_is_balanced_at_its_own_frequency() {
     let (mass, rigid_body) = three_masses();
     let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
     let shape = dvector![1.0, 0.0, 0.0];
-    let raw = modes(&[100.0, 400.0], DMatrix::from_columns(&[shape.clone(), shape]));
+    let raw = modes(
+        &[100.0, 400.0],
+        DMatrix::from_columns(&[shape.clone(), shape]),
+    );
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
-    assert_relative_eq!(balanced.coefficients[(0, 0)], -97.0 / 294.0, max_relative = ROUND_OFF);
-    assert_relative_eq!(balanced.coefficients[(0, 1)], -397.0 / 1194.0, max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        balanced.coefficients[(0, 0)],
+        -97.0 / 294.0,
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.coefficients[(0, 1)],
+        -397.0 / 1194.0,
+        max_relative = ROUND_OFF
+    );
 }
 
 #[test]
@@ -74,7 +104,10 @@ fn suspension_is_refused_past_the_limit_and_named() {
         match (outcome, refused) {
             (Ok(balanced), None) => assert_eq!(balanced.shapes.shape(), (3, 3)),
             (Err(error), Some((first, omega_squared))) => {
-                assert!(error.to_string().contains("supports balance the forces"), "{error}");
+                assert!(
+                    error.to_string().contains("supports balance the forces"),
+                    "{error}"
+                );
                 let Error::Supported { mode, ratio, limit } = error else {
                     panic!("expected Error::Supported, found {error}");
                 };
@@ -107,8 +140,17 @@ fn a_suspension_at_the_limit_is_allowed() {
     let raw = modes(&[100.0], dmatrix![1.0; 1.0; 0.0]);
     let rate = LARGEST_SUSPENSION_RATIO * 100.0;
     let stiffness = DMatrix::from_diagonal(&dvector![rate, 0.0, 0.0]);
-    let outcome = balance(&raw, &stiffness, &DMatrix::identity(3, 3), &dmatrix![1.0; 0.0; 0.0]);
-    assert_relative_eq!(outcome.unwrap().shapes, dmatrix![0.0; 1.0; 0.0], epsilon = ROUND_OFF);
+    let outcome = balance(
+        &raw,
+        &stiffness,
+        &DMatrix::identity(3, 3),
+        &dmatrix![1.0; 0.0; 0.0],
+    );
+    assert_relative_eq!(
+        outcome.unwrap().shapes,
+        dmatrix![0.0; 1.0; 0.0],
+        epsilon = ROUND_OFF
+    );
 }
 
 #[test]
@@ -116,8 +158,16 @@ fn the_wing_box_on_its_root_is_refused() {
     let case = corfem::cases::Case::new(1).unwrap();
     let model = case.model().unwrap();
     let dynamic = model.matrices(&[1.0; 15]).unwrap();
-    let outcome = balance(&case.test_modes().unwrap(), &dynamic.stiffness, &dynamic.mass, &DMatrix::repeat(9, 1, 1.0));
-    assert!(matches!(outcome, Err(Error::Supported { mode: 0, .. })), "{outcome:?}");
+    let outcome = balance(
+        &case.test_modes().unwrap(),
+        &dynamic.stiffness,
+        &dynamic.mass,
+        &DMatrix::repeat(9, 1, 1.0),
+    );
+    assert!(
+        matches!(outcome, Err(Error::Supported { mode: 0, .. })),
+        "{outcome:?}"
+    );
 }
 
 #[test]
@@ -131,7 +181,10 @@ fn dependent_rigid_body_vectors_are_named() {
         // Vertical points see no side force.
         (dmatrix![0.0, 1.0; 0.0, 1.0; 0.0, 1.0], 0),
         (dmatrix![1.0, -1.0, 3.0; 1.0, 0.0, 1.0; 1.0, 1.0, -1.0], 2),
-        (dmatrix![1.0, -1.0, 0.0, 2.0; 1.0, 0.0, 1.0, 5.0; 1.0, 1.0, 0.0, 4.0], 3),
+        (
+            dmatrix![1.0, -1.0, 0.0, 2.0; 1.0, 0.0, 1.0, 5.0; 1.0, 1.0, 0.0, 4.0],
+            3,
+        ),
     ] {
         let outcome = balance(&raw, &free, &mass, &rigid_body);
         assert!(
@@ -147,7 +200,11 @@ fn a_far_reference_axis_is_not_dependence() {
     let rigid_body = dmatrix![1.0, 999.0; 1.0, 1000.0; 1.0, 1001.0];
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
     let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
-    assert_relative_eq!(balanced.shapes, dmatrix![1.0; -2.0; 1.0] / 6.0, max_relative = FAR_REFERENCE_AXIS);
+    assert_relative_eq!(
+        balanced.shapes,
+        dmatrix![1.0; -2.0; 1.0] / 6.0,
+        max_relative = FAR_REFERENCE_AXIS
+    );
 }
 
 #[test]
@@ -156,8 +213,22 @@ fn aerodynamic_forces_in_the_mass_are_refused() {
     // where the last one moves, and not the other way round.
     let (mut mass, rigid_body) = three_masses();
     mass[(0, 2)] = 0.1;
-    let outcome = balance(&modes(&[7.0], dmatrix![1.0; 0.0; 0.0]), &DMatrix::zeros(3, 3), &mass, &rigid_body);
-    assert!(matches!(outcome, Err(Error::NotSymmetric { what: "dynamic mass", .. })), "{outcome:?}");
+    let outcome = balance(
+        &modes(&[7.0], dmatrix![1.0; 0.0; 0.0]),
+        &DMatrix::zeros(3, 3),
+        &mass,
+        &rigid_body,
+    );
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NotSymmetric {
+                what: "dynamic mass",
+                ..
+            })
+        ),
+        "{outcome:?}"
+    );
 }
 
 #[test]
@@ -165,26 +236,55 @@ fn bad_input_is_refused() {
     let (mass, rigid_body) = three_masses();
     let free = DMatrix::<f64>::zeros(3, 3);
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
-    let outcome = |raw: &ModeSet, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, rigid: &DMatrix<f64>| {
-        balance(raw, stiffness, mass, rigid).unwrap_err()
-    };
+    let outcome =
+        |raw: &ModeSet, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, rigid: &DMatrix<f64>| {
+            balance(raw, stiffness, mass, rigid).unwrap_err()
+        };
     assert!(matches!(
         outcome(&raw, &DMatrix::zeros(2, 2), &mass, &rigid_body),
-        Error::WrongShape { what: "dynamic stiffness", expected_rows: 3, expected_columns: 3, rows: 2, columns: 2 }
+        Error::WrongShape {
+            what: "dynamic stiffness",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 2,
+            columns: 2
+        }
     ));
     let mut skew = free.clone();
     skew[(0, 1)] = 1.0;
-    assert!(matches!(outcome(&raw, &skew, &mass, &rigid_body), Error::NotSymmetric { what: "dynamic stiffness", .. }));
-    assert!(matches!(outcome(&raw, &free, &mass, &DMatrix::zeros(3, 0)), Error::Empty { what: "rigid-body vectors" }));
+    assert!(matches!(
+        outcome(&raw, &skew, &mass, &rigid_body),
+        Error::NotSymmetric {
+            what: "dynamic stiffness",
+            ..
+        }
+    ));
+    assert!(matches!(
+        outcome(&raw, &free, &mass, &DMatrix::zeros(3, 0)),
+        Error::Empty {
+            what: "rigid-body vectors"
+        }
+    ));
     assert!(matches!(
         outcome(&raw, &free, &mass, &DMatrix::identity(2, 2)),
-        Error::WrongShape { what: "rigid-body vectors", expected_rows: 3, expected_columns: 2, rows: 2, columns: 2 }
+        Error::WrongShape {
+            what: "rigid-body vectors",
+            expected_rows: 3,
+            expected_columns: 2,
+            rows: 2,
+            columns: 2
+        }
     ));
     let mut unknown = rigid_body.clone();
     unknown[(2, 1)] = f64::NAN;
     assert!(matches!(
         outcome(&raw, &free, &mass, &unknown),
-        Error::NotFinite { what: "rigid-body vectors", row: 2, column: 1, .. }
+        Error::NotFinite {
+            what: "rigid-body vectors",
+            row: 2,
+            column: 1,
+            ..
+        }
     ));
     assert!(matches!(
         outcome(&modes(&[], DMatrix::zeros(3, 0)), &free, &mass, &rigid_body),

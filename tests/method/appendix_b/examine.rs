@@ -5,7 +5,8 @@ use crate::common::measured::{free_beam, held_chain, mixture, noise};
 use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{
-    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, generalized_mass, orthogonalize, rigid_body_vectors,
+    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, generalized_mass, orthogonalize,
+    rigid_body_vectors,
 };
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector};

@@ -12,17 +12,40 @@ use nalgebra::{DMatrix, dmatrix};
 fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
     let (mass, stiffness) = (DMatrix::identity(3, 3), DMatrix::zeros(3, 3));
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
-    let supports = Supports::Free { stiffness: &stiffness, rigid_body: &rigid_body };
+    let supports = Supports::Free {
+        stiffness: &stiffness,
+        rigid_body: &rigid_body,
+    };
     let raw = modes(&[7.0], dmatrix![1.1; -2.0; 1.0]);
-    let change = balance(&raw, &stiffness, &mass, &rigid_body).unwrap().change[0];
-    let at = MovementLimits { balance: change, ..MovementLimits::default() };
+    let change = balance(&raw, &stiffness, &mass, &rigid_body)
+        .unwrap()
+        .change[0];
+    let at = MovementLimits {
+        balance: change,
+        ..MovementLimits::default()
+    };
     let found = examine(&raw, &mass, supports, &at).unwrap();
     assert_eq!(found.kept, [0]);
     assert_eq!(found.reports[0].balance, Some(change));
-    assert_relative_eq!(found.modes.shapes, dmatrix![1.0; -2.0; 1.0] / 6.0_f64.sqrt(), max_relative = ROUND_OFF);
-    let past = MovementLimits { balance: change.next_down(), ..MovementLimits::default() };
+    assert_relative_eq!(
+        found.modes.shapes,
+        dmatrix![1.0; -2.0; 1.0] / 6.0_f64.sqrt(),
+        max_relative = ROUND_OFF
+    );
+    let past = MovementLimits {
+        balance: change.next_down(),
+        ..MovementLimits::default()
+    };
     let refused = examine(&raw, &mass, supports, &past);
-    assert!(matches!(refused, Err(Error::Empty { what: "test modes within the limits" })), "{refused:?}");
+    assert!(
+        matches!(
+            refused,
+            Err(Error::Empty {
+                what: "test modes within the limits"
+            })
+        ),
+        "{refused:?}"
+    );
 }
 
 #[test]
@@ -31,22 +54,35 @@ fn balancing_uses_the_suspension_that_is_given() {
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
     let stiffness = DMatrix::from_diagonal(&nalgebra::dvector![3.0, 0.0, 3.0]);
     let raw = modes(&[100.0], dmatrix![1.1; -2.0; 1.0]);
-    let supports = Supports::Free { stiffness: &stiffness, rigid_body: &rigid_body };
+    let supports = Supports::Free {
+        stiffness: &stiffness,
+        rigid_body: &rigid_body,
+    };
     let found = examine(&raw, &mass, supports, &MovementLimits::default()).unwrap();
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
     assert_eq!(found.reports[0].balance, Some(balanced.change[0]));
     let shape = balanced.shapes.column(0).normalize();
-    assert_relative_eq!(found.modes.shapes.column(0).into_owned(), shape, max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        found.modes.shapes.column(0).into_owned(),
+        shape,
+        max_relative = ROUND_OFF
+    );
 }
 
 #[test]
 fn a_held_structure_called_free_is_refused() {
     let mass = DMatrix::<f64>::identity(3, 3);
     let rigid_body = DMatrix::repeat(3, 1, 1.0);
-    let supports = Supports::Free { stiffness: &mass, rigid_body: &rigid_body };
+    let supports = Supports::Free {
+        stiffness: &mass,
+        rigid_body: &rigid_body,
+    };
     let raw = modes(&[1.0], dmatrix![1.0; 0.0; 0.0]);
     let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
-    assert!(matches!(outcome, Err(Error::Supported { mode: 0, .. })), "{outcome:?}");
+    assert!(
+        matches!(outcome, Err(Error::Supported { mode: 0, .. })),
+        "{outcome:?}"
+    );
 }
 
 #[test]
@@ -54,16 +90,35 @@ fn dependent_modes_keep_their_numbers_when_one_before_them_is_deleted() {
     let mass = DMatrix::<f64>::identity(4, 4);
     let stiffness = DMatrix::zeros(4, 4);
     let rigid_body = DMatrix::repeat(4, 1, 1.0);
-    let supports = Supports::Free { stiffness: &stiffness, rigid_body: &rigid_body };
+    let supports = Supports::Free {
+        stiffness: &stiffness,
+        rigid_body: &rigid_body,
+    };
     let shape = [1.0, -1.0, 0.0, 0.0];
-    let raw = modes(&[1.0, 2.0, 3.0, 4.0], unit_shapes(&[[1.0, 1.0, 1.0, 0.0], shape, [0.0, 0.0, 1.0, -1.0], shape]));
+    let raw = modes(
+        &[1.0, 2.0, 3.0, 4.0],
+        unit_shapes(&[[1.0, 1.0, 1.0, 0.0], shape, [0.0, 0.0, 1.0, -1.0], shape]),
+    );
     let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
-    assert!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 3 })), "{outcome:?}");
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::Dependent {
+                what: "test mode",
+                index: 3
+            })
+        ),
+        "{outcome:?}"
+    );
 }
 
 #[test]
 fn default_limits_are_the_documented_ones() {
-    let expected = MovementLimits { balance: 0.1, frequency: 0.02, shape: 0.1 };
+    let expected = MovementLimits {
+        balance: 0.1,
+        frequency: 0.02,
+        shape: 0.1,
+    };
     assert_eq!(MovementLimits::default(), expected);
 }
 
@@ -72,12 +127,47 @@ fn limits_out_of_range_are_refused() {
     let (raw, mass, _) = slight_overlap();
     let good = MovementLimits::default();
     for (limits, setting, value) in [
-        (MovementLimits { balance: 0.0, ..good }, "balance", 0.0),
-        (MovementLimits { balance: 1.0, ..good }, "balance", 1.0),
-        (MovementLimits { frequency: -1.0, ..good }, "frequency", -1.0),
-        (MovementLimits { frequency: f64::INFINITY, ..good }, "frequency", f64::INFINITY),
+        (
+            MovementLimits {
+                balance: 0.0,
+                ..good
+            },
+            "balance",
+            0.0,
+        ),
+        (
+            MovementLimits {
+                balance: 1.0,
+                ..good
+            },
+            "balance",
+            1.0,
+        ),
+        (
+            MovementLimits {
+                frequency: -1.0,
+                ..good
+            },
+            "frequency",
+            -1.0,
+        ),
+        (
+            MovementLimits {
+                frequency: f64::INFINITY,
+                ..good
+            },
+            "frequency",
+            f64::INFINITY,
+        ),
         (MovementLimits { shape: 0.0, ..good }, "shape", 0.0),
-        (MovementLimits { shape: f64::NAN, ..good }, "shape", f64::NAN),
+        (
+            MovementLimits {
+                shape: f64::NAN,
+                ..good
+            },
+            "shape",
+            f64::NAN,
+        ),
     ] {
         match examine(&raw, &mass, Supports::Held, &limits) {
             Err(Error::Setting { name, found, .. }) => {
@@ -92,11 +182,21 @@ fn limits_out_of_range_are_refused() {
 #[test]
 fn bad_modes_are_refused() {
     let mass = DMatrix::<f64>::identity(3, 3);
-    let refused = |raw: &ModeSet| examine(raw, &mass, Supports::Held, &MovementLimits::default()).unwrap_err();
-    assert!(matches!(refused(&modes(&[], DMatrix::zeros(3, 0))), Error::Empty { what: "test modes" }));
+    let refused = |raw: &ModeSet| {
+        examine(raw, &mass, Supports::Held, &MovementLimits::default()).unwrap_err()
+    };
+    assert!(matches!(
+        refused(&modes(&[], DMatrix::zeros(3, 0))),
+        Error::Empty { what: "test modes" }
+    ));
     assert!(matches!(
         refused(&modes(&[1.0, 2.0], DMatrix::zeros(3, 1))),
-        Error::WrongShape { what: "test mode shapes", expected_columns: 2, columns: 1, .. }
+        Error::WrongShape {
+            what: "test mode shapes",
+            expected_columns: 2,
+            columns: 1,
+            ..
+        }
     ));
 }
 
@@ -104,7 +204,13 @@ fn bad_modes_are_refused() {
 fn the_wing_box_s_own_test_modes_are_kept() {
     let case = corfem::cases::Case::new(2).unwrap();
     let raw = case.test_modes().unwrap();
-    let found = examine(&raw, &case.reconstruction.mass(), Supports::Held, &MovementLimits::default()).unwrap();
+    let found = examine(
+        &raw,
+        &case.reconstruction.mass(),
+        Supports::Held,
+        &MovementLimits::default(),
+    )
+    .unwrap();
     assert_eq!(found.kept, (0..9).collect::<Vec<_>>());
     assert!(relative_difference(&raw.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
 }

@@ -3,7 +3,9 @@
 use super::{mass_norm, modes, relative_difference};
 use crate::common::log_log_slope;
 use crate::common::measured::{noise, orthonormal_modes};
-use crate::common::tolerances::{ASYMPTOTIC_SLOPE, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORTHOGONAL_INPUT, ROUND_OFF};
+use crate::common::tolerances::{
+    ASYMPTOTIC_SLOPE, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORTHOGONAL_INPUT, ROUND_OFF,
+};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{generalized_mass, orthogonalize};
 use corfem::method::error::Error;

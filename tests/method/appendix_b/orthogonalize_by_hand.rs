@@ -13,8 +13,16 @@ fn generalized_mass_by_hand() {
     let shapes = dmatrix![1.0, 2.0; 0.0, 1.0];
     let mass = dmatrix![3.0, 1.0; 1.0, 5.0];
     // V^t M V = [3 7; 7 21].
-    assert_eq!(generalized_mass(&shapes, &mass).unwrap(), dmatrix![3.0, 7.0; 7.0, 21.0]);
-    assert_eq!(generalized_mass(&DMatrix::zeros(2, 1), &mass).unwrap().shape(), (1, 1));
+    assert_eq!(
+        generalized_mass(&shapes, &mass).unwrap(),
+        dmatrix![3.0, 7.0; 7.0, 21.0]
+    );
+    assert_eq!(
+        generalized_mass(&DMatrix::zeros(2, 1), &mass)
+            .unwrap()
+            .shape(),
+        (1, 1)
+    );
 }
 
 #[test]
@@ -24,14 +32,22 @@ fn an_overlap_is_charged_to_the_higher_mode() {
     let shapes = dmatrix![1.0, e; 0.0, (1.0_f64 - e * e).sqrt()];
     let found = orthogonalize(&modes(&[a, b], shapes), &DMatrix::identity(2, 2)).unwrap();
     assert_relative_eq!(found.movement[0].shape, e / 3.0, max_relative = 10.0 * e);
-    assert_relative_eq!(found.movement[1].shape, 4.0 * e / 3.0, max_relative = 10.0 * e);
+    assert_relative_eq!(
+        found.movement[1].shape,
+        4.0 * e / 3.0,
+        max_relative = 10.0 * e
+    );
 }
 
 #[test]
 fn one_mode_is_only_scaled() {
     let mass = dmatrix![4.0, 0.0; 0.0, 1.0];
     let found = orthogonalize(&modes(&[9.0], dmatrix![-1.0; 0.0]), &mass).unwrap();
-    assert_relative_eq!(found.modes.shapes, dmatrix![-0.5; 0.0], max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        found.modes.shapes,
+        dmatrix![-0.5; 0.0],
+        max_relative = ROUND_OFF
+    );
     assert_relative_eq!(found.modes.omega_squared[0], 9.0, max_relative = ROUND_OFF);
 }
 
@@ -40,7 +56,17 @@ fn nearly_dependent_shapes_are_told_from_dependent_ones() {
     for (angle, dependent) in [(1e-5, false), (1e-7, true)] {
         let shapes = dmatrix![1.0, 1.0; 0.0, angle];
         let outcome = orthogonalize(&modes(&[1.0, 2.0], shapes), &DMatrix::identity(2, 2));
-        assert_eq!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 1 })), dependent, "{outcome:?}");
+        assert_eq!(
+            matches!(
+                outcome,
+                Err(Error::Dependent {
+                    what: "test mode",
+                    index: 1
+                })
+            ),
+            dependent,
+            "{outcome:?}"
+        );
         assert_eq!(outcome.is_ok(), !dependent);
     }
 }
@@ -49,7 +75,16 @@ fn nearly_dependent_shapes_are_told_from_dependent_ones() {
 fn equal_shapes_are_dependent_in_faer_s_own_pivot_too() {
     let shapes = dmatrix![1.0, 0.0, 1.0; 0.0, 1.0, 0.0; 0.0, 0.0, 0.0];
     let outcome = orthogonalize(&modes(&[1.0, 2.0, 3.0], shapes), &DMatrix::identity(3, 3));
-    assert!(matches!(outcome, Err(Error::Dependent { what: "test mode", index: 2 })), "{outcome:?}");
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::Dependent {
+                what: "test mode",
+                index: 2
+            })
+        ),
+        "{outcome:?}"
+    );
 }
 
 #[test]
@@ -73,7 +108,11 @@ fn overlaps_are_reported_between_unit_shapes() {
     let found = orthogonalize(&modes(&[1.0, 9.0], dmatrix![3.0, 1.0; 0.0, 2.0]), &mass).unwrap();
     // Mass products: 36, 12 and 8.
     let overlap = 12.0 / (36.0_f64 * 8.0).sqrt();
-    assert_relative_eq!(found.overlap, dmatrix![1.0, overlap; overlap, 1.0], max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        found.overlap,
+        dmatrix![1.0, overlap; overlap, 1.0],
+        max_relative = ROUND_OFF
+    );
 }
 
 #[test]
@@ -83,32 +122,60 @@ fn bad_input_is_refused() {
     let refused = |omega: &[f64], shapes: &DMatrix<f64>, mass: &DMatrix<f64>| {
         orthogonalize(&modes(omega, shapes.clone()), mass).unwrap_err()
     };
-    assert!(matches!(refused(&[], &DMatrix::zeros(3, 0), &mass), Error::Empty { what: "test modes" }));
+    assert!(matches!(
+        refused(&[], &DMatrix::zeros(3, 0), &mass),
+        Error::Empty { what: "test modes" }
+    ));
     assert!(matches!(
         refused(&[1.0, 2.0], &DMatrix::identity(2, 2), &mass),
-        Error::WrongShape { what: "test mode shapes", expected_rows: 3, expected_columns: 2, rows: 2, columns: 2 }
+        Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            expected_columns: 2,
+            rows: 2,
+            columns: 2
+        }
     ));
     assert!(matches!(
         refused(&[1.0, 2.0, 3.0], &shapes, &mass),
-        Error::WrongShape { what: "test mode shapes", expected_rows: 3, expected_columns: 3, rows: 3, columns: 2 }
+        Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 3,
+            columns: 2
+        }
     ));
     let mut unknown = shapes.clone();
     unknown[(1, 1)] = f64::INFINITY;
     assert!(matches!(
         refused(&[1.0, 2.0], &unknown, &mass),
-        Error::NotFinite { what: "test mode shapes", row: 1, column: 1, .. }
+        Error::NotFinite {
+            what: "test mode shapes",
+            row: 1,
+            column: 1,
+            ..
+        }
     ));
     let mut still = shapes.clone();
     still.column_mut(1).fill(0.0);
     match refused(&[1.0, 2.0], &still, &mass) {
-        Error::NotPositive { what: "generalized mass", owner, value } => {
+        Error::NotPositive {
+            what: "generalized mass",
+            owner,
+            value,
+        } => {
             assert_eq!((owner.as_str(), value), ("test mode 1 (from zero)", 0.0));
         }
         other => panic!("{other:?}"),
     }
     for bad in [0.0, -4.0, f64::NAN, f64::INFINITY] {
         match refused(&[1.0, bad], &shapes, &mass) {
-            Error::NotPositive { what: "squared frequency", owner, value } => {
+            Error::NotPositive {
+                what: "squared frequency",
+                owner,
+                value,
+            } => {
                 assert_eq!(owner, "test mode 1 (from zero)");
                 assert_eq!(value.to_bits(), bad.to_bits());
             }
@@ -119,12 +186,20 @@ fn bad_input_is_refused() {
     massless[(2, 2)] = 0.0;
     assert!(matches!(
         refused(&[1.0, 2.0], &shapes, &massless),
-        Error::NotPositiveDefinite { what: "dynamic mass", dof: 2 }
+        Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            dof: 2
+        }
     ));
     let mut skew = mass.clone();
     skew[(2, 0)] = 1.0;
     assert!(matches!(
         refused(&[1.0, 2.0], &shapes, &skew),
-        Error::NotSymmetric { what: "dynamic mass", row: 2, column: 0, .. }
+        Error::NotSymmetric {
+            what: "dynamic mass",
+            row: 2,
+            column: 0,
+            ..
+        }
     ));
 }

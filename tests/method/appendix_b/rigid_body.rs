@@ -2,30 +2,56 @@
 
 use crate::common::measured::free_truss;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::method::appendix_b::{ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors};
+use corfem::method::appendix_b::{
+    ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors,
+};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, Unit, Vector3};
 use proptest::prelude::*;
 
-const ALL: [Motion; 6] = [Motion::ForeAft, Motion::Side, Motion::Plunge, Motion::Roll, Motion::Pitch, Motion::Yaw];
+const ALL: [Motion; 6] = [
+    Motion::ForeAft,
+    Motion::Side,
+    Motion::Plunge,
+    Motion::Roll,
+    Motion::Pitch,
+    Motion::Yaw,
+];
 
 fn dof(position: [f64; 3], direction: Unit<Vector3<f64>>) -> MeasuringPoint {
-    MeasuringPoint { position: Vector3::from(position), direction }
+    MeasuringPoint {
+        position: Vector3::from(position),
+        direction,
+    }
 }
 
 #[test]
 fn motions_displace_a_point_as_named() {
-    let found: Vec<[f64; 3]> =
-        ALL.iter().map(|motion| motion.displacement(Vector3::new(2.0, 3.0, 5.0)).into()).collect();
-    let expected =
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -5.0, 3.0], [-5.0, 0.0, 2.0], [-3.0, 2.0, 0.0]];
+    let found: Vec<[f64; 3]> = ALL
+        .iter()
+        .map(|motion| motion.displacement(Vector3::new(2.0, 3.0, 5.0)).into())
+        .collect();
+    let expected = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, -5.0, 3.0],
+        [-5.0, 0.0, 2.0],
+        [-3.0, 2.0, 0.0],
+    ];
     assert_eq!(found, expected);
 }
 
 #[test]
 fn vertical_dof_see_one_and_x_in_symmetric_motion() {
-    let dofs = [dof([-7.0, 1.0, 2.0], Vector3::z_axis()), dof([4.0, 3.0, -2.0], Vector3::z_axis())];
-    assert_eq!(rigid_body_vectors(&SYMMETRIC, &dofs).unwrap(), DMatrix::from_row_slice(2, 2, &[1.0, -7.0, 1.0, 4.0]));
+    let dofs = [
+        dof([-7.0, 1.0, 2.0], Vector3::z_axis()),
+        dof([4.0, 3.0, -2.0], Vector3::z_axis()),
+    ];
+    assert_eq!(
+        rigid_body_vectors(&SYMMETRIC, &dofs).unwrap(),
+        DMatrix::from_row_slice(2, 2, &[1.0, -7.0, 1.0, 4.0])
+    );
 }
 
 #[test]
@@ -43,7 +69,10 @@ fn lateral_dof_see_side_roll_and_yaw_in_antisymmetric_motion() {
 
 #[test]
 fn an_oblique_dof_sees_its_component() {
-    let oblique = dof([2.0, 3.0, 5.0], Unit::new_normalize(Vector3::new(0.0, 3.0, 4.0)));
+    let oblique = dof(
+        [2.0, 3.0, 5.0],
+        Unit::new_normalize(Vector3::new(0.0, 3.0, 4.0)),
+    );
     let found = rigid_body_vectors(&[Motion::Roll], &[oblique]).unwrap();
     // 3/5 of −5 and 4/5 of 3.
     assert_eq!(found.shape(), (1, 1));
@@ -53,12 +82,27 @@ fn an_oblique_dof_sees_its_component() {
 #[test]
 fn no_motions_no_dof_and_no_position_are_refused() {
     let here = [dof([0.0; 3], Vector3::z_axis())];
-    assert!(matches!(rigid_body_vectors(&[], &here), Err(Error::Empty { what: "rigid-body motions" })));
-    assert!(matches!(rigid_body_vectors(&SYMMETRIC, &[]), Err(Error::Empty { what: "dynamic degrees of freedom" })));
+    assert!(matches!(
+        rigid_body_vectors(&[], &here),
+        Err(Error::Empty {
+            what: "rigid-body motions"
+        })
+    ));
+    assert!(matches!(
+        rigid_body_vectors(&SYMMETRIC, &[]),
+        Err(Error::Empty {
+            what: "dynamic degrees of freedom"
+        })
+    ));
     let lost = [here[0], dof([f64::NAN, 0.0, 0.0], Vector3::z_axis())];
     assert!(matches!(
         rigid_body_vectors(&SYMMETRIC, &lost),
-        Err(Error::NotFinite { what: "rigid-body vectors", row: 1, column: 1, .. })
+        Err(Error::NotFinite {
+            what: "rigid-body vectors",
+            row: 1,
+            column: 1,
+            ..
+        })
     ));
 }
 

@@ -1,7 +1,9 @@
 //! The strategies of this subject are what they claim.
 
 use super::mass_norm;
-use crate::common::measured::{free_beam, free_truss, held_chain, mixture, orthonormal_modes, with_raw_shapes};
+use crate::common::measured::{
+    free_beam, free_truss, held_chain, mixture, orthonormal_modes, with_raw_shapes,
+};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;

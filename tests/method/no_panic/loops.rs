@@ -9,40 +9,83 @@ use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::model::Range;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use corfem::method::step::{
+    Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors,
+};
 use corfem::method::verdict::{Outcome, Verdict};
 
 pub const LOOPS: &[Entry] = &[
     ("ModalState::at", |d| {
         let model = d.bent_chain()?;
         let count = d.about(model.shares.len());
-        let rule = if d.below(2) == 0 { UpdateRule::Recursive1 } else { UpdateRule::Eigensolution };
+        let rule = if d.below(2) == 0 {
+            UpdateRule::Recursive1
+        } else {
+            UpdateRule::Eigensolution
+        };
         ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors.sum()])
     }),
     ("inner_loop::run", |d| {
         let model = d.bent_chain()?;
         let count = d.about(model.shares.len());
-        let base = if d.below(2) == 0 { vec![1.0; count] } else { d.list(count) };
-        let range = |d: &mut Draws| (d.below(2) == 0).then(|| Range { lower: d.number(), upper: d.number() });
+        let base = if d.below(2) == 0 {
+            vec![1.0; count]
+        } else {
+            d.list(count)
+        };
+        let range = |d: &mut Draws| {
+            (d.below(2) == 0).then(|| Range {
+                lower: d.number(),
+                upper: d.number(),
+            })
+        };
         let ranges: Vec<Option<Range>> = (0..count).map(|_| range(d)).collect();
-        let mut settings = InnerSettings { iterations: d.below(4), halvings: d.below(4), ..InnerSettings::default() };
+        let mut settings = InnerSettings {
+            iterations: d.below(4),
+            halvings: d.below(4),
+            ..InnerSettings::default()
+        };
         if d.below(2) == 0 {
-            settings = InnerSettings { first_relaxation: d.number(), tolerance: d.number(), ..settings };
-            settings.factor_range = Range { lower: d.number(), upper: d.number() };
+            settings = InnerSettings {
+                first_relaxation: d.number(),
+                tolerance: d.number(),
+                ..settings
+            };
+            settings.factor_range = Range {
+                lower: d.number(),
+                upper: d.number(),
+            };
         }
-        run(&model, &base, &ranges, &settings).map(|run| [vec![run.last.errors.sum()], run.factors].concat())
+        run(&model, &base, &ranges, &settings)
+            .map(|run| [vec![run.last.errors.sum()], run.factors].concat())
     }),
     ("outer_loop::correlate", |d| {
-        let settings = Settings { most_passes: d.below(3), ..Settings::default() };
+        let settings = Settings {
+            most_passes: d.below(3),
+            ..Settings::default()
+        };
         // Half of the models are right ones, so that calls come past the analysis.
         let found = if d.below(2) == 0 {
             let model = d.bent_chain()?;
             let ranges = vec![None; d.about(model.shares.len())];
-            correlate(|_: &[f64]| Ok::<_, Error>(model.clone()), &ranges, &settings, |_, _| {})?
+            correlate(
+                |_: &[f64]| Ok::<_, Error>(model.clone()),
+                &ranges,
+                &settings,
+                |_, _| {},
+            )?
         } else {
             let model = d.dynamic();
-            let (test, ranges) = (d.modes(model.mass.nrows()), vec![None; d.about(model.shares.len())]);
-            correlate(|_: &[f64]| model.analyze(&test, None), &ranges, &settings, |_, _| {})?
+            let (test, ranges) = (
+                d.modes(model.mass.nrows()),
+                vec![None; d.about(model.shares.len())],
+            );
+            correlate(
+                |_: &[f64]| model.analyze(&test, None),
+                &ranges,
+                &settings,
+                |_, _| {},
+            )?
         };
         Ok([found.best_factors, vec![found.verdict.error_sum]].concat())
     }),
@@ -53,18 +96,38 @@ pub const LOOPS: &[Entry] = &[
         Ok(Vec::new())
     }),
     ("step::limited_factor", |d| {
-        let range = Range { lower: d.number(), upper: d.number() };
-        limited_factor(d.number(), d.number(), d.number(), d.number(), range, Some(range));
+        let range = Range {
+            lower: d.number(),
+            upper: d.number(),
+        };
+        limited_factor(
+            d.number(),
+            d.number(),
+            d.number(),
+            d.number(),
+            range,
+            Some(range),
+        );
         Ok(Vec::new())
     }),
     ("Errors::sum", |d| Ok(vec![d.errors().sum()])),
-    ("Errors::frequency_rms", |d| Ok(vec![d.errors().frequency_rms()])),
+    ("Errors::frequency_rms", |d| {
+        Ok(vec![d.errors().frequency_rms()])
+    }),
     ("Errors::shape_rms", |d| Ok(vec![d.errors().shape_rms()])),
-    ("ErrorMeasure::scale", |d| Ok(vec![ErrorMeasure::NineModes.scale(d.size()), ErrorMeasure::Sum.scale(d.size())])),
+    ("ErrorMeasure::scale", |d| {
+        Ok(vec![
+            ErrorMeasure::NineModes.scale(d.size()),
+            ErrorMeasure::Sum.scale(d.size()),
+        ])
+    }),
     ("error_sum::mode_errors", |d| {
         let (analysis, pairing, test) = d.compared();
         let found = mode_errors(&analysis, &pairing, &test)?;
-        Ok(found.iter().flat_map(|error| [error.frequency, error.shape]).collect())
+        Ok(found
+            .iter()
+            .flat_map(|error| [error.frequency, error.shape])
+            .collect())
     }),
     ("error_sum::errors", |d| {
         let (analysis, pairing, test) = d.compared();
@@ -73,9 +136,15 @@ pub const LOOPS: &[Entry] = &[
     ("ModalModel::weighted", |d| {
         let model = d.bent_chain()?;
         let count = d.about(model.test.len());
-        let weights: Vec<ModeWeight> =
-            (0..count).map(|_| ModeWeight { frequency: d.number().abs(), shape: d.number().abs() }).collect();
-        model.weighted(&weights).map(|model| vec![model.exact.errors.sum()])
+        let weights: Vec<ModeWeight> = (0..count)
+            .map(|_| ModeWeight {
+                frequency: d.number().abs(),
+                shape: d.number().abs(),
+            })
+            .collect();
+        model
+            .weighted(&weights)
+            .map(|model| vec![model.exact.errors.sum()])
     }),
     ("ModalState::start", |d| {
         // It copies the model; what is done with it refuses one that is not whole.
@@ -93,15 +162,28 @@ pub const LOOPS: &[Entry] = &[
     }),
     ("derivatives::error_changes", |d| {
         let model = d.bent_chain()?;
-        let rule = if d.below(2) == 0 { DerivativeRule::Definition } else { DerivativeRule::Gradient };
+        let rule = if d.below(2) == 0 {
+            DerivativeRule::Definition
+        } else {
+            DerivativeRule::Gradient
+        };
         error_changes(&model, &d.state(&model), rule)
     }),
     ("step::stiffness_changes", |d| {
         let model = d.bent_chain()?;
         let counts = [(); 3].map(|()| d.about(model.shares.len()));
         let [shares, sizes, changes] = counts.map(|count| d.list(count));
-        let rules = [StepRule::Matrix, StepRule::Own, StepRule::Relative, StepRule::Gage, StepRule::Sum];
-        let rule = rules.get(d.below(6)).copied().unwrap_or(StepRule::SteepestDescent);
+        let rules = [
+            StepRule::Matrix,
+            StepRule::Own,
+            StepRule::Relative,
+            StepRule::Gage,
+            StepRule::Sum,
+        ];
+        let rule = rules
+            .get(d.below(6))
+            .copied()
+            .unwrap_or(StepRule::SteepestDescent);
         stiffness_changes(&model, &shares, &sizes, &changes, rule)
     }),
     ("Accumulation::next_share_factor", |d| {
@@ -111,17 +193,29 @@ pub const LOOPS: &[Entry] = &[
         Ok(Vec::new())
     }),
     ("Verdict::in_words", |d| {
-        let outcomes = [Outcome::Tolerance, Outcome::LocalMinimum, Outcome::Cap, Outcome::Nothing];
+        let outcomes = [
+            Outcome::Tolerance,
+            Outcome::LocalMinimum,
+            Outcome::Cap,
+            Outcome::Nothing,
+        ];
         let verdict = Verdict {
             outcome: outcomes[d.below(4)],
             is_within: d.below(2) == 0,
             error_sum: d.number(),
             worst_mode: d.size(),
-            worst: ModeError { frequency: d.number(), shape: d.number() },
+            worst: ModeError {
+                frequency: d.number(),
+                shape: d.number(),
+            },
             at_bound: vec![d.size(); d.size()],
             unseen: vec![d.size(); d.size()],
         };
-        assert!(!verdict.in_words(&vec!["one".to_owned(); d.size()]).is_empty());
+        assert!(
+            !verdict
+                .in_words(&vec!["one".to_owned(); d.size()])
+                .is_empty()
+        );
         Ok(Vec::new())
     }),
 ];

@@ -2,12 +2,13 @@
 
 use super::{Entry, entries, modes};
 use corfem::method::appendix_b::{
-    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass, orthogonalize,
-    rigid_body_vectors,
+    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass,
+    orthogonalize, rigid_body_vectors,
 };
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
+    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky,
+    symmetric_eigen, symmetric_part,
 };
 use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
 use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes, paired};
@@ -18,7 +19,9 @@ pub const MATRICES: &[Entry] = &[
         let matrix = d.symmetric(3);
         check_finite("matrix", &matrix).map(|()| entries(&matrix))
     }),
-    ("linear_algebra::check_symmetric", |d| check_symmetric("matrix", &d.symmetric(3)).map(|()| Vec::new())),
+    ("linear_algebra::check_symmetric", |d| {
+        check_symmetric("matrix", &d.symmetric(3)).map(|()| Vec::new())
+    }),
     ("linear_algebra::cholesky", |d| {
         let size = d.size();
         cholesky("matrix", &d.symmetric(size), 0.0).map(|found| entries(&found))
@@ -43,7 +46,9 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("ModeSet::scaled_with", |d| {
         let size = d.size();
-        d.modes(size).scaled_with(&d.symmetric(size)).map(|found| entries(&found.shapes))
+        d.modes(size)
+            .scaled_with(&d.symmetric(size))
+            .map(|found| entries(&found.shapes))
     }),
     ("modes::apply_sign_rule", |d| {
         apply_sign_rule(&mut d.symmetric(3));
@@ -77,32 +82,62 @@ pub const MATRICES: &[Entry] = &[
         let mut motions = d.matrix(size, rigid);
         if d.below(2) == 0 {
             // A free structure and its motion, so that some calls are answered.
-            (stiffness, motions) = (DMatrix::zeros(size, size), DMatrix::from_element(size, 1, 1.0));
+            (stiffness, motions) = (
+                DMatrix::zeros(size, size),
+                DMatrix::from_element(size, 1, 1.0),
+            );
         }
         balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
     }),
     ("examine::examine", |d| {
         let size = d.size();
-        let limits = MovementLimits { balance: d.number(), frequency: d.number(), shape: d.number() };
-        let limits = if d.below(2) == 0 { MovementLimits::default() } else { limits };
-        examine(&d.modes(size), &d.symmetric(size), Supports::Held, &limits).map(|found| modes(&found.modes))
+        let limits = MovementLimits {
+            balance: d.number(),
+            frequency: d.number(),
+            shape: d.number(),
+        };
+        let limits = if d.below(2) == 0 {
+            MovementLimits::default()
+        } else {
+            limits
+        };
+        examine(&d.modes(size), &d.symmetric(size), Supports::Held, &limits)
+            .map(|found| modes(&found.modes))
     }),
     ("balance::rigid_body_vectors", |d| {
         let corners = d.corners();
-        let points = corners.map(|position| MeasuringPoint { position, direction: Vector3::z_axis() });
-        rigid_body_vectors(&[Motion::Plunge, Motion::Roll, Motion::Pitch], &points).map(|found| entries(&found))
+        let points = corners.map(|position| MeasuringPoint {
+            position,
+            direction: Vector3::z_axis(),
+        });
+        rigid_body_vectors(&[Motion::Plunge, Motion::Roll, Motion::Pitch], &points)
+            .map(|found| entries(&found))
     }),
     ("linear_algebra::check_shape", |d| {
         let (rows, columns) = (d.size(), d.size());
         check_shape("matrix", &d.symmetric(3), rows, columns).map(|()| Vec::new())
     }),
-    ("linear_algebra::check_length", |d| check_length("list", d.size(), d.size()).map(|()| Vec::new())),
+    ("linear_algebra::check_length", |d| {
+        check_length("list", d.size(), d.size()).map(|()| Vec::new())
+    }),
     ("linear_algebra::check_solution", |d| {
         let size = d.size();
         let (matrix, inverse, probe) = (d.matrix(size, size), d.matrix(size, size), d.vector(size));
         let other = d.vector(d.0 as usize % 3);
-        let solve = |right: &DVector<f64>| if other.is_empty() { &inverse * right } else { other.clone() };
-        let solve = |right: &DVector<f64>| if matrix == inverse || size == 0 { right.clone() } else { solve(right) };
+        let solve = |right: &DVector<f64>| {
+            if other.is_empty() {
+                &inverse * right
+            } else {
+                other.clone()
+            }
+        };
+        let solve = |right: &DVector<f64>| {
+            if matrix == inverse || size == 0 {
+                right.clone()
+            } else {
+                solve(right)
+            }
+        };
         check_solution("matrix", |x| &matrix * x, solve, &probe).map(|()| Vec::new())
     }),
     ("ModeSet::frequencies_hz", |d| {
@@ -110,7 +145,8 @@ pub const MATRICES: &[Entry] = &[
         let frequencies = d.list(count);
         // Modes that were measured have frequencies; of others the square roots are what they are.
         d.modes(size).frequencies_hz();
-        ModeSet::from_measured(&frequencies, &d.matrix(size, count)).map(|found| found.frequencies_hz())
+        ModeSet::from_measured(&frequencies, &d.matrix(size, count))
+            .map(|found| found.frequencies_hz())
     }),
     ("Modes::lowest", |d| {
         let count = d.size();
@@ -124,9 +160,20 @@ pub const MATRICES: &[Entry] = &[
         paired(&analysis, &pairing).map(|found| entries(&found.shapes))
     }),
     ("Motion::displacement", |d| {
-        let motions = [Motion::ForeAft, Motion::Side, Motion::Plunge, Motion::Roll, Motion::Pitch, Motion::Yaw];
+        let motions = [
+            Motion::ForeAft,
+            Motion::Side,
+            Motion::Plunge,
+            Motion::Roll,
+            Motion::Pitch,
+            Motion::Yaw,
+        ];
         let [position, ..] = d.corners();
         let moved = motions[d.below(6)].displacement(position);
-        Ok(if position.iter().all(|part| part.is_finite()) { moved.iter().copied().collect() } else { Vec::new() })
+        Ok(if position.iter().all(|part| part.is_finite()) {
+            moved.iter().copied().collect()
+        } else {
+            Vec::new()
+        })
     }),
 ];

@@ -26,29 +26,42 @@ pub const PERTURBATION: &[Entry] = &[
     }),
     ("recursive::recursive_1_converged", |d| {
         let size = d.size();
-        perturbed(recursive_1_converged(&d.vector(size), &d.symmetric(size), 1e-13, 60).map(|found| found.perturbed))
+        perturbed(
+            recursive_1_converged(&d.vector(size), &d.symmetric(size), 1e-13, 60)
+                .map(|found| found.perturbed),
+        )
     }),
-    ("general::first_order", |d| perturbed(general::first_order(&d.change()))),
+    ("general::first_order", |d| {
+        perturbed(general::first_order(&d.change()))
+    }),
     ("general::recursive_1", |d| {
         let change = d.change();
         perturbed(general::recursive_1(&change, d.size()))
     }),
     ("general::recursive_1_converged", |d| {
-        perturbed(general::recursive_1_converged(&d.change(), 1e-13, 60).map(|found| found.perturbed))
+        perturbed(
+            general::recursive_1_converged(&d.change(), 1e-13, 60).map(|found| found.perturbed),
+        )
     }),
     ("general::recursive_2", |d| {
         let change = d.change();
         perturbed(general::recursive_2(&change, d.size()))
     }),
-    ("general::original", |d| perturbed(general::original(&d.change()))),
-    ("appendix_c::eigensolution", |d| perturbed(eigensolution(&d.change()))),
+    ("general::original", |d| {
+        perturbed(general::original(&d.change()))
+    }),
+    ("appendix_c::eigensolution", |d| {
+        perturbed(eigensolution(&d.change()))
+    }),
     ("close_roots::close_roots", |d| {
         let settings = CloseRootsSettings::default();
         close_roots(&d.change(), settings).map(|_| Vec::new())
     }),
     ("complex_modes::solve", |d| {
         let size = d.size();
-        let g = d.symmetric(size).map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
+        let g = d
+            .symmetric(size)
+            .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
         complex_modes::solve(&d.symmetric(size), &g).map(|_| Vec::new())
     }),
     ("appendix_c::normalize_with_mass", |d| {
@@ -63,13 +76,22 @@ pub const PERTURBATION: &[Entry] = &[
     }),
     ("ModalChange::new", |d| {
         let size = d.size();
-        let (stiffness, change, g_change) = (d.symmetric(size), d.symmetric(size), d.symmetric(size));
+        let (stiffness, change, g_change) =
+            (d.symmetric(size), d.symmetric(size), d.symmetric(size));
         let modes = match solve(&stiffness, &DMatrix::identity(size, size), size) {
             Ok(modes) if d.below(4) > 0 => LeftRightModes::from(&modes),
-            _ => LeftRightModes { roots: d.vector(size), right: d.symmetric(size), left: d.symmetric(size) },
+            _ => LeftRightModes {
+                roots: d.vector(size),
+                right: d.symmetric(size),
+                left: d.symmetric(size),
+            },
         };
         // Whatever takes a change refuses one that is not whole.
-        perturbed(general::first_order(&ModalChange::new(&stiffness, &modes, &change, &g_change)?))
+        perturbed(general::first_order(&ModalChange::new(
+            &stiffness, &modes, &change, &g_change,
+        )?))
     }),
-    ("ModalChange::transposed", |d| perturbed(general::first_order(&d.change().transposed()))),
+    ("ModalChange::transposed", |d| {
+        perturbed(general::first_order(&d.change().transposed()))
+    }),
 ];

@@ -35,12 +35,22 @@ pub const STRUCTURES: &[Entry] = &[
         shear::shear_panel(&corners, &material).map(|found| entries(&found))
     }),
     ("elements::unit_stiffness", |d| {
-        let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
+        let kinds = [
+            ElementKind::Rod,
+            ElementKind::Triangle,
+            ElementKind::ShearPanel,
+            ElementKind::Membrane,
+        ];
         let (kind, corners, material) = (kinds[d.below(4)], d.corners(), d.material());
         unit_stiffness(kind, &corners[..d.below(5)], &material).map(|found| entries(&found))
     }),
     ("elements::corner_volumes", |d| {
-        let kinds = [ElementKind::Rod, ElementKind::Triangle, ElementKind::ShearPanel, ElementKind::Membrane];
+        let kinds = [
+            ElementKind::Rod,
+            ElementKind::Triangle,
+            ElementKind::ShearPanel,
+            ElementKind::Membrane,
+        ];
         let (kind, corners) = (kinds[d.below(4)], d.corners());
         corner_volumes(kind, &corners[..d.below(5)])
     }),
@@ -56,10 +66,16 @@ pub const STRUCTURES: &[Entry] = &[
         let (model, count) = (d.dynamic(), d.size());
         let test = d.modes(model.mass.nrows());
         let count = Some(count).filter(|count| *count > 0);
-        model.analyze(&test, count).map(|found| vec![found.exact.errors.sum()])
+        model
+            .analyze(&test, count)
+            .map(|found| vec![found.exact.errors.sum()])
     }),
     ("Range::contains", |d| {
-        Range { lower: d.number(), upper: d.number() }.contains(d.number());
+        Range {
+            lower: d.number(),
+            upper: d.number(),
+        }
+        .contains(d.number());
         Ok(Vec::new())
     }),
     ("panel::mean_plane", |d| {
@@ -75,18 +91,27 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("shear::corner_forces", |d| {
         // Its product with the energy is what must be finite: see the panel itself.
-        mean_plane(&d.corners()).map(|plane| corner_forces(&plane)).map(|_| Vec::new())
+        mean_plane(&d.corners())
+            .map(|plane| corner_forces(&plane))
+            .map(|_| Vec::new())
     }),
     ("shear::energy_coefficient", |d| {
         let (corners, material) = (d.corners(), d.material());
-        mean_plane(&corners).map(|plane| energy_coefficient(&plane, &material)).map(|_| Vec::new())
+        mean_plane(&corners)
+            .map(|plane| energy_coefficient(&plane, &material))
+            .map(|_| Vec::new())
     }),
     ("shear::gauss_legendre", |d| {
-        Ok(gauss_legendre(d.below(40)).into_iter().flat_map(|(point, weight)| [point, weight]).collect())
+        Ok(gauss_legendre(d.below(40))
+            .into_iter()
+            .flat_map(|(point, weight)| [point, weight])
+            .collect())
     }),
     ("Material::with_density", |d| {
         let material = d.material();
-        material.with_density(d.number()).map(|found| vec![found.density])
+        material
+            .with_density(d.number())
+            .map(|found| vec![found.density])
     }),
     ("Structure::new", |d| {
         let structure = d.structure()?;
@@ -100,12 +125,20 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("Structure::corners", |d| {
         let (structure, other) = (d.structure()?, d.structure()?);
-        let found = other.elements().iter().flat_map(|element| structure.corners(element));
-        Ok(found.flat_map(|corner| [corner.x, corner.y, corner.z]).collect())
+        let found = other
+            .elements()
+            .iter()
+            .flat_map(|element| structure.corners(element));
+        Ok(found
+            .flat_map(|corner| [corner.x, corner.y, corner.z])
+            .collect())
     }),
     ("assembly::element_matrices", |d| {
         let found = element_matrices(&d.structure()?)?;
-        Ok(found.iter().flat_map(|element| element.unit.iter().chain(&element.unit_mass).copied()).collect())
+        Ok(found
+            .iter()
+            .flat_map(|element| element.unit.iter().chain(&element.unit_mass).copied())
+            .collect())
     }),
     ("assembly::dense_stiffness", |d| {
         let (elements, sizes, free) = d.elements()?;
@@ -122,7 +155,9 @@ pub const STRUCTURES: &[Entry] = &[
     ("FactorizedStiffness::solve", |d| {
         let (elements, sizes, free) = d.elements()?;
         let (rows, columns) = (d.about(free.len()), d.size());
-        FactorizedStiffness::new(&elements, &sizes, &free)?.solve(&d.matrix(rows, columns)).map(|found| entries(&found))
+        FactorizedStiffness::new(&elements, &sizes, &free)?
+            .solve(&d.matrix(rows, columns))
+            .map(|found| entries(&found))
     }),
     ("FactorizationPlan::new", |d| {
         let structure = d.structure()?;
@@ -132,21 +167,32 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("FactorizedStiffness::planned", |d| {
         let structure = d.structure()?;
-        let plan = Arc::new(FactorizationPlan::new(&structure, &element_matrices(&structure)?)?);
+        let plan = Arc::new(FactorizationPlan::new(
+            &structure,
+            &element_matrices(&structure)?,
+        )?);
         let (elements, sizes, free) = d.elements()?;
         FactorizedStiffness::planned(&plan, &elements, &sizes, &free).map(|_| Vec::new())
     }),
     ("FactorizedStiffness::flexibility", |d| {
         let (elements, sizes, free) = d.elements()?;
         let loads = LoadDistribution::of(&d.load_distribution(free.len()))?;
-        FactorizedStiffness::new(&elements, &sizes, &free)?.flexibility(&loads).map(|found| entries(&found))
+        FactorizedStiffness::new(&elements, &sizes, &free)?
+            .flexibility(&loads)
+            .map(|found| entries(&found))
     }),
     ("LoadDistribution::new", |d| {
-        let terms = (0..d.size()).map(|_| vec![(d.below(6), d.number())]).collect();
+        let terms = (0..d.size())
+            .map(|_| vec![(d.below(6), d.number())])
+            .collect();
         LoadDistribution::new(d.size(), terms).map(|found| entries(&found.dense()))
     }),
-    ("LoadDistribution::of", |d| LoadDistribution::of(&d.load_distribution(6)).map(|_| Vec::new())),
-    ("LoadDistribution::dense", |d| LoadDistribution::of(&d.load_distribution(6)).map(|found| entries(&found.dense()))),
+    ("LoadDistribution::of", |d| {
+        LoadDistribution::of(&d.load_distribution(6)).map(|_| Vec::new())
+    }),
+    ("LoadDistribution::dense", |d| {
+        LoadDistribution::of(&d.load_distribution(6)).map(|found| entries(&found.dense()))
+    }),
     ("appendix_a::condense", |d| {
         let (elements, sizes, free) = d.elements()?;
         let structural = FactorizedStiffness::new(&elements, &sizes, &free)?;
@@ -158,7 +204,8 @@ pub const STRUCTURES: &[Entry] = &[
         let structure = d.structure()?;
         let load_distribution = d.load_distribution(structure.free_dof().len());
         let mass = d.symmetric(load_distribution.ncols());
-        FiniteElementModel::new(structure, load_distribution, mass, d.parameters()).map(|_| Vec::new())
+        FiniteElementModel::new(structure, load_distribution, mass, d.parameters())
+            .map(|_| Vec::new())
     }),
     ("FiniteElementModel::with_loads", |d| {
         let structure = d.structure()?;
@@ -169,19 +216,37 @@ pub const STRUCTURES: &[Entry] = &[
     ("CondensedModel::structural_shapes", |d| {
         let (model, factors) = d.finite_element()?;
         let (rows, columns) = (d.about(model.mass().nrows()), d.size());
-        model.condense(&factors)?.structural_shapes(&d.matrix(rows, columns)).map(|found| entries(&found))
+        model
+            .condense(&factors)?
+            .structural_shapes(&d.matrix(rows, columns))
+            .map(|found| entries(&found))
     }),
     ("FiniteElementModel::with_unit_stiffness", |d| {
         let (model, factors) = d.finite_element()?;
         let count = d.about(model.element_matrices().len());
-        let size = |row: usize| model.element_matrices().get(row).map_or(2, |element| element.dof.len());
+        let size = |row: usize| {
+            model
+                .element_matrices()
+                .get(row)
+                .map_or(2, |element| element.dof.len())
+        };
         let units = (0..count).map(|row| d.symmetric(size(row))).collect();
-        model.with_unit_stiffness(units)?.condense(&factors).map(|found| entries(&found.stiffness))
+        model
+            .with_unit_stiffness(units)?
+            .condense(&factors)
+            .map(|found| entries(&found.stiffness))
     }),
     ("FiniteElementModel::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;
-        let ranges = model.factor_ranges().map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
-        Ok(ranges.iter().flat_map(|range| [range.lower, range.upper]).chain(factors).take(2 * ranges.len()).collect())
+        let ranges = model
+            .factor_ranges()
+            .map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
+        Ok(ranges
+            .iter()
+            .flat_map(|range| [range.lower, range.upper])
+            .chain(factors)
+            .take(2 * ranges.len())
+            .collect())
     }),
     ("FiniteElementModel::sizes", |d| {
         let (model, factors) = d.finite_element()?;
@@ -198,19 +263,32 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::condense", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.condense(&factors)?;
-        let shapes = found.structural_shapes(&DMatrix::identity(found.mass.nrows(), found.mass.nrows()))?;
-        Ok([entries(&found.stiffness), entries(&found.mass), entries(&shapes)].concat())
+        let shapes =
+            found.structural_shapes(&DMatrix::identity(found.mass.nrows(), found.mass.nrows()))?;
+        Ok([
+            entries(&found.stiffness),
+            entries(&found.mass),
+            entries(&shapes),
+        ]
+        .concat())
     }),
     ("FiniteElementModel::analyze", |d| {
         let (model, factors) = d.finite_element()?;
         let test = d.modes(model.mass().nrows());
         let test = model.modes(&factors).map_or(test, |found| found.into());
-        model.analyze(&factors, &test, None).map(|found| vec![found.exact.errors.sum()])
+        model
+            .analyze(&factors, &test, None)
+            .map(|found| vec![found.exact.errors.sum()])
     }),
     ("FiniteElementModel::matrices", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.matrices(&factors)?;
-        Ok(found.shares.iter().flat_map(|share| entries(share.matrix())).chain(entries(&found.mass)).collect())
+        Ok(found
+            .shares
+            .iter()
+            .flat_map(|share| entries(share.matrix()))
+            .chain(entries(&found.mass))
+            .collect())
     }),
     ("FiniteElementModel::modes", |d| {
         let (model, factors) = d.finite_element()?;
@@ -219,19 +297,25 @@ pub const STRUCTURES: &[Entry] = &[
     ("WholeModel::seen_modes", |d| {
         let (model, factors) = d.finite_element()?;
         let (whole, sensors) = WholeModel::of(&model)?;
-        whole.seen_modes(&factors, &sensors, d.size()).map(|found| modes(&found))
+        whole
+            .seen_modes(&factors, &sensors, d.size())
+            .map(|found| modes(&found))
     }),
     ("WholeModel::condensation_errors", |d| {
         let (model, factors) = d.finite_element()?;
         let (whole, sensors) = WholeModel::of(&model)?;
         let found = whole.condensation_errors(&factors, &sensors, d.size())?;
-        Ok(found.iter().flat_map(|error| [error.whole_hz, error.frequency, error.shape]).collect())
+        Ok(found
+            .iter()
+            .flat_map(|error| [error.whole_hz, error.frequency, error.shape])
+            .collect())
     }),
     ("WholeModel::limits_allowing_for_condensation", |d| {
         let (model, factors) = d.finite_element()?;
         let (whole, sensors) = WholeModel::of(&model)?;
         let limits = MovementLimits::default();
-        let found = whole.limits_allowing_for_condensation(&factors, &sensors, d.size(), &limits)?;
+        let found =
+            whole.limits_allowing_for_condensation(&factors, &sensors, d.size(), &limits)?;
         Ok(vec![found.balance, found.frequency, found.shape])
     }),
 ];

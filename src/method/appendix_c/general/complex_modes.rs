@@ -28,7 +28,11 @@ pub struct LeftRightModes<T> {
 impl From<&Modes> for LeftRightModes<f64> {
     /// Modes of vibration: $\lambda = 1/\omega^2$ and $U = V$, for a symmetric pencil is its own transpose.
     fn from(modes: &Modes) -> Self {
-        Self { roots: modes.omega_squared.map(f64::recip), right: modes.shapes.clone(), left: modes.shapes.clone() }
+        Self {
+            roots: modes.omega_squared.map(f64::recip),
+            right: modes.shapes.clone(),
+            left: modes.shapes.clone(),
+        }
     }
 }
 
@@ -47,32 +51,46 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
 /// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
 #[doc = include_str!("../../../../paper/examples/appendix_c/general/complex_modes_solve.md")]
-pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>, Error> {
+pub fn solve(
+    stiffness: &DMatrix<f64>,
+    g: &DMatrix<Complex<f64>>,
+) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let size = stiffness.nrows();
     at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
     let what = "mass and aerodynamic terms";
     check_shape(what, g, size, size)?;
     check_finite(what, g)?;
-    let eigen = as_faer(&reduced(&lower, g)).eigen().map_err(|_| Error::NoConvergence(what))?;
+    let eigen = as_faer(&reduced(&lower, g))
+        .eigen()
+        .map_err(|_| Error::NoConvergence(what))?;
     let root = |i: usize| eigen.S()[i];
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));
-    for equal in order.chunk_by_mut(|&a, &b| root(b).norm() >= (1.0 - MAGNITUDE_TIE) * root(a).norm()) {
+    for equal in
+        order.chunk_by_mut(|&a, &b| root(b).norm() >= (1.0 - MAGNITUDE_TIE) * root(a).norm())
+    {
         equal.sort_by(|&a, &b| root(a).arg().total_cmp(&root(b).arg()));
     }
     let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
-    reduced_right.column_iter_mut().for_each(|mut shape| _ = shape.normalize_mut());
+    reduced_right
+        .column_iter_mut()
+        .for_each(|mut shape| _ = shape.normalize_mut());
     let mut right = reduced_right.clone();
     lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
     for (mut shape, mut reduced) in right.column_iter_mut().zip(reduced_right.column_iter_mut()) {
         let largest = shape.map(Complex::norm).max();
-        let first = shape.iter().find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
+        let first = shape
+            .iter()
+            .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
         let phase = first.map_or(Complex::from(1.0), |value| value / value.norm());
         shape /= phase;
         reduced /= phase;
     }
-    let inverse = reduced_right.try_inverse().ok_or(Error::Defective { mode: 0, cosine: 0.0 })?;
+    let inverse = reduced_right.try_inverse().ok_or(Error::Defective {
+        mode: 0,
+        cosine: 0.0,
+    })?;
     let mut left = inverse.transpose();
     for (mode, shape) in left.column_iter().enumerate() {
         let cosine = 1.0 / shape.norm();
@@ -81,5 +99,9 @@ pub fn solve(stiffness: &DMatrix<f64>, g: &DMatrix<Complex<f64>>) -> Result<Left
         }
     }
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
-    Ok(LeftRightModes { roots: DVector::from_fn(size, |j, _| root(order[j])), right, left })
+    Ok(LeftRightModes {
+        roots: DVector::from_fn(size, |j, _| root(order[j])),
+        right,
+        left,
+    })
 }

@@ -55,7 +55,10 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
 #[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1.md")]
-pub fn recursive_1<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
+pub fn recursive_1<T: Number>(
+    change: &ModalChange<T>,
+    order: usize,
+) -> Result<Perturbed<T>, Error> {
     Ok(settle(change, 0.0, order)?.perturbed)
 }
 
@@ -75,7 +78,11 @@ pub fn recursive_1_converged<T: Number>(
     settle(change, tolerance, orders)?.check(tolerance, orders)
 }
 
-fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> Result<Settled<T>, Error> {
+fn settle<T: Number>(
+    change: &ModalChange<T>,
+    tolerance: f64,
+    orders: usize,
+) -> Result<Settled<T>, Error> {
     check_order(orders)?;
     let pencil = change.pencil()?;
     let mut coupling = pencil.clone();
@@ -83,7 +90,10 @@ fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> 
     coupling.1.fill_diagonal(T::zero());
     // Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
     let shapes = DMatrix::identity(pencil.0.nrows(), pencil.0.nrows());
-    let order_zero = Perturbed { roots: explicit_roots(&pencil, &shapes)?, shapes };
+    let order_zero = Perturbed {
+        roots: explicit_roots(&pencil, &shapes)?,
+        shapes,
+    };
     let mut now = next_order(&pencil, &coupling, order_zero)?;
     let (mut order, mut last_change, mut quiet_orders) = (1, 1.0, 0);
     while order < orders && quiet_orders < QUIET_ORDERS {
@@ -92,11 +102,21 @@ fn settle<T: Number>(change: &ModalChange<T>, tolerance: f64, orders: usize) -> 
         order += 1;
         // Round-off in the largest root is no change of a root that is smaller still.
         let floor = f64::EPSILON * before.map(T::modulus).max();
-        let changes = before.zip_map(&now.roots, |old, new| (new - old).modulus() / old.modulus().max(floor));
+        let changes = before.zip_map(&now.roots, |old, new| {
+            (new - old).modulus() / old.modulus().max(floor)
+        });
         last_change = changes.fold(0.0, f64::max);
-        quiet_orders = if last_change < tolerance { quiet_orders + 1 } else { 0 };
+        quiet_orders = if last_change < tolerance {
+            quiet_orders + 1
+        } else {
+            0
+        };
     }
-    Ok(Settled { perturbed: now, order, last_change })
+    Ok(Settled {
+        perturbed: now,
+        order,
+        last_change,
+    })
 }
 
 /// One order of Recursive 1.
@@ -116,7 +136,13 @@ fn next_order<T: Number>(
             now.shapes[(i, j)] = match -sum(i) {
                 numerator if numerator == T::zero() => numerator,
                 numerator if separation > SMALLEST_SEPARATION => numerator / difference,
-                _ => return Err(Error::CoalescingModes { first: i, second: j, separation }),
+                _ => {
+                    return Err(Error::CoalescingModes {
+                        first: i,
+                        second: j,
+                        separation,
+                    });
+                }
             };
         }
         now.roots[j] = (g[(j, j)] - sum(j)) / stiffness[(j, j)];
@@ -134,7 +160,10 @@ fn next_order<T: Number>(
 /// # Errors
 /// As [`recursive_1`], and [`Error::CoalescingModes`] when the linear system of a mode is singular.
 #[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_2.md")]
-pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<Perturbed<T>, Error> {
+pub fn recursive_2<T: Number>(
+    change: &ModalChange<T>,
+    order: usize,
+) -> Result<Perturbed<T>, Error> {
     check_order(order)?;
     let pencil = change.pencil()?;
     let mut now = first_order(change)?;
@@ -152,22 +181,36 @@ pub fn recursive_2<T: Number>(change: &ModalChange<T>, order: usize) -> Result<P
 #[doc = include_str!("../../../../paper/examples/appendix_c/general/original.md")]
 pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     let Perturbed { shapes, .. } = first_order(change)?;
-    Ok(Perturbed { roots: explicit_roots(&change.pencil()?, &shapes)?, shapes })
+    Ok(Perturbed {
+        roots: explicit_roots(&change.pencil()?, &shapes)?,
+        shapes,
+    })
 }
 
 /// Roots from given shapes, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
-fn explicit_roots<T: Number>((stiffness, g): &Pencil<T>, shapes: &DMatrix<T>) -> Result<DVector<T>, Error> {
-    let roots = (g * shapes).diagonal().component_div(&(stiffness * shapes).diagonal());
+fn explicit_roots<T: Number>(
+    (stiffness, g): &Pencil<T>,
+    shapes: &DMatrix<T>,
+) -> Result<DVector<T>, Error> {
+    let roots = (g * shapes)
+        .diagonal()
+        .component_div(&(stiffness * shapes).diagonal());
     check_finite_roots(&roots)?;
     Ok(roots)
 }
 
 fn check_finite_roots<T: Number>(roots: &DVector<T>) -> Result<(), Error> {
-    check_finite("perturbed roots", &DMatrix::from_column_slice(roots.len(), 1, roots.as_slice()))
+    check_finite(
+        "perturbed roots",
+        &DMatrix::from_column_slice(roots.len(), 1, roots.as_slice()),
+    )
 }
 
 /// Shapes that satisfy all equations but their own for given roots, one (n−1) × (n−1) solution per mode.
-fn shapes_by_linear_solution<T: Number>((stiffness, g): &Pencil<T>, roots: &DVector<T>) -> Result<DMatrix<T>, Error> {
+fn shapes_by_linear_solution<T: Number>(
+    (stiffness, g): &Pencil<T>,
+    roots: &DVector<T>,
+) -> Result<DMatrix<T>, Error> {
     let size = roots.len();
     let mut shapes = DMatrix::identity(size, size);
     // One mode has no others, and nalgebra's solution of an empty system panics.
@@ -176,7 +219,11 @@ fn shapes_by_linear_solution<T: Number>((stiffness, g): &Pencil<T>, roots: &DVec
         let solution = (rows.clone().remove_column(j).lu())
             .solve(&-rows.column(j))
             .filter(|solution| solution.iter().all(|value| value.is_finite()))
-            .ok_or(Error::CoalescingModes { first: j, second: j, separation: 0.0 })?;
+            .ok_or(Error::CoalescingModes {
+                first: j,
+                second: j,
+                separation: 0.0,
+            })?;
         shapes.set_column(j, &solution.insert_row(j, T::one()));
     }
     Ok(shapes)

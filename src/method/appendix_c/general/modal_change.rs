@@ -28,8 +28,17 @@ impl ModalChange<f64> {
     /// A change seen through mass-orthonormal modes of vibration, whose $k_{ii} = \omega_i^2$ (rad²/s²) and
     /// $\lambda_i = 1/\omega_i^2$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
     #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_of_vibrations.md")]
-    pub fn of_vibrations(omega_squared: &DVector<f64>, beta: DMatrix<f64>, alpha: DMatrix<f64>) -> Self {
-        Self { generalized_stiffness: omega_squared.clone(), roots: omega_squared.map(f64::recip), beta, alpha }
+    pub fn of_vibrations(
+        omega_squared: &DVector<f64>,
+        beta: DMatrix<f64>,
+        alpha: DMatrix<f64>,
+    ) -> Self {
+        Self {
+            generalized_stiffness: omega_squared.clone(),
+            roots: omega_squared.map(f64::recip),
+            beta,
+            alpha,
+        }
     }
 }
 
@@ -64,18 +73,33 @@ impl<T: Number> ModalChange<T> {
                 let found = k[(first, second)].modulus() / own;
                 if found.is_nan() || found > LARGEST_COUPLING {
                     let what = "relative generalized stiffness of left and right modes";
-                    return Err(Error::NotOrthonormal { what, first, second, expected: 0.0, found });
+                    return Err(Error::NotOrthonormal {
+                        what,
+                        first,
+                        second,
+                        expected: 0.0,
+                        found,
+                    });
                 }
             }
         }
         let (beta, alpha) = (through_modes(stiffness_change), through_modes(g_change));
-        Ok(Self { generalized_stiffness: k.diagonal(), roots: modes.roots.clone(), beta, alpha })
+        Ok(Self {
+            generalized_stiffness: k.diagonal(),
+            roots: modes.roots.clone(),
+            beta,
+            alpha,
+        })
     }
 
     /// The same change seen by the transposed pencil (C.2); the changed left modes are $U$ times its shapes.
     #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_transposed.md")]
     pub fn transposed(&self) -> Self {
-        Self { beta: self.beta.transpose(), alpha: self.alpha.transpose(), ..self.clone() }
+        Self {
+            beta: self.beta.transpose(),
+            alpha: self.alpha.transpose(),
+            ..self.clone()
+        }
     }
 
     /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
@@ -83,12 +107,17 @@ impl<T: Number> ModalChange<T> {
         let size = self.roots.len();
         at_least_one("modes", size)?;
         let k = &self.generalized_stiffness;
-        let column = |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
+        let column =
+            |vector: &DVector<T>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
         for (what, matrix, columns) in [
             ("generalized stiffness", &column(k), 1),
             ("roots", &column(&self.roots), 1),
             ("generalized stiffness change", &self.beta, size),
-            ("generalized change of mass and aerodynamic terms", &self.alpha, size),
+            (
+                "generalized change of mass and aerodynamic terms",
+                &self.alpha,
+                size,
+            ),
         ] {
             check_shape(what, matrix, size, columns)?;
             check_finite(what, matrix)?;
@@ -100,6 +129,9 @@ impl<T: Number> ModalChange<T> {
                 return Err(Error::LostStiffness { mode, ratio });
             }
         }
-        Ok((stiffness, DMatrix::from_diagonal(&k.component_mul(&self.roots)) + &self.alpha))
+        Ok((
+            stiffness,
+            DMatrix::from_diagonal(&k.component_mul(&self.roots)) + &self.alpha,
+        ))
     }
 }
