@@ -35,7 +35,25 @@ pub struct Condensed {
 /// # Errors
 /// [`Error::Empty`] without dynamic DOF; [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$;
 /// [`Error::Dependent`] when a dynamic DOF is a combination of those before it.
-#[doc = include_str!("../../paper/examples/appendix_a/condense.md")]
+///
+/// # Example
+///
+/// ```rust
+/// # use corfem::closed_forms::spring_chain::rods;
+/// # use corfem::method::assembly::element_matrices;
+/// use corfem::method::appendix_a::condense;
+/// use corfem::method::factorization::FactorizedStiffness;
+/// use nalgebra::dmatrix;
+///
+/// let chain = rods(&[100.0, 50.0], [true, false])?;
+/// let stiffness =
+///     FactorizedStiffness::new(&element_matrices(&chain)?, &[100.0, 50.0], chain.free_dof())?;
+/// // To the tip: two springs in a row are one of 1 / (1/100 + 1/50), and the middle goes a third as far.
+/// let condensed = condense(&stiffness, &dmatrix![0.0; 1.0])?;
+/// assert!((condensed.stiffness[0] - 100.0 / 3.0).abs() < 1e-12);
+/// assert!((condensed.transformation[0] - 1.0 / 3.0).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn condense(
     structural: &FactorizedStiffness,
     load_distribution: &DMatrix<f64>,

@@ -51,7 +51,20 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 ///
 /// # Errors
 /// [`Error::InElement`] around the geometry error of the first bad element.
-#[doc = include_str!("../../paper/examples/assembly/element_matrices.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::closed_forms::spring_chain::rods;
+/// use corfem::method::assembly::element_matrices;
+/// use nalgebra::dmatrix;
+///
+/// // The first rod's end at the wall has no free DOF.
+/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?)?;
+/// assert_eq!((elements[0].dof.clone(), elements[0].unit.clone()), (vec![0], dmatrix![1.0]));
+/// assert_eq!(elements[1].unit, dmatrix![1.0, -1.0; -1.0, 1.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Error> {
     let of_element = |element: &Element| {
         let &Element {
@@ -90,7 +103,19 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF; [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/assembly/dense_stiffness.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::closed_forms::spring_chain::rods;
+/// use corfem::method::assembly::{dense_stiffness, element_matrices};
+/// use nalgebra::dmatrix;
+///
+/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?)?;
+/// let stiffness = dense_stiffness(&elements, &[100.0, 50.0], 2)?;
+/// assert_eq!(stiffness, dmatrix![150.0, -50.0; -50.0, 50.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn dense_stiffness(
     elements: &[ElementMatrix],
     sizes: &[f64],
@@ -112,7 +137,6 @@ pub fn dense_stiffness(
 ///
 /// # Errors
 /// Those of [`dense_stiffness`].
-#[doc = include_str!("../../paper/examples/assembly/lumped_mass.md")]
 pub fn lumped_mass(
     elements: &[ElementMatrix],
     sizes: &[f64],

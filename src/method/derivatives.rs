@@ -39,7 +39,6 @@ pub enum DerivativeRule {
 ///
 /// # Errors
 /// Those of [`by_definition`].
-#[doc = include_str!("../../paper/examples/derivatives/error_changes.md")]
 pub fn error_changes(
     model: &ModalModel,
     state: &ModalState,
@@ -63,7 +62,25 @@ pub fn error_changes(
 ///
 /// # Errors
 /// [`Error::LostRoot`] when a change takes a root's sign; those of [`gradient`].
-#[doc = include_str!("../../paper/examples/derivatives/by_definition.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::derivatives::by_definition;
+/// use corfem::method::model::{DynamicModel, Share};
+/// # use corfem::method::modes::ModeSet;
+/// # use corfem::method::state::ModalState;
+/// # use nalgebra::{dmatrix, dvector};
+///
+/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
+/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let modal = model.analyze(&test, None)?;
+/// // The error is 1 - (2/3)√c, here at c = 1.001 and at 1.
+/// let changes = by_definition(&modal, &ModalState::start(&modal))?;
+/// assert!((changes[0] - 2.0 / 3.0 * (1.0 - 1.001_f64.sqrt())).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
@@ -111,7 +128,25 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a state of another model; [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/derivatives/gradient.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::derivatives::gradient;
+/// use corfem::method::model::{DynamicModel, Share};
+/// # use corfem::method::modes::ModeSet;
+/// # use corfem::method::state::ModalState;
+/// # use nalgebra::{dmatrix, dvector};
+///
+/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
+/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let modal = model.analyze(&test, None)?;
+/// // The derivative of 1 - (2/3)√c at c = 1.
+/// let slopes = gradient(&modal, &ModalState::start(&modal))?;
+/// assert!((slopes[0] + 1.0 / 3.0).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
     let pull = shape_pull(model, state);

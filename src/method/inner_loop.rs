@@ -120,7 +120,25 @@ pub struct InnerRun {
 /// [`Error::Setting`], [`Error::Limits`], [`Error::WrongShape`] for settings, bounds and lists; those of [`error_changes`]
 /// and [`stiffness_changes`]. A step too far for the perturbation is halved like one that raises $e_S$;
 /// [`Error::CoalescingModes`] or [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
-#[doc = include_str!("../../paper/examples/inner_loop/run.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::inner_loop::{InnerSettings, Stop, run};
+/// use corfem::method::model::{DynamicModel, Share};
+/// # use corfem::method::modes::ModeSet;
+/// # use nalgebra::{dmatrix, dvector};
+///
+/// // A unit mass on a spring of 4 beside a test mode of ω² = 9.
+/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
+/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &InnerSettings::default())?;
+/// // The first step asks for 1 + 0.8 · (3 · 1/3) · (1/3) / (4/9), and 1.5 is allowed.
+/// assert!((inner.first_unlimited_factors[0] - 1.6).abs() < 0.001);
+/// assert_eq!((inner.iterations[0].factors[0], inner.stop), (1.5, Stop::Tolerance));
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn run(
     model: &ModalModel,
     base: &[f64],

@@ -19,7 +19,6 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 ///
 /// # Errors
 /// [`Error::NotFinite`] naming the first such entry, column by column, and the part of it that is not finite.
-#[doc = include_str!("../../paper/examples/linear_algebra/check_finite.md")]
 pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
     let Some(index) = matrix
         .as_slice()
@@ -42,7 +41,6 @@ pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Resul
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both shapes.
-#[doc = include_str!("../../paper/examples/linear_algebra/check_shape.md")]
 pub fn check_shape<T>(
     what: &'static str,
     matrix: &DMatrix<T>,
@@ -68,7 +66,6 @@ pub fn check_shape<T>(
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both lengths as rows of one column.
-#[doc = include_str!("../../paper/examples/linear_algebra/check_length.md")]
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
     if found == expected {
         return Ok(());
@@ -86,7 +83,6 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`].
-#[doc = include_str!("../../paper/examples/linear_algebra/check_symmetric.md")]
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
     check_finite(what, matrix)?;
@@ -148,7 +144,6 @@ pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
 
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
 /// has none and comes back as it is.
-#[doc = include_str!("../../paper/examples/linear_algebra/symmetric_part.md")]
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if matrix.is_square() {
         0.5 * matrix + 0.5 * matrix.transpose()
@@ -163,7 +158,6 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::NotPositiveDefinite`] naming the row of the first bad pivot.
-#[doc = include_str!("../../paper/examples/linear_algebra/cholesky.md")]
 pub fn cholesky(
     what: &'static str,
     matrix: &DMatrix<f64>,
@@ -198,7 +192,6 @@ pub fn cholesky(
 ///
 /// # Errors
 /// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
-#[doc = include_str!("../../paper/examples/linear_algebra/check_solution.md")]
 pub fn check_solution(
     what: &'static str,
     product: impl Fn(&DVector<f64>) -> DVector<f64>,
@@ -253,7 +246,6 @@ pub(crate) fn reduced<T: Number + faer::traits::ComplexField>(
 ///
 /// # Errors
 /// Those of [`check_symmetric`]; [`Error::Empty`]; [`Error::NoConvergence`].
-#[doc = include_str!("../../paper/examples/linear_algebra/symmetric_eigen.md")]
 pub fn symmetric_eigen(
     what: &'static str,
     matrix: &DMatrix<f64>,

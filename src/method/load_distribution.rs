@@ -20,7 +20,6 @@ impl LoadDistribution {
     ///
     /// # Errors
     /// [`Error::Empty`] without dynamic DOF; [`Error::Unknown`] for a row that does not exist; [`Error::NotFinite`].
-    #[doc = include_str!("../../paper/examples/load_distribution/new.md")]
     pub fn new(rows: usize, columns: Vec<Vec<(usize, f64)>>) -> Result<Self, Error> {
         at_least_one("dynamic degrees of freedom", columns.len())?;
         for (column, &(row, value)) in columns
@@ -52,7 +51,6 @@ impl LoadDistribution {
     ///
     /// # Errors
     /// Those of [`Self::new`].
-    #[doc = include_str!("../../paper/examples/load_distribution/of.md")]
     pub fn of(matrix: &DMatrix<f64>) -> Result<Self, Error> {
         check_finite("load distribution", matrix)?;
         let terms = |column: usize| {
@@ -63,19 +61,16 @@ impl LoadDistribution {
     }
 
     /// The number of free SDOF.
-    #[doc = include_str!("../../paper/examples/load_distribution/parts.md")]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
     /// Row and coefficient of every structural DOF that takes part, by dynamic DOF.
-    #[doc = include_str!("../../paper/examples/load_distribution/parts.md")]
     pub fn columns(&self) -> &[Vec<(usize, f64)>] {
         &self.columns
     }
 
     /// The same as a matrix (free SDOF × d).
-    #[doc = include_str!("../../paper/examples/load_distribution/dense.md")]
     pub fn dense(&self) -> DMatrix<f64> {
         self.times(&DMatrix::identity(self.columns.len(), self.columns.len()))
     }

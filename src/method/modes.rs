@@ -29,7 +29,6 @@ impl ModeSet {
     /// # Errors
     /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency that is not
     /// positive or a shape that is zero.
-    #[doc = include_str!("../../paper/examples/modes/mode_set_from_measured.md")]
     pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
         at_least_one("test modes", frequencies_hz.len())?;
         check_shape(
@@ -60,19 +59,16 @@ impl ModeSet {
     }
 
     /// Number of modes.
-    #[doc = include_str!("../../paper/examples/modes/mode_set_len.md")]
     pub fn len(&self) -> usize {
         self.omega_squared.len()
     }
 
     /// Whether there are no modes.
-    #[doc = include_str!("../../paper/examples/modes/mode_set_len.md")]
     pub fn is_empty(&self) -> bool {
         self.omega_squared.is_empty()
     }
 
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz.
-    #[doc = include_str!("../../paper/examples/modes/mode_set_frequencies_hz.md")]
     pub fn frequencies_hz(&self) -> Vec<f64> {
         self.omega_squared
             .iter()
@@ -114,7 +110,6 @@ impl ModeSet {
     /// # Errors
     /// [`Error::Empty`]; [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) or shapes that do not fit; [`Error::NotFinite`];
     /// [`Error::NotPositive`] for a squared frequency or a generalized mass that is not positive.
-    #[doc = include_str!("../../paper/examples/modes/mode_set_scaled_with.md")]
     pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
         let mut scaled = self.clone();
         for (mut shape, generalized_mass) in scaled
@@ -170,7 +165,6 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Empty`] for none; [`Error::TooMany`] for more than there are.
-    #[doc = include_str!("../../paper/examples/modes/modes_lowest.md")]
     pub fn lowest(&self, count: usize) -> Result<Self, Error> {
         check_count("modes", count, self.len())?;
         Ok(Self(self.select(&(0..count).collect::<Vec<_>>())))
@@ -201,7 +195,20 @@ pub(crate) fn check_count(
 /// # Errors
 /// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass; [`Error::NotAVibration`] for a mode with
 /// $\omega^2 \le 0$; [`Error::Empty`] or [`Error::TooMany`] for a bad `count`.
-#[doc = include_str!("../../paper/examples/modes/solve.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::modes::solve;
+/// use nalgebra::{DMatrix, dmatrix};
+///
+/// // Two unit masses on three unit springs: together on two of them, apart on all, ω² = 1 and 3.
+/// let modes = solve(&dmatrix![2.0, -1.0; -1.0, 2.0], &DMatrix::identity(2, 2), 2)?;
+/// assert!((modes.omega_squared[0] - 1.0).abs() < 1e-14);
+/// assert!((modes.omega_squared[1] - 3.0).abs() < 1e-14);
+/// assert!((modes.shapes[(0, 0)] - 0.5_f64.sqrt()).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
@@ -221,7 +228,6 @@ pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Res
 }
 
 /// Makes the first of the largest components of every column positive.
-#[doc = include_str!("../../paper/examples/modes/apply_sign_rule.md")]
 pub fn apply_sign_rule(shapes: &mut DMatrix<f64>) {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();

@@ -83,7 +83,27 @@ pub struct Correlation {
 /// # Errors
 /// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
-#[doc = include_str!("../../paper/examples/outer_loop/correlate.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::error::Error;
+/// use corfem::method::model::{DynamicModel, Share};
+/// # use corfem::method::modes::ModeSet;
+/// use corfem::method::outer_loop::{Settings, correlate};
+/// # use nalgebra::{dmatrix, dvector};
+///
+/// // A unit mass on a spring of 4, of which the test says 9.
+/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let analyze = |factors: &[f64]| -> Result<_, Error> {
+///     let stiffness = dmatrix![4.0 * factors[0]];
+///     let shares = vec![Share::Stiffness(stiffness.clone())];
+///     DynamicModel { stiffness, mass: dmatrix![1.0], shares }.analyze(&test, None)
+/// };
+/// let result = correlate(analyze, &[None], &Settings::default(), |_, _| {})?;
+/// assert!(result.converged && (result.best_factors[0] - 2.25).abs() < 0.05);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn correlate<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     total_ranges: &[Option<Range>],

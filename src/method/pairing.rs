@@ -44,7 +44,22 @@ impl Pairing {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit.
-#[doc = include_str!("../../paper/examples/pairing/cross_orthogonality.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::modes::ModeSet;
+/// use corfem::method::pairing::cross_orthogonality;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The test has the second analysis mode first, and the first one upside down.
+/// let omega_squared = dvector![1.0, 4.0];
+/// let analysis = ModeSet { omega_squared: omega_squared.clone(), shapes: DMatrix::identity(2, 2) };
+/// let test = ModeSet { omega_squared, shapes: dmatrix![0.0, -1.0; 1.0, 0.0] };
+/// let cross = cross_orthogonality(&analysis, &test, &DMatrix::identity(2, 2))?;
+/// assert_eq!(cross, dmatrix![0.0, -1.0; 1.0, 0.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn cross_orthogonality(
     analysis: &ModeSet,
     test: &ModeSet,
@@ -71,7 +86,18 @@ pub fn cross_orthogonality(
 /// # Errors
 /// [`Error::WrongShape`] when the shapes have different numbers of DOF; [`Error::NotPositive`] naming a shape that is zero;
 /// [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/pairing/modal_assurance.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::pairing::modal_assurance;
+/// use nalgebra::dmatrix;
+///
+/// // (3 · 1)² / (3² + 4²): neither scale nor sign counts.
+/// let assurance = modal_assurance(&dmatrix![3.0; 4.0], &dmatrix![-1.0; 0.0])?;
+/// assert!((assurance[0] - 0.36).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn modal_assurance(
     shapes: &DMatrix<f64>,
     others: &DMatrix<f64>,
@@ -131,7 +157,18 @@ pub(crate) fn signed_assurance(
 /// # Errors
 /// [`Error::Empty`] without test modes; [`Error::TooMany`] with more test modes than analysis modes;
 /// [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/pairing/pair_modes.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::pairing::pair_modes;
+/// use nalgebra::dmatrix;
+///
+/// // Both test modes are closest to the first analysis mode; the second is closer and keeps it.
+/// let pairing = pair_modes(&dmatrix![0.8, -0.9; 0.6, 0.3])?;
+/// assert_eq!((pairing.analysis_mode, pairing.sign), (vec![1, 0], vec![1.0, -1.0]));
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let (analysis_count, test_count) = cross.shape();
     check_count("test modes", test_count, analysis_count)?;
@@ -163,7 +200,6 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
 ///
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for a pairing of other modes; [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/pairing/paired.md")]
 pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> Result<ModeSet, Error> {
     pairing.check(analysis, pairing.sign.len())?;
     let mut paired = analysis.select(&pairing.analysis_mode);

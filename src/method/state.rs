@@ -47,7 +47,6 @@ pub struct ModalState {
 
 impl ModalState {
     /// The state before any change: all factors one, the exact modes.
-    #[doc = include_str!("../../paper/examples/state/start.md")]
     pub fn start(model: &ModalModel) -> Self {
         let count = model.exact.modes.len();
         Self {
@@ -81,7 +80,6 @@ impl ModalState {
     /// # Errors
     /// [`Error::WrongShape`] for factors or a model that do not fit; those of [`recursive_1_converged`], with changes of mass
     /// [`general::recursive_1_converged`], or [`eigensolution`]; those of [`normalize_with_mass`].
-    #[doc = include_str!("../../paper/examples/state/at.md")]
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
         model.check()?;
         check_length("parameter factors", factors.len(), model.shares.len())?;

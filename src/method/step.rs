@@ -44,7 +44,6 @@ pub enum StepRule {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when the lists do not match the parameters, or the model's parts each other; [`Error::NotFinite`].
-#[doc = include_str!("../../paper/examples/step/stiffness_changes.md")]
 pub fn stiffness_changes(
     model: &ModalModel,
     share_factors: &[f64],
@@ -87,7 +86,6 @@ pub fn stiffness_changes(
 ///
 /// The paper prints $c = R e_S (\Delta e/\Delta k)$, which is the change of the factor, not the factor
 /// (`paper/errata.md`). A parameter without stiffness in any test mode keeps factor one.
-#[doc = include_str!("../../paper/examples/step/unlimited_factors.md")]
 pub fn unlimited_factors(
     error_changes: &[f64],
     stiffness_changes: &[f64],
@@ -123,7 +121,6 @@ pub enum Limit {
 /// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
 /// halving shortens the step that is taken. `total` is the factor so far and `base` what it multiplies (the product of earlier
 /// passes), so that the parameter stands at `base·total` of its first value; `total_range` bounds that product.
-#[doc = include_str!("../../paper/examples/step/limited_factor.md")]
 pub fn limited_factor(
     unlimited: f64,
     fraction: f64,
@@ -163,7 +160,6 @@ pub enum Accumulation {
 
 impl StepRule {
     /// What the rule is called in reports.
-    #[doc = include_str!("../../paper/examples/step/step_rule_name.md")]
     pub fn name(self) -> &'static str {
         match self {
             Self::Matrix => "matrix",
@@ -178,7 +174,6 @@ impl StepRule {
 
 impl Accumulation {
     /// The factor on a stored share after a step that takes its gage's factor from `total` to `next`.
-    #[doc = include_str!("../../paper/examples/step/accumulation_next_share_factor.md")]
     pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
         match self {
             // Not `max`, which would make a number of what is none.

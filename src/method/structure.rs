@@ -38,7 +38,6 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless $E > 0$; [`Error::Setting`] unless $-1 < \nu \le 1/2$.
-    #[doc = include_str!("../../paper/examples/structure/material_isotropic.md")]
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self {
@@ -54,7 +53,6 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless the density is positive.
-    #[doc = include_str!("../../paper/examples/structure/material_with_density.md")]
     pub fn with_density(self, density: f64) -> Result<Self, Error> {
         positive("density", material, density)?;
         Ok(Self { density, ..self })
@@ -97,7 +95,6 @@ pub enum ElementKind {
 
 impl ElementKind {
     /// How many grid points the element joins.
-    #[doc = include_str!("../../paper/examples/structure/element_kind_corner_count.md")]
     pub fn corner_count(self) -> usize {
         match self {
             Self::Rod => 2,
@@ -183,7 +180,22 @@ impl Structure {
     /// # Errors
     /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
     /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or number of grids.
-    #[doc = include_str!("../../paper/examples/structure/structure_new.md")]
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+    /// use nalgebra::Vector3;
+    ///
+    /// // A rod of 10 in from a wall, free to move along itself.
+    /// let wall = Grid { label: 1, position: Vector3::zeros(), constrained: [true; 3] };
+    /// let tip = Grid { label: 2, position: 10.0 * Vector3::x(), constrained: [false, true, true] };
+    /// let material = Material::isotropic(1.0e7, 0.3)?;
+    /// let rod = Element { label: 1, kind: ElementKind::Rod, grids: vec![1, 2], size: 0.1, material };
+    /// let structure = Structure::new(vec![wall, tip], vec![rod])?;
+    /// assert_eq!(structure.free_dof().len(), 1);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         at_least_one("elements", elements.len())?;
         let (mut index_of_grid, mut free, mut free_index) =
@@ -241,31 +253,26 @@ impl Structure {
     }
 
     /// The grids, in the order given.
-    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn grids(&self) -> &[Grid] {
         &self.grids
     }
 
     /// The elements, in the order given.
-    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
 
     /// The free structural DOF, in the order of every SDOF matrix.
-    #[doc = include_str!("../../paper/examples/structure/structure_parts.md")]
     pub fn free_dof(&self) -> &[StructuralDof] {
         &self.free
     }
 
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
-    #[doc = include_str!("../../paper/examples/structure/structure_free_dof_index.md")]
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
         self.free_index.get(&(grid, direction)).copied()
     }
 
     /// Positions of an element's grids, in.
-    #[doc = include_str!("../../paper/examples/structure/structure_corners.md")]
     pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
         element
             .grids

@@ -72,7 +72,6 @@ impl Verdict {
     }
 
     /// The verdict in sentences, with the parameters' names; numbers stand for those that have none.
-    #[doc = include_str!("../../paper/examples/verdict/in_words.md")]
     pub fn in_words(&self, names: &[String]) -> String {
         let named = |indices: &[usize]| {
             let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());

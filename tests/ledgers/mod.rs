@@ -5,7 +5,6 @@ pub mod costs;
 pub mod documents;
 pub mod equations;
 pub mod errata;
-pub mod examples;
 pub mod formulas;
 pub mod package;
 pub mod places;

@@ -46,7 +46,22 @@ pub struct Balanced {
 /// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] when the balance equations are
 /// singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
 /// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
-#[doc = include_str!("../../../paper/examples/appendix_b/balance.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::balance;
+/// use corfem::method::modes::ModeSet;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // Two free unit masses on a spring move against each other; measured with 0.05 of both together.
+/// let raw = ModeSet { omega_squared: dvector![2.0], shapes: dmatrix![1.0; -0.9] };
+/// let stiffness = dmatrix![1.0, -1.0; -1.0, 1.0];
+/// let balanced = balance(&raw, &stiffness, &DMatrix::identity(2, 2), &dmatrix![1.0; 1.0])?;
+/// assert!((balanced.shapes - dmatrix![0.95; -0.95]).amax() < 1e-14);
+/// assert!((balanced.coefficients[0] + 0.05).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn balance(
     raw: &ModeSet,
     stiffness: &DMatrix<f64>,
@@ -145,7 +160,6 @@ impl Motion {
     /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
     ///
     /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
-    #[doc = include_str!("../../../paper/examples/appendix_b/motion_displacement.md")]
     pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::ForeAft => Vector3::x(),
@@ -163,7 +177,6 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
-#[doc = include_str!("../../../paper/examples/appendix_b/rigid_body_vectors.md")]
 pub fn rigid_body_vectors(
     motions: &[Motion],
     dofs: &[MeasuringPoint],

@@ -101,7 +101,22 @@ pub struct Examination {
 /// # Errors
 /// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and
 /// [`orthogonalize`], with modes numbered as they came.
-#[doc = include_str!("../../../paper/examples/appendix_b/examine.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::{MovementLimits, Supports, examine};
+/// use corfem::method::modes::ModeSet;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The third shape has a fifth of either of the others in it.
+/// let shapes = dmatrix![1.0, 0.0, 0.2; 0.0, 1.0, 0.2; 0.0, 0.0, 1.0];
+/// let raw = ModeSet { omega_squared: dvector![1.0, 4.0, 9.0], shapes };
+/// let mass = DMatrix::identity(3, 3);
+/// let examination = examine(&raw, &mass, Supports::Held, &MovementLimits::default())?;
+/// assert_eq!(examination.kept, [0, 1]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn examine(
     raw: &ModeSet,
     mass: &DMatrix<f64>,

@@ -39,7 +39,18 @@ pub struct Orthogonalized {
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotFinite`].
-#[doc = include_str!("../../../paper/examples/appendix_b/generalized_mass.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::generalized_mass;
+/// use nalgebra::{DMatrix, dmatrix};
+///
+/// // Both masses together, and against each other: orthogonal, with 1 + 1 each.
+/// let mass = generalized_mass(&dmatrix![1.0, 1.0; 1.0, -1.0], &DMatrix::identity(2, 2))?;
+/// assert_eq!(mass, dmatrix![2.0, 0.0; 0.0, 2.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
     finite("generalized mass", shapes.tr_mul(&(mass * shapes)))
@@ -58,7 +69,23 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// # Errors
 /// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] for a shape that is a combination
 /// of those before it.
-#[doc = include_str!("../../../paper/examples/appendix_b/orthogonalize.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::{generalized_mass, orthogonalize};
+/// use corfem::method::modes::ModeSet;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The second shape has a tenth of the first in it.
+/// let raw = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 0.1; 0.0, 1.0] };
+/// let mass = DMatrix::identity(2, 2);
+/// let modes = orthogonalize(&raw, &mass)?.modes;
+/// assert!((generalized_mass(&modes.shapes, &mass)? - &mass).amax() < 1e-14);
+/// // The sum of 1/ω² is that of the raw modes, 1 + 1/4.
+/// assert!((modes.omega_squared.map(f64::recip).sum() - 1.25).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;

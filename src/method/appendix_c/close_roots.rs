@@ -62,7 +62,6 @@ pub struct SolvedInBlocks {
 /// [`Error::Setting`] for a separation outside 0 to 1 or no orders; those of [`check_symmetric`] and [`cholesky`] for the
 /// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
-#[doc = include_str!("../../../paper/examples/appendix_c/close_roots.md")]
 pub fn close_roots(
     change: &ModalChange<f64>,
     settings: CloseRootsSettings,

@@ -118,7 +118,20 @@ impl<T: Number> Settled<T> {
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] for bad input; those of [`solve`];
 /// [`Error::LostRoot`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
-#[doc = include_str!("../../../paper/examples/appendix_c/eigensolution.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::eigensolution;
+/// use corfem::method::appendix_c::general::ModalChange;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // Two and five on the diagonal of k + β and 0.3 beside it: 3.5 ∓ √(1.5² + 0.3²).
+/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+/// let exact = eigensolution(&ModalChange::of_vibrations(&k, beta, DMatrix::zeros(2, 2)))?;
+/// assert!((1.0 / exact.roots[0] - (3.5 - 2.34_f64.sqrt())).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
     let (stiffness, mass) = change.pencil()?;
     let modes = solve(&stiffness, &mass, stiffness.nrows())?;
@@ -149,7 +162,6 @@ pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
 ///
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
-#[doc = include_str!("../../../paper/examples/appendix_c/normalize_with_mass.md")]
 pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
     check_shape(
         "generalized mass change",

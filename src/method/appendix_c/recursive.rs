@@ -20,7 +20,18 @@ use nalgebra::{DMatrix, DVector};
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$;
 /// [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
-#[doc = include_str!("../../../paper/examples/appendix_c/first_order.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::first_order;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// // k = (1, 5): the first root is 1 / (1 + 1), and takes on -0.3 / (5 - 2) of the second mode.
+/// let found = first_order(&dvector![1.0, 5.0], &dmatrix![1.0, 0.3; 0.3, 0.0])?;
+/// assert!((found.roots[0] - 0.5).abs() < 1e-15 && (found.shapes[(1, 0)] + 0.1).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn first_order(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
@@ -48,7 +59,20 @@ pub fn first_order(
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
-#[doc = include_str!("../../../paper/examples/appendix_c/recursive_1.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::recursive_1;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// let found = recursive_1(&dvector![1.0, 5.0], &dmatrix![1.0, 0.3; 0.3, 0.0], 2)?;
+/// // First order is 0.5 with -0.1 of the second mode; the second order 1 - (1 + 0.5 · 0.3 · -0.1) / 2.
+/// assert!((found.roots[0] - 0.5075).abs() < 1e-15);
+/// // The change of the exact one is a three-thousandth: ω² = 3.5 - √(1.5² + 0.3²).
+/// assert!((found.roots[0] * (3.5 - 2.34_f64.sqrt()) - 1.0).abs() < 1e-4);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn recursive_1(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,
@@ -63,7 +87,20 @@ pub fn recursive_1(
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
 /// [`super::LARGEST_UNSETTLED_CHANGE`], as happens where roots are close; [`Error::CoalescingModes`] when two of them settle on one
 /// mode, as a strong change can make them.
-#[doc = include_str!("../../../paper/examples/appendix_c/recursive_1_converged.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::recursive_1_converged;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// // The eigenvalues of k + β, with 2 and 5 on its diagonal and 0.3 beside it, are 3.5 ∓ √(1.5² + 0.3²).
+/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+/// let found = recursive_1_converged(&k, &beta, 1e-13, 60)?;
+/// assert!((1.0 / found.perturbed.roots[0] - (3.5 - 2.34_f64.sqrt())).abs() < 1e-12);
+/// assert!(found.order < 15, "{}", found.order);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn recursive_1_converged(
     generalized_stiffness: &DVector<f64>,
     beta: &DMatrix<f64>,

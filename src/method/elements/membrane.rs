@@ -17,7 +17,20 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///
 /// # Errors
 /// [`Error::ZeroArea`] when the corners lie on a line.
-#[doc = include_str!("../../../paper/examples/elements/triangle.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::membrane::triangle;
+/// use corfem::method::structure::Material;
+/// use nalgebra::Vector3;
+///
+/// // Corner 2 moves along x by one: strain 1 in an area of 1/2, with E = 1 and no Poisson's ratio.
+/// let corners = [Vector3::zeros(), Vector3::x(), Vector3::y()];
+/// let stiffness = triangle(corners, &Material::isotropic(1.0, 0.0)?)?;
+/// assert!((stiffness[(3, 3)] - 0.5).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
     let [a, b, c] = corners;
     let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
@@ -64,7 +77,21 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-#[doc = include_str!("../../../paper/examples/elements/membrane.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::membrane::membrane;
+/// use corfem::method::structure::Material;
+/// use nalgebra::{DVector, Vector3};
+///
+/// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
+/// let stiffness = membrane(&[o, x, x + y, y], &Material::isotropic(1.0, 0.0)?)?;
+/// // A unit square stretched by one along x holds twice the energy E A = 1.
+/// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
+/// assert!((stretch.dot(&(stiffness * &stretch)) - 1.0).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
     mean_plane(corners)?;
     let mut stiffness = DMatrix::zeros(12, 12);

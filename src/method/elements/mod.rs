@@ -19,7 +19,6 @@ use nalgebra::{DMatrix, DVector, Vector3};
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`], and those of the element's own function.
-#[doc = include_str!("../../../paper/examples/elements/unit_stiffness.md")]
 pub fn unit_stiffness(
     kind: ElementKind,
     corners: &[Vector3<f64>],
@@ -46,7 +45,18 @@ pub fn unit_stiffness(
 ///
 /// # Errors
 /// [`Error::ZeroLength`] when the ends coincide to working precision; [`Error::NotFinite`].
-#[doc = include_str!("../../../paper/examples/elements/rod.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::rod;
+/// use nalgebra::Vector3;
+///
+/// // E/L = 1e7 / 10 along the rod, nothing across it.
+/// let stiffness = rod([Vector3::zeros(), 10.0 * Vector3::x()], 1.0e7)?;
+/// assert_eq!([(0, 0), (3, 0), (1, 1)].map(|entry| stiffness[entry]), [1.0e6, -1.0e6, 0.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>, Error> {
     let along = ends[1] - ends[0];
     let length = along.norm();
@@ -74,7 +84,6 @@ pub fn rod(ends: [Vector3<f64>; 2], youngs_modulus: f64) -> Result<DMatrix<f64>,
 ///
 /// # Errors
 /// [`Error::WrongCornerCount`] when the corners do not fit the kind; [`Error::NotFinite`].
-#[doc = include_str!("../../../paper/examples/elements/corner_volumes.md")]
 pub fn corner_volumes(kind: ElementKind, corners: &[Vector3<f64>]) -> Result<Vec<f64>, Error> {
     let triangle =
         |a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>| 0.5 * (b - a).cross(&(c - a)).norm();

@@ -28,7 +28,6 @@ pub struct MeanPlane {
 /// # Errors
 /// [`Error::ZeroArea`] when the diagonals are parallel or one has no length;
 /// [`Error::NotConvex`] naming the first corner with an interior angle of 180° or more or at the place of a neighbor.
-#[doc = include_str!("../../../paper/examples/elements/mean_plane.md")]
 pub fn mean_plane(corners: &[Vector3<f64>; 4]) -> Result<MeanPlane, Error> {
     let d13 = corners[2] - corners[0];
     let d24 = corners[3] - corners[1];

@@ -20,7 +20,23 @@ const QUADRATURE_POINTS: usize = 12;
 ///
 /// # Errors
 /// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-#[doc = include_str!("../../../paper/examples/elements/shear_panel.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::shear::shear_panel;
+/// use corfem::method::structure::Material;
+/// use nalgebra::{DVector, Vector3};
+///
+/// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
+/// let stiffness = shear_panel(&[o, x, x + y, y], &Material::isotropic(2.5, 0.25)?)?;
+/// // A unit square sheared by one holds twice the energy G A = 1; stretched it holds none.
+/// let shear = DVector::from_iterator(12, [o, o, x, x].iter().flatten().copied());
+/// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
+/// assert!((shear.dot(&(&stiffness * &shear)) - 1.0).abs() < 1e-14);
+/// assert!((&stiffness * stretch).norm() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn shear_panel(
     corners: &[Vector3<f64>; 4],
     material: &Material,
@@ -41,7 +57,6 @@ pub fn shear_panel(
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
 /// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
-#[doc = include_str!("../../../paper/examples/elements/corner_forces.md")]
 pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
     let [_, c2, c3, c4] = plane.corners;
     let x2 = c2.x;
@@ -61,7 +76,6 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 ///
 /// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
 /// quadrature serves every panel.
-#[doc = include_str!("../../../paper/examples/elements/energy_coefficient.md")]
 pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     let corners = plane.corners.map(|corner| corner.push(1.0));
     let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
@@ -104,7 +118,6 @@ fn bilinear(corners: &[Vector2<f64>; 4], s: f64, t: f64) -> (Vector2<f64>, f64) 
 /// The points are the roots of the Legendre polynomial $P_n$, found by Newton's method from
 /// $\cos\big(\pi (k - 1/4)/(n + 1/2)\big)$; the weights are $2/\big((1-s_k^2)P_n^\prime(s_k)^2\big)$.
 /// Points ascend. Source: Abramowitz and Stegun, *Handbook of Mathematical Functions*, 25.4.29.
-#[doc = include_str!("../../../paper/examples/elements/gauss_legendre.md")]
 pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     // Newton converges quadratically from this start: six steps are more than double precision can use.
     const NEWTON_STEPS: usize = 8;

@@ -58,7 +58,21 @@ impl FactorizedStiffness {
     /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
     /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
     /// factor does not solve its own matrix.
-    #[doc = include_str!("../../../paper/examples/factorization/new.md")]
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::closed_forms::spring_chain::rods;
+    /// use corfem::method::assembly::element_matrices;
+    /// use corfem::method::error::Error;
+    /// use corfem::method::factorization::FactorizedStiffness;
+    ///
+    /// // Held nowhere, the chain can move along x.
+    /// let free = rods(&[100.0, 50.0], [false, false])?;
+    /// let found = FactorizedStiffness::new(&element_matrices(&free)?, &[100.0, 50.0], free.free_dof());
+    /// assert!(matches!(found, Err(Error::SingularStiffness { direction: 'x', .. })));
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
     pub fn new(
         elements: &[ElementMatrix],
         sizes: &[f64],
@@ -77,7 +91,6 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// Those of [`Self::new`]; [`Error::WrongShape`] for a plan of other elements.
-    #[doc = include_str!("../../../paper/examples/factorization/planned.md")]
     pub fn planned(
         plan: &Arc<FactorizationPlan>,
         elements: &[ElementMatrix],
@@ -159,7 +172,6 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless `loads` has one row per free DOF; [`Error::NotFinite`].
-    #[doc = include_str!("../../../paper/examples/factorization/solve.md")]
     pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", loads, self.scale.len(), loads.ncols())?;
         check_finite("loads", loads)?;
@@ -191,7 +203,6 @@ impl FactorizedStiffness {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
-    #[doc = include_str!("../../../paper/examples/factorization/flexibility.md")]
     pub fn flexibility(&self, load_distribution: &LoadDistribution) -> Result<DMatrix<f64>, Error> {
         check_length(
             "load distribution",

@@ -48,7 +48,6 @@ impl FactorizationPlan {
     /// # Errors
     /// Those of [`super::FactorizedStiffness::new`] for elements that do not fit the DOF; [`Error::TooMany`] for more entries than are
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
-    #[doc = include_str!("../../../paper/examples/factorization/plan_new.md")]
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
         Self::of(elements, structure.free_dof(), |grid| {
             structure.position(grid).unwrap_or_default()
@@ -193,14 +192,12 @@ impl FactorizationPlan {
     }
 
     /// How many numbers the factor holds.
-    #[doc = include_str!("../../../paper/examples/factorization/plan_factor_entries.md")]
     pub fn factor_entries(&self) -> usize {
         self.symbolic.len_val()
     }
 
     /// How many multiplications and additions the factorization takes in its leading order: the squares of the lengths of the factor's
     /// columns.
-    #[doc = include_str!("../../../paper/examples/factorization/plan_factor_operations.md")]
     pub fn factor_operations(&self) -> f64 {
         let SymbolicCholeskyRaw::Supernodal(blocks) = self.symbolic.raw() else {
             return 0.0;

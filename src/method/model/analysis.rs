@@ -32,7 +32,6 @@ impl CondensedModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
-    #[doc = include_str!("../../../paper/examples/model/structural_shapes.md")]
     pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape(
             "mode shapes",
@@ -59,7 +58,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`] and [`FactorizedStiffness::new`]; [`Error::Dependent`] when a dynamic DOF is a combination of others.
-    #[doc = include_str!("../../../paper/examples/model/condense.md")]
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
         let point_mass = self.point_masses(factors)?;
@@ -135,7 +133,23 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`] and [`DynamicModel::analyze`].
-    #[doc = include_str!("../../../paper/examples/model/analyze.md")]
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// # use corfem::closed_forms::spring_chain::rods;
+    /// # use corfem::method::model::{FiniteElementModel, Parameter};
+    /// use corfem::method::modes::ModeSet;
+    /// use nalgebra::{dmatrix, dvector};
+    ///
+    /// // A unit mass on a spring of 4 beside a test mode of ω² = 9: a frequency of 2 for 3.
+    /// let (spring, parameters) = (rods(&[4.0], [true, false])?, vec![Parameter::element(1, None)]);
+    /// let model = FiniteElementModel::new(spring, dmatrix![1.0], dmatrix![1.0], parameters)?;
+    /// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+    /// let modal = model.analyze(&[1.0], &test, None)?;
+    /// assert!((modal.exact.errors.frequency - 1.0 / 3.0).abs() < 1e-14);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
     pub fn analyze(
         &self,
         factors: &[f64],
@@ -166,7 +180,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`].
-    #[doc = include_str!("../../../paper/examples/model/matrices.md")]
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
         let condensed = self.condense(factors)?;
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
@@ -182,7 +195,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::condense`] and [`solve`].
-    #[doc = include_str!("../../../paper/examples/model/modes.md")]
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
         let condensed = self.condense(factors)?;
         solve(

@@ -28,7 +28,41 @@ use std::sync::Arc;
 /// parameter if there is one: in the paper, too, the mass is known and never changes. A gage that a correlation finds is
 /// therefore a statement about stiffness and does not make the element heavier. [`Self::sizes`], [`Self::mass_sizes`] and
 /// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
-#[doc = include_str!("../../../paper/examples/model/finite_element_model.md")]
+///
+/// # Example
+///
+/// Two rods whose areas a test knows better:
+///
+/// ```rust
+/// use corfem::method::model::{FiniteElementModel, Parameter};
+/// use corfem::method::modes::ModeSet;
+/// use corfem::method::outer_loop::{Settings, correlate};
+/// use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+/// use nalgebra::{DMatrix, Vector3, dmatrix};
+///
+/// // Two rods end to end from a wall, 10 in each, free to move along x.
+/// let material = Material::isotropic(1.0e7, 0.3)?;
+/// let grids = [1, 2, 3].map(|label| {
+///     Grid { label, position: Vector3::new(10.0 * label as f64, 0.0, 0.0), constrained: [label == 1, true, true] }
+/// });
+/// let rods = [1, 2].map(|label| {
+///     Element { label, kind: ElementKind::Rod, grids: vec![label, label + 1], size: 0.1, material }
+/// });
+/// let structure = Structure::new(grids.to_vec(), rods.to_vec())?;
+/// let t = DMatrix::identity(2, 2); // measured are the structure's own two DOF
+/// let mass = DMatrix::from_diagonal_element(2, 2, 0.01);
+/// let parameters = [1, 2].map(|rod| Parameter::element(rod, None));
+/// let model = FiniteElementModel::new(structure, t, mass, parameters.to_vec())?;
+///
+/// // Frequencies in hertz; shapes of any scale, one a column.
+/// let test = ModeSet::from_measured(&[291.340, 851.875], &dmatrix![0.7208, 1.0; 1.0, -0.7208])?;
+/// let limits = model.factor_ranges()?;
+/// let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.002, ..Settings::default() };
+/// let result = correlate(|factors| model.analyze(factors, &test, None), &limits, &settings, |_, _| {})?;
+/// let areas = model.sizes(&result.best_factors)?;
+/// assert!((areas[0] - 0.08).abs() < 0.001 && (areas[1] - 0.12).abs() < 0.001);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
     structure: Structure,
@@ -50,7 +84,6 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`LoadDistribution::of`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
     /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
-    #[doc = include_str!("../../../paper/examples/model/new.md")]
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -76,7 +109,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::new`].
-    #[doc = include_str!("../../../paper/examples/model/with_loads.md")]
     pub fn with_loads(
         structure: Structure,
         load_distribution: LoadDistribution,
@@ -128,7 +160,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`check_length`] for their number, of [`check_shape`] and [`check_symmetric`] for each.
-    #[doc = include_str!("../../../paper/examples/model/with_unit_stiffness.md")]
     pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
         check_length("element matrices", units.len(), self.element_matrices.len())?;
         let mut model = self.clone();
@@ -142,31 +173,26 @@ impl FiniteElementModel {
     }
 
     /// The structure with its first sizes.
-    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn structure(&self) -> &Structure {
         &self.structure
     }
 
     /// Unit matrices of the elements at the free DOF.
-    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn element_matrices(&self) -> &[ElementMatrix] {
         &self.element_matrices
     }
 
     /// The load distribution $T$ (free SDOF × d).
-    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn load_distribution(&self) -> &LoadDistribution {
         &self.load_distribution
     }
 
     /// The dynamic mass $M$, lbf·s²/in (d × d).
-    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn mass(&self) -> &DMatrix<f64> {
         &self.mass
     }
 
     /// What may change.
-    #[doc = include_str!("../../../paper/examples/model/parts.md")]
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
@@ -180,7 +206,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
-    #[doc = include_str!("../../../paper/examples/model/factor_ranges.md")]
     pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
         let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             // A mass has no size: its rows may be those of points.
@@ -215,7 +240,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
-    #[doc = include_str!("../../../paper/examples/model/sizes.md")]
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
         self.scaled(self.first_sizes(), Scaled::Stiffness, factors)
     }
@@ -224,7 +248,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`].
-    #[doc = include_str!("../../../paper/examples/model/mass_sizes.md")]
     pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
         self.scaled(self.first_sizes(), Scaled::ElementMass, factors)
     }
@@ -233,7 +256,6 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// Those of [`Self::sizes`].
-    #[doc = include_str!("../../../paper/examples/model/point_masses.md")]
     pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
         let ones = vec![1.0; self.mass.nrows()];
         let mut mass = self.mass.clone();

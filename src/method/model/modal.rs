@@ -23,7 +23,6 @@ pub enum Share {
 
 impl Share {
     /// The matrix, whatever it is a share of.
-    #[doc = include_str!("../../../paper/examples/model/share_matrix.md")]
     pub fn matrix(&self) -> &DMatrix<f64> {
         match self {
             Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
@@ -31,7 +30,6 @@ impl Share {
     }
 
     /// A share of the same kind with another matrix made from this one's.
-    #[doc = include_str!("../../../paper/examples/model/share_map.md")]
     pub fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
         match self {
             Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
@@ -57,7 +55,6 @@ impl DynamicModel {
     /// # Errors
     /// Those of [`solve`], [`ModeSet::scaled_with`], [`pair_modes`] and [`errors`]; [`Error::Empty`] without parameters;
     /// [`Error::WrongShape`] and [`Error::NotSymmetric`] for a share that does not fit.
-    #[doc = include_str!("../../../paper/examples/model/dynamic_model_analyze.md")]
     pub fn analyze(
         &self,
         test: &ModeSet,
@@ -255,7 +252,6 @@ impl ModalModel {
     /// # Errors
     /// [`Error::WrongShape`] unless there is one weight a test mode; [`Error::Setting`] for one that is negative or no number, and when
     /// all are zero.
-    #[doc = include_str!("../../../paper/examples/model/modal_model_weighted.md")]
     pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
         check_weights(weights, self.test.len())?;
         self.weights = weights.to_vec();

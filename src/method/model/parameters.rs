@@ -22,7 +22,6 @@ impl Range {
     ///
     /// # Errors
     /// [`Error::Limits`] unless $0 < \text{lower} < \text{upper}$, both finite.
-    #[doc = include_str!("../../../paper/examples/model/range_positive.md")]
     pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
         let in_order = lower > 0.0 && upper > lower && upper.is_finite();
         if in_order {
@@ -37,7 +36,6 @@ impl Range {
     }
 
     /// Whether a number lies in the interval.
-    #[doc = include_str!("../../../paper/examples/model/range_contains.md")]
     pub fn contains(&self, value: f64) -> bool {
         (self.lower..=self.upper).contains(&value)
     }
@@ -88,7 +86,6 @@ pub struct Parameter {
 
 impl Parameter {
     /// The stiffness of one element, named by its number.
-    #[doc = include_str!("../../../paper/examples/model/parameter_element.md")]
     pub fn element(label: usize, size_range: Option<Range>) -> Self {
         Self {
             size_range,
@@ -97,13 +94,11 @@ impl Parameter {
     }
 
     /// The stiffness of a group of elements.
-    #[doc = include_str!("../../../paper/examples/model/parameter_group.md")]
     pub fn group(name: &str, elements: &[usize]) -> Self {
         Self::of(name, Scaled::Stiffness, elements)
     }
 
     /// Anything, without bounds.
-    #[doc = include_str!("../../../paper/examples/model/parameter_of.md")]
     pub fn of(name: &str, scaled: Scaled, members: &[usize]) -> Self {
         Self {
             name: name.to_owned(),

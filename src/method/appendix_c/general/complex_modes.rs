@@ -50,7 +50,18 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// # Errors
 /// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
 /// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/complex_modes_solve.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::general::complex_modes::solve;
+/// use nalgebra::{Complex, dmatrix};
+///
+/// // 4 λ - (1 + 2i) = 0.
+/// let modes = solve(&dmatrix![4.0], &dmatrix![Complex::new(1.0, 2.0)])?;
+/// assert!((modes.roots[0] - Complex::new(0.25, 0.5)).norm() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn solve(
     stiffness: &DMatrix<f64>,
     g: &DMatrix<Complex<f64>>,

@@ -39,7 +39,18 @@ pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 /// # Errors
 /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`] for bad input; [`Error::LostStiffness`] when some
 /// $A_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator of coupled modes does.
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/first_order.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::general::{ModalChange, first_order};
+/// use nalgebra::{dmatrix, dvector};
+///
+/// // Twice the mass halves ω² = 4.
+/// let change = ModalChange::of_vibrations(&dvector![4.0], dmatrix![0.0], dmatrix![1.0]);
+/// assert_eq!(first_order(&change)?.roots[0], 1.0 / 2.0);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     recursive_1(change, 1)
 }
@@ -54,7 +65,6 @@ pub fn first_order<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, E
 ///
 /// # Errors
 /// As [`first_order`], and [`Error::Setting`] for order zero.
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1.md")]
 pub fn recursive_1<T: Number>(
     change: &ModalChange<T>,
     order: usize,
@@ -69,7 +79,6 @@ pub fn recursive_1<T: Number>(
 ///
 /// # Errors
 /// As [`recursive_1`]; [`Error::UnsettledRoots`] as [`super::recursive_1_converged`].
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_1_converged.md")]
 pub fn recursive_1_converged<T: Number>(
     change: &ModalChange<T>,
     tolerance: f64,
@@ -159,7 +168,19 @@ fn next_order<T: Number>(
 ///
 /// # Errors
 /// As [`recursive_1`], and [`Error::CoalescingModes`] when the linear system of a mode is singular.
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/recursive_2.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::general::{ModalChange, recursive_2};
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // First order has -0.3 / (5 - 2) of the second mode in the first; then 1 / (2 + 0.3 · -0.1).
+/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+/// let change = ModalChange::of_vibrations(&k, beta, DMatrix::zeros(2, 2));
+/// assert!((recursive_2(&change, 2)?.roots[0] - 1.0 / 1.97).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn recursive_2<T: Number>(
     change: &ModalChange<T>,
     order: usize,
@@ -178,7 +199,21 @@ pub fn recursive_2<T: Number>(
 ///
 /// # Errors
 /// As [`first_order`].
-#[doc = include_str!("../../../../paper/examples/appendix_c/general/original.md")]
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_c::general::{ModalChange, first_order, original, recursive_2};
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The root is that of the second order of Recursive 2, the shape that of first order.
+/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+/// let change = ModalChange::of_vibrations(&k, beta, DMatrix::zeros(2, 2));
+/// let found = original(&change)?;
+/// assert_eq!(found.roots, recursive_2(&change, 2)?.roots);
+/// assert_eq!(found.shapes, first_order(&change)?.shapes);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
 pub fn original<T: Number>(change: &ModalChange<T>) -> Result<Perturbed<T>, Error> {
     let Perturbed { shapes, .. } = first_order(change)?;
     Ok(Perturbed {

@@ -27,7 +27,6 @@ pub struct ModalChange<T> {
 impl ModalChange<f64> {
     /// A change seen through mass-orthonormal modes of vibration, whose $k_{ii} = \omega_i^2$ (rad²/s²) and
     /// $\lambda_i = 1/\omega_i^2$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
-    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_of_vibrations.md")]
     pub fn of_vibrations(
         omega_squared: &DVector<f64>,
         beta: DMatrix<f64>,
@@ -48,7 +47,6 @@ impl<T: Number> ModalChange<T> {
     /// # Errors
     /// [`Error::WrongShape`], [`Error::NotFinite`] for input that does not fit; [`Error::NotOrthonormal`] when
     /// $U^t K V$ is not diagonal (C.10).
-    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_new.md")]
     pub fn new(
         stiffness: &DMatrix<T>,
         modes: &LeftRightModes<T>,
@@ -93,7 +91,6 @@ impl<T: Number> ModalChange<T> {
     }
 
     /// The same change seen by the transposed pencil (C.2); the changed left modes are $U$ times its shapes.
-    #[doc = include_str!("../../../../paper/examples/appendix_c/general/modal_change_transposed.md")]
     pub fn transposed(&self) -> Self {
         Self {
             beta: self.beta.transpose(),
