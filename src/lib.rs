@@ -12,8 +12,8 @@
 //!
 //! - [`method`]: the paper, in its own order. Read this first, and read it as a text:
 //!   1. [`structure`](method::structure), [`elements`](method::elements), [`assembly`](method::assembly): the finite element
-//!      model and its stiffness $K_S$; [`factorization`](method::factorization): how it is solved with, at any size;
-//!   2. [`load_distribution`](method::load_distribution), [`appendix_a`](method::appendix_a): from structural to dynamic degrees of
+//!      model and its stiffness $K_S$; [`factorization`](sparse::factorization): how it is solved with, at any size;
+//!   2. [`load_distribution`](sparse::load_distribution), [`appendix_a`](method::appendix_a): from structural to dynamic degrees of
 //!      freedom (1, 2);
 //!   3. [`modes`](method::modes) (3) and [`appendix_b`](method::appendix_b): exact modes, and measured ones made fit to compare;
 //!   4. [`model`](method::model): what may change, and the modal model that the loops are handed;
@@ -64,6 +64,7 @@
 #![forbid(unsafe_code)]
 
 pub mod method;
+pub mod sparse;
 pub mod closed_forms;
 pub mod cases;
 pub mod studies;

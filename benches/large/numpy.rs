@@ -1,8 +1,8 @@
 //! Arrays in NumPy's format 1.0, and a wing's problem written with them for other programs.
 
-use corfem::method::model::{FiniteElementModel, ModalModel};
+use corfem::method::model::ModalModel;
 use corfem::method::structure::ElementKind;
-use corfem::studies::whole_model::SparseMatrix;
+use corfem::sparse::{LargeModel, SparseMatrix};
 use nalgebra::DMatrix;
 use std::fs::{File, create_dir_all};
 use std::io::{BufWriter, Result, Write};
@@ -54,7 +54,7 @@ fn matrix(path: &Path, matrix: &DMatrix<f64>) -> Result<()> {
 ///
 /// Of rods and panels each: unit matrices (n × m × m) filled up with zeros, DOF (n × m) with -1 where one is held, size and
 /// group.
-pub fn write(folder: &Path, model: &FiniteElementModel, modal: &ModalModel) -> Result<()> {
+pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()> {
     create_dir_all(folder)?;
     let at = |name: &str| folder.join(format!("{name}.npy"));
     let structure = model.structure();

@@ -3,11 +3,11 @@
 use corfem::cases::Case;
 use corfem::method::assembly::element_matrices;
 use corfem::method::derivatives::{by_definition, gradient};
-use corfem::method::factorization::{FactorizationPlan, FactorizedStiffness};
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
+use corfem::sparse::LargeModel;
+use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::known::planted;
 use corfem::studies::wing::Wing;
@@ -21,11 +21,11 @@ pub const STRUCTURES: [&str; 2] = ["box", "wing"];
 pub type Stage = (&'static str, Box<dyn FnMut()>);
 
 /// Case 2 with its nine modes, or the wing with ten and an inner loop to an error sum of 5 %.
-fn problem(structure: &str) -> (FiniteElementModel, ModeSet, usize, InnerSettings) {
+fn problem(structure: &str) -> (LargeModel, ModeSet, usize, InnerSettings) {
     if structure == "box" {
         let case = Case::new(2).expect("a case");
         return (
-            case.model().expect("a model"),
+            LargeModel::of(&case.model().expect("a model")).expect("a plan"),
             case.test_modes().expect("test modes").into(),
             9,
             case.settings.inner,

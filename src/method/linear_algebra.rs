@@ -1,14 +1,16 @@
 //! The few dense decompositions the method needs, through faer, with the checks that faer leaves to its caller.
 
 use crate::method::error::{Error, at_least_one};
-use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, MatRef, Par, Side};
+use faer::{MatMut, MatRef, Par, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
 /// Asymmetry, relative to the largest entry, above which a matrix is refused.
 /// A congruence transformation leaves about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
+
+/// Eigenvalue of a unit-diagonal matrix below zero by more than this is no round-off of a semidefinite one.
+const SEMIDEFINITE: f64 = 1e-10;
 
 /// A real or complex number.
 pub trait Number: ComplexField<RealField = f64> + Copy {}
@@ -123,25 +125,6 @@ pub(crate) fn finite_list(what: &'static str, list: Vec<f64>) -> Result<Vec<f64>
     finite(what, DMatrix::from_vec(list.len(), 1, list)).map(|list| list.data.into())
 }
 
-/// Adds the lower triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
-pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
-    let count = sum.nrows();
-    let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
-    let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
-    let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-    matmul(
-        sum,
-        lower,
-        Accum::Add,
-        columns,
-        full,
-        columns.transpose(),
-        full,
-        1.0,
-        Par::Seq,
-    );
-}
-
 /// The symmetric part, $(A + A^t)/2$: removes the round-off asymmetry of a congruence transformation. A matrix that is not square
 /// has none and comes back as it is.
 pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
@@ -181,44 +164,6 @@ pub fn cholesky(
     bad.map_or(Ok(lower), |dof| {
         Err(Error::NotPositiveDefinite { what, dof })
     })
-}
-
-/// Checks a factorization of a symmetric matrix $A$ by a probe $x$: that it solves $A y = A x$ to
-///
-/// $$ \lVert A y - A x \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
-///
-/// which is the round-off of a stable solver with room for its constant, where $A$ (n × n) has unit diagonal and some tens of
-/// entries in a row. `product` is $A x$ and `solve` $A^{-1} b$.
-///
-/// # Errors
-/// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
-pub fn check_solution(
-    what: &'static str,
-    product: impl Fn(&DVector<f64>) -> DVector<f64>,
-    solve: impl Fn(&DVector<f64>) -> DVector<f64>,
-    probe: &DVector<f64>,
-) -> Result<(), Error> {
-    let loads = product(probe);
-    let found = solve(&loads);
-    check_length(what, found.len(), probe.len())?;
-    let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
-    let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
-    let (residual, allowed) = (residual / size, allowed / size);
-    if residual <= allowed {
-        Ok(())
-    } else {
-        Err(Error::WrongSolution {
-            what,
-            residual,
-            allowed,
-        })
-    }
-}
-
-/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
-pub(crate) fn start_vector(size: usize) -> DVector<f64> {
-    let golden = 0.618_033_988_749_894_8;
-    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
 }
 
 /// $L^{-1} R$ for a lower triangular $L$ with nonzero diagonal.
@@ -267,6 +212,20 @@ pub fn symmetric_eigen(
         DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]),
         from_faer(eigen.U()),
     ))
+}
+
+/// The row that moves most where a stiffness resists nothing, and the smallest eigenvalue of the stiffness scaled to unit
+/// diagonal; `None` for one that is not semidefinite.
+pub(crate) fn free_motion(stiffness: &DMatrix<f64>) -> Option<(usize, f64)> {
+    let diagonal = stiffness.diagonal();
+    if let Some(row) = diagonal.iter().position(|&entry| entry <= 0.0) {
+        return (diagonal[row] == 0.0).then_some((row, 0.0));
+    }
+    let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
+    let scaled = stiffness.component_mul(&(&scale * scale.transpose()));
+    let (values, vectors) = symmetric_eigen("structural stiffness", &scaled).ok()?;
+    let moved = vectors.column(0).component_mul(&scale).abs();
+    (values[0] > -SEMIDEFINITE).then(|| (moved.imax(), values[0]))
 }
 
 /// Eigenvalues (ascending) of $A v = \mu L L^t v$ for a lower triangular $L$ with nonzero diagonal, and the vectors of the lowest

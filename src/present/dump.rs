@@ -8,7 +8,7 @@ use crate::method::inner_loop::Iteration;
 use crate::method::modes::solve;
 use crate::method::outer_loop::Pass;
 use crate::method::structure::{DIRECTIONS, StructuralDof};
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 use std::iter::once;
@@ -34,7 +34,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let (names, passes) = (&result.parameter_names, &result.correlation.passes);
     let first = vec![1.0; names.len()];
     let mut matrices = vec![
-        file("T", &model.load_distribution().dense())?,
+        file("T", &model.load_distribution())?,
         file("V_G", &result.test.shapes)?,
     ];
     let mut analyses = Vec::new();
@@ -43,7 +43,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         let (dynamic, condensed) = (model.matrices(factors)?, model.condense(factors)?);
         let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
         let points = DMatrix::identity(dynamic.mass.nrows(), dynamic.mass.nrows());
-        let b = condensed.structural_shapes(&points)?.transpose();
+        let b = (&condensed.transformation * &points).transpose();
         let mut analysis = json!({"factors": factors, "sizes": model.sizes(factors)?, "frequencies_hz": modes.frequencies_hz()});
         for (name, matrix) in [
             ("K_D", &dynamic.stiffness),
@@ -74,7 +74,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         "settings": case.settings,
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
-        "T": rows(&model.load_distribution().dense()),
+        "T": rows(&model.load_distribution()),
         "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": rows(&result.test.shapes)},
         "analyses": analyses,
         "passes": passes.iter().map(pass).collect::<Value>(),

@@ -16,10 +16,10 @@ use crate::files::deck::Deck;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
 use crate::method::structure::DIRECTIONS;
+use crate::sparse::whole_modes::WholeModes;
 use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
 use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::studies::preflight::Finding;
-use crate::studies::whole_modes::WholeModes;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 

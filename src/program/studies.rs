@@ -11,7 +11,7 @@ use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case};
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{correlate_wing_with, settings};
+use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, settings};
 use corfem::studies::known::Known;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::studies::preflight::preflight_of;
@@ -127,8 +127,8 @@ pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
         ));
     }
     let wing = Known::delta_wing()?;
-    let findings = preflight_of(&wing.model, &wing.test, &settings())?;
-    found.push((wing.name, findings));
+    let model = first_model(&DeltaWing::embedded()?)?;
+    found.push((wing.name, preflight_of(&model, &wing.test, &settings())?));
     output.write(&[tables::preflight::findings_table(&found)], || {
         json::preflight(&found)
     })

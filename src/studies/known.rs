@@ -4,9 +4,9 @@ use crate::cases::Case;
 use crate::cases::error::CaseError;
 use crate::cases::torque_box::TEST_GAGE;
 use crate::method::error::Error;
-use crate::method::model::FiniteElementModel;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Settings, correlate};
+use crate::sparse::LargeModel;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
 use crate::studies::wing::Wing;
@@ -21,7 +21,7 @@ pub struct Known {
     /// What it is.
     pub name: String,
     /// The first model.
-    pub model: FiniteElementModel,
+    pub model: LargeModel,
     /// Its test modes, without noise.
     pub test: ModeSet,
     /// The factors that make the model right.
@@ -42,7 +42,7 @@ impl Known {
             .collect();
         Ok(Self {
             name: format!("Case {number}"),
-            model: case.model()?,
+            model: LargeModel::of(&case.model()?)?,
             test: case.test_modes()?.into(),
             truth,
         })
@@ -57,7 +57,7 @@ impl Known {
         let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self {
             name: "Delta wing".to_owned(),
-            model: first_model(&wing)?,
+            model: LargeModel::of(&first_model(&wing)?)?,
             test: test_modes(&wing)?,
             truth,
         })

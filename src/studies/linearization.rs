@@ -8,9 +8,10 @@ use crate::method::appendix_c::{Perturbed, first_order, recursive_1};
 use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
 use crate::method::linear_algebra::{check_length, symmetric_part};
-use crate::method::model::{DynamicModel, FiniteElementModel};
+use crate::method::model::DynamicModel;
 use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{cross_orthogonality, pair_modes};
+use crate::sparse::LargeModel;
 use crate::studies::known::Known;
 use nalgebra::{DMatrix, DVector};
 
@@ -82,7 +83,7 @@ fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
 /// # Errors
 /// Those of [`FiniteElementModel::matrices`], [`solve`] and [`pair_modes`]; [`Error::WrongShape`] for a wrong number of factors.
 pub fn predictions(
-    model: &FiniteElementModel,
+    model: &LargeModel,
     toward: &[f64],
     steps: &[f64],
     exact: Exact,

@@ -3,6 +3,7 @@
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::ModeSet;
+use crate::sparse::random::uniform;
 use std::f64::consts::PI;
 
 /// Standard deviations of the errors of a measurement, as fractions.
@@ -32,7 +33,7 @@ impl Noise {
 /// $$ f_i (1 + \sigma_f z), \qquad V_{ij} + \sigma_v z \max_k \lvert V_{ik} \rvert $$
 ///
 /// with the standard deviations $\sigma$ of `noise` and another standard normal variate $z$ in every place. The variates
-/// are those of Box and Muller, *Annals of Mathematical Statistics* 29 (1958), 610–611, from [`split_mix_64`].
+/// are those of Box and Muller, *Annals of Mathematical Statistics* 29 (1958), 610–611, from [`split_mix_64`](crate::sparse::random::split_mix_64).
 ///
 /// # Errors
 /// Those of [`ModeSet::from_measured`], such as [`Error::NotPositive`] when noise turns a frequency negative.
@@ -63,18 +64,4 @@ pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result
         shape.apply(|component| *component += deviation * normal());
     }
     ModeSet::from_measured(&frequencies, &shapes)
-}
-
-/// The next number from zero up to one: of [`split_mix_64`] the 53 bits that a number holds.
-pub fn uniform(state: &mut u64) -> f64 {
-    (split_mix_64(state) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// The next number of the generator SplitMix64, from its state, which moves on: Steele, Lea and Flood, "Fast Splittable
-/// Pseudorandom Number Generators", *OOPSLA* 2014, 453–472, with the constants of Vigna's public-domain `splitmix64.c`.
-pub fn split_mix_64(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^ (mixed >> 31)
 }

@@ -4,10 +4,11 @@
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::load_distribution::LoadDistribution;
-use crate::method::model::{FiniteElementModel, Parameter};
+use crate::method::model::Parameter;
 use crate::method::modes::check_count;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use crate::sparse::LargeModel;
+use crate::sparse::load_distribution::LoadDistribution;
 use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
@@ -213,8 +214,8 @@ impl Wing {
     /// The wing as a model: a parameter per group, the measured points as dynamic DOF with the mass on them.
     ///
     /// # Errors
-    /// Those of [`Self::structure`] and [`FiniteElementModel::with_loads`]; [`Error::Empty`], [`Error::TooMany`] for zones and measured points.
-    pub fn model(&self) -> Result<FiniteElementModel, Error> {
+    /// Those of [`Self::structure`] and [`LargeModel::new`]; [`Error::Empty`], [`Error::TooMany`] for zones and measured points.
+    pub fn model(&self) -> Result<LargeModel, Error> {
         let ([ribs, chord, _], [on_span, on_rib], zones) = (self.bays, self.measured, self.zones);
         check_count("zones", zones, ribs)?;
         check_count("measured ribs", on_span, ribs)?;
@@ -238,6 +239,6 @@ impl Wing {
             .iter()
             .enumerate()
             .map(|(group, labels)| Parameter::group(&name(group), labels));
-        FiniteElementModel::with_loads(structure, loads, mass, parameters.collect())
+        LargeModel::new(structure, loads, mass, parameters.collect())
     }
 }

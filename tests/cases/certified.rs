@@ -34,7 +34,7 @@ struct Pencil {
 /// The structure at gages, from its element matrices on.
 fn of_structure(case: &Case, gages: &[f64]) -> Pencil {
     let model = case.model_with(gages).expect("a model");
-    let (t, mass) = (model.load_distribution().dense(), model.mass().diagonal());
+    let (t, mass) = (model.load_distribution().clone(), model.mass().diagonal());
     let size = t.nrows();
     let mut stiffness: Lower = (0..size).map(|i| vec![BigInt::from(0); i + 1]).collect();
     let sizes = model

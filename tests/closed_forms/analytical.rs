@@ -1,7 +1,7 @@
 //! Rods in a row against the closed forms of chains and of the uniform rod.
 
 use crate::common::log_log_slope;
-use crate::common::structures::{dense, factorized, sizes, spring_chain};
+use crate::common::structures::{dense, sizes, spring_chain};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
 use corfem::closed_forms::analytical::{
     ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
@@ -27,7 +27,7 @@ proptest! {
             false => (ChainEnds::FixedFree, count),
         };
         let structure = spring_chain(&vec![spring; springs], [true, both]);
-        let condensed = condense(&factorized(&structure).unwrap(), &DMatrix::identity(count, count)).unwrap();
+        let condensed = condense(&dense(&structure), &DMatrix::identity(count, count)).unwrap();
         let found = modes::solve(&condensed.stiffness, &(mass * DMatrix::identity(count, count)), count).unwrap();
         let expected = chain_eigenvalues(ends, count, spring, mass);
         prop_assert_eq!(found.len(), expected.len());
@@ -66,11 +66,7 @@ fn a_rod_cut_finer_tends_to_the_uniform_rod_with_order_two() {
             assert_eq!(sizes(&structure).len(), count);
             let mut masses = DVector::from_element(count, density * area * piece);
             masses[count - 1] /= 2.0;
-            let condensed = condense(
-                &factorized(&structure).unwrap(),
-                &DMatrix::identity(count, count),
-            )
-            .unwrap();
+            let condensed = condense(&dense(&structure), &DMatrix::identity(count, count)).unwrap();
             let found =
                 modes::solve(&condensed.stiffness, &DMatrix::from_diagonal(&masses), 3).unwrap();
             let error = found

@@ -1,6 +1,6 @@
 //! Reproducible draws for tests that make more calls than a property would.
 
-use corfem::studies::noise::split_mix_64;
+use corfem::sparse::random::split_mix_64;
 
 /// A stream of draws from a seed.
 pub struct Draws(pub u64);

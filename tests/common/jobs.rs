@@ -7,10 +7,10 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::method::modes::ModeSet;
+use corfem::sparse::WholeShare;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
 use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::whole_model::WholeShare;
 use nalgebra::Vector3;
 
 use super::whole_models::{sensors_at, shear_building};

@@ -3,9 +3,9 @@
 use corfem::closed_forms::spring_chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
+use corfem::sparse::factorization::FactorizedStiffness;
 use corfem::studies::wing::Wing;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

@@ -3,8 +3,8 @@
 use corfem::cases::Case;
 use corfem::cases::torque_box::{Reconstruction, load_distribution, structure};
 use corfem::method::assembly::dense_stiffness;
-use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::sparse::factorization::FactorizedStiffness;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;

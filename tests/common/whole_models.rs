@@ -2,7 +2,7 @@
 
 use corfem::closed_forms::analytical::ChainEnds;
 use corfem::method::model::Range;
-use corfem::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 
 /// The stiffness of springs between degrees of freedom (two, or one and the ground).
 pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseMatrix {

@@ -2,8 +2,9 @@
 
 use super::{PERCENT, noise_words};
 use corfem::cases::error::CaseError;
-use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
+use corfem::sparse::LargeModel;
 use corfem::studies::known::Known;
 use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
@@ -121,8 +122,7 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
         ));
         truth.push(known.truth[bay[0] - 1]);
     }
-    let model =
-        FiniteElementModel::with_loads(structure.clone(), t.clone(), mass.clone(), parameters)?;
+    let model = LargeModel::new(structure.clone(), t.clone(), mass.clone(), parameters)?;
     Ok(Known {
         name: "Case 2 by bays".to_owned(),
         model,

@@ -2,7 +2,8 @@
 
 use super::specimen::Specimen;
 use corfem::method::error::Error;
-use corfem::studies::noise::{Noise, split_mix_64, with_noise};
+use corfem::sparse::random::split_mix_64;
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::{Change, FACTORS, Finding, Mended};
 use nalgebra::DMatrix;
 

@@ -3,9 +3,10 @@
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Range};
+use corfem::method::model::{DynamicModel, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::Settings;
+use corfem::sparse::LargeModel;
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::known::Known;
 use corfem::studies::preflight::{Finding, preflight};
@@ -34,7 +35,7 @@ impl Specimen {
         let (model, test) = (case.model()?, case.test_modes()?.into());
         Self::of(
             &format!("Case {}", case.number),
-            &model,
+            &LargeModel::of(&model)?,
             test,
             case.settings.clone(),
         )
@@ -53,7 +54,7 @@ impl Specimen {
 
     fn of(
         name: &str,
-        model: &FiniteElementModel,
+        model: &LargeModel,
         test: ModeSet,
         settings: Settings,
     ) -> Result<Self, CaseError> {

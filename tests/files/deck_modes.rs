@@ -5,7 +5,7 @@ use corfem::files::deck;
 use corfem::files::deck::number::{large_real, nearest_in_field};
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
-use corfem::studies::whole_modes::WholeModes;
+use corfem::sparse::whole_modes::WholeModes;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

@@ -2,7 +2,7 @@
 
 use corfem::files::error::FileError;
 use corfem::files::matrices::{LabeledMatrix, read, write_matrix_market};
-use corfem::studies::whole_model::SparseMatrix;
+use corfem::sparse::SparseMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;

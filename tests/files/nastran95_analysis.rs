@@ -24,7 +24,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let kaa =
         corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, free.len())
             .expect("stiffness");
-    let t = &model.load_distribution().dense();
+    let t = &model.load_distribution().clone();
     let mut maa = t * model.mass() * t.transpose();
     // Stiffness factors leave every element the mass of its first size.
     for (element, first) in model.element_matrices().iter().zip(structure.elements()) {

@@ -75,7 +75,7 @@ fn a_deck_holds_point_masses_alone() {
     let model = disordered();
     let coupled = FiniteElementModel::new(
         model.structure().clone(),
-        model.load_distribution().dense(),
+        model.load_distribution().clone(),
         mass,
         model.parameters().to_vec(),
     )

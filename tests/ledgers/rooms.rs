@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 
 /// From the top down.
-const ROOMS: [&str; 7] = [
+const ROOMS: [&str; 8] = [
     "method",
+    "sparse",
     "closed_forms",
     "cases",
     "studies",

@@ -2,11 +2,9 @@
 
 use crate::common::matrices::relative_distance;
 use crate::common::strategies::{orthogonal, positive_definite};
-use crate::common::structures::as_element;
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::appendix_a::{Condensed, condense};
 use corfem::method::error::Error;
-use corfem::method::factorization::FactorizedStiffness;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -43,8 +41,7 @@ fn stiffness_and_distribution() -> impl Strategy<Value = (DMatrix<f64>, f64, DMa
 }
 
 fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Error> {
-    let (elements, free) = as_element(stiffness);
-    condense(&FactorizedStiffness::new(&elements, &[1.0], &free)?, t)
+    condense(stiffness, t)
 }
 
 proptest! {

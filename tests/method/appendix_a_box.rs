@@ -45,9 +45,9 @@ proptest! {
     #[test]
     fn averaged_mid_points_would_make_the_boxs_flexibility_singular(case in case(), sizes in sizes_of(39)) {
         let model = case.model().unwrap();
-        let (_, factor) = stiffness(&model, &sizes);
-        prop_assert!(condense(&factor, &model.load_distribution().dense()).is_ok());
-        let mut t = model.load_distribution().dense();
+        let (factor, _) = stiffness(&model, &sizes);
+        prop_assert!(condense(&factor, model.load_distribution()).is_ok());
+        let mut t = model.load_distribution().clone();
         for rib in 0..3 {
             let average = 0.5 * (t.column(3 * rib) + t.column(3 * rib + 2));
             t.set_column(3 * rib + 1, &average);
@@ -76,8 +76,8 @@ proptest! {
     fn a_share_is_the_elements_stiffness_through_b(case in case(), factors in factors(39), row in 0..39_usize) {
         let model = with_every_element(&case);
         let sizes = model.sizes(&factors).unwrap();
-        let (_, factor) = stiffness(&model, &sizes);
-        let bt = condense(&factor, &model.load_distribution().dense()).unwrap().transformation;
+        let (factor, _) = stiffness(&model, &sizes);
+        let bt = condense(&factor, model.load_distribution()).unwrap().transformation;
         let element = &model.element_matrices()[row];
         let mut spread = DMatrix::zeros(36, 36);
         for (a, &at) in element.dof.iter().enumerate() {

@@ -10,8 +10,8 @@ use corfem::cases::Case;
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
-use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::structure::{Element, ElementKind, Structure};
+use corfem::sparse::factorization::FactorizedStiffness;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

@@ -1,11 +1,9 @@
 //! What freezing does to a condensed stiffness: old shapes bound it from above, old internal loads from below.
 
 use crate::common::strategies::orthogonal;
-use crate::common::structures::as_element;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element};
 use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::modes::solve;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -28,10 +26,8 @@ impl Framework {
     }
 
     fn condensed(&self, factors: &[f64]) -> Condensed {
-        let (elements, free) = as_element(&self.stiffness(factors));
-        let factorized =
-            FactorizedStiffness::new(&elements, &[1.0], &free).expect("nothing is free");
-        condense(&factorized, &self.load_distribution).expect("independent dynamic DOF")
+        condense(&self.stiffness(factors), &self.load_distribution)
+            .expect("independent dynamic DOF")
     }
 
     /// The first structure's, with the shapes kept, with the internal loads kept, and exactly, at the new factors.

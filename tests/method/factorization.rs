@@ -8,9 +8,9 @@ use crate::common::tolerances::{CONDITIONED_ROUND_OFF, FILL_ORDER, MATRIX_ROUND_
 use corfem::cases::Case;
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::method::load_distribution::LoadDistribution;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::load_distribution::LoadDistribution;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -176,7 +176,7 @@ proptest! {
         let ones = vec![1.0; model.parameters().len()];
         // Changes beyond what the structure bears are refused, and are not this property's matter.
         let Ok(matrices) = model.matrices(&ones) else { return Ok(()) };
-        let b = model.condense(&ones).unwrap().structural_shapes(&DMatrix::identity(9, 9)).unwrap();
+        let b = model.condense(&ones).unwrap().transformation;
         for (row, share) in matrices.shares.iter().enumerate() {
             let label = model.parameters()[row].members[0];
             let at = model.structure().elements().iter().position(|element| element.label == label).unwrap();

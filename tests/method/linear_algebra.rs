@@ -5,9 +5,9 @@ use crate::common::strategies::{orthogonal, positive_definite, symmetric};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_solution, check_symmetric, cholesky, symmetric_eigen,
-    symmetric_part,
+    check_finite, check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
 };
+use corfem::sparse::check_solution;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 

@@ -74,7 +74,7 @@ fn point_mass_coupled_to_others_cannot_be_scaled() {
     mass[(6, 4)] = 0.001;
     let parameters = |dof| vec![Parameter::of("p", Scaled::PointMass, &[dof])];
     let make = |dof| {
-        let t = model.load_distribution().dense();
+        let t = model.load_distribution().clone();
         FiniteElementModel::new(model.structure().clone(), t, mass.clone(), parameters(dof))
     };
     assert!(matches!(make(6), Err(Error::CoupledMass(6))));

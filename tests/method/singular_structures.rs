@@ -6,8 +6,8 @@ use crate::common::structures::{
 };
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
 use corfem::method::error::Error;
-use corfem::method::factorization::FactorizedStiffness;
 use corfem::method::structure::{DIRECTIONS, Structure};
+use corfem::sparse::factorization::FactorizedStiffness;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

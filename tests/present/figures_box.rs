@@ -30,7 +30,7 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
             [b * z, -a * z, a * y - b * x + c][dof.direction]
         });
         let structural = DVector::from_iterator(36, motion);
-        let dynamic = model.load_distribution().dense().tr_mul(&structural);
+        let dynamic = model.load_distribution().clone().tr_mul(&structural);
         assert_eq!((dynamic.len(), subject.sensors.len()), (9, 9));
         for (moved, sensor) in dynamic.iter().zip(&subject.sensors) {
             let point = sensor.place.expect("a place");

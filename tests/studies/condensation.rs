@@ -9,10 +9,11 @@ use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::studies::preflight::coarse_condensation;
-use corfem::studies::whole_model::{
+use corfem::sparse::LargeModel;
+use corfem::sparse::{
     FINITE, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel, WholeParameter, WholeShare,
 };
+use corfem::studies::preflight::coarse_condensation;
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -49,7 +50,7 @@ fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
 
 /// The same without condensation, and what reads the measured joints.
 fn whole(model: &FiniteElementModel) -> (WholeModel, SparseMatrix) {
-    WholeModel::of(model).expect("a whole model")
+    WholeModel::of(&LargeModel::of(model).expect("a plan")).expect("a whole model")
 }
 
 const FIVE: [usize; 5] = [2, 4, 6, 8, 10];

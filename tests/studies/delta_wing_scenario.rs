@@ -117,7 +117,7 @@ fn load_distribution_selects_z_of_19_upper_grids() {
             11, 12, 14, 15, 16, 31, 32, 34, 35, 36, 51, 52, 54, 55, 71, 72, 74, 91, 92
         ]
     );
-    let t = &model.load_distribution().dense();
+    let t = &model.load_distribution().clone();
     assert_eq!(t.shape(), (86, 19));
     assert_eq!(t.iter().filter(|entry| **entry != 0.0).count(), 19);
     for (column, &grid) in grids.iter().enumerate() {

@@ -7,8 +7,8 @@ use corfem::closed_forms::spring_chain::spring_stiffness;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};
+use corfem::sparse::free_modes::{count_below, counted_modes};
 use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::free_modes::{count_below, counted_modes};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 

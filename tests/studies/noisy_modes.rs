@@ -13,7 +13,8 @@ use corfem::method::appendix_b::{
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::method::step::StepRule;
-use corfem::studies::noise::{Noise, split_mix_64, with_noise};
+use corfem::sparse::random::split_mix_64;
+use corfem::studies::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use std::sync::OnceLock;

@@ -10,8 +10,9 @@ use corfem::method::model::{DynamicModel, FiniteElementModel};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::sparse::random::split_mix_64;
 use corfem::studies::delta_wing::{DeltaWing, correlation};
-use corfem::studies::noise::{Noise, split_mix_64, with_noise};
+use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::{
     Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, preflight,
 };
@@ -291,7 +292,7 @@ fn columns_of_t_in_another_order_are_named() {
     let ones = [1.0; PANEL_COUNT];
     // Rear, mid, front of each rib written station by station, and two exchanged.
     for order in [[0, 3, 6, 1, 4, 7, 2, 5, 8], [0, 1, 2, 7, 4, 5, 6, 3, 8]] {
-        let t = model.load_distribution().dense().select_columns(&order);
+        let t = model.load_distribution().clone().select_columns(&order);
         let parameters = model.parameters().to_vec();
         let wrong = FiniteElementModel::new(
             model.structure().clone(),
@@ -315,7 +316,7 @@ fn columns_of_t_in_another_order_are_named() {
     // The wing's masses are made with T and take its order: to the test it is the points that have another.
     let model = correlation::first_model(&DeltaWing::embedded().unwrap()).unwrap();
     let order: Vec<usize> = (0..19).map(|place| (7 * place + 3) % 19).collect();
-    let t = model.load_distribution().dense().select_columns(&order);
+    let t = model.load_distribution().clone().select_columns(&order);
     let parameters = model.parameters().to_vec();
     let wrong = FiniteElementModel::new(
         model.structure().clone(),

@@ -6,10 +6,10 @@ use crate::studies::preflight::{case, chain, findings, wing, with_shapes};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::outer_loop::Settings;
+use corfem::sparse::CondensationError;
 use corfem::studies::preflight::{
     Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
 };
-use corfem::studies::whole_model::CondensationError;
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {

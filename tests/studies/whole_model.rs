@@ -11,15 +11,14 @@ use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{modal_assurance, pair_modes};
 use corfem::method::structure::{Element, Grid, Material, Structure};
+use corfem::sparse::LargeModel;
+use corfem::sparse::free_modes::{CountedModes, counted_modes};
+use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::GROUPS;
-use corfem::studies::free_modes::{CountedModes, counted_modes};
 use corfem::studies::noise::Noise;
 use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::studies::weighted::residuals::equal_weights;
-use corfem::studies::whole_model::{
-    SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
-};
 use nalgebra::{DMatrix, DVector};
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
@@ -115,7 +114,8 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let case = Case::new(2).expect("Case 2");
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
-    let (whole, sensors) = WholeModel::of(&model).expect("a whole model");
+    let (whole, sensors) =
+        WholeModel::of(&LargeModel::of(&model).expect("a plan")).expect("a whole model");
     let factors: Vec<f64> = (0..model.parameters().len())
         .map(|e| 0.8 + 0.03 * e as f64)
         .collect();
@@ -285,7 +285,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
         let none = DMatrix::zeros(seen.len(), seen.len());
         let model =
             FiniteElementModel::new(structure, t.clone(), none, parameters).expect("a model");
-        WholeModel::of(&model).expect("a whole model")
+        WholeModel::of(&LargeModel::of(&model).expect("a plan")).expect("a whole model")
     };
     let (real, sensors) = model_of(truth);
     let (model, _) = model_of([1.0; 3]);

@@ -4,10 +4,8 @@ use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
 use crate::common::whole_models::{chain_of_springs, masses, springs};
 use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use corfem::method::error::Error;
-use corfem::studies::free_modes::CountedModes;
-use corfem::studies::whole_model::{
-    Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes,
-};
+use corfem::sparse::free_modes::CountedModes;
+use corfem::sparse::{Factor, MOST_DENSE_ROWS, SparseMatrix, check_none_missed, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 
 /// More than are solved as dense matrices.

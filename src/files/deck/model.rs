@@ -7,7 +7,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
-use crate::studies::whole_modes::MassDof;
+use crate::sparse::whole_modes::MassDof;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
@@ -108,11 +108,7 @@ impl BulkData {
     ) -> Result<Self, FileError> {
         let structure = model.structure();
         let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
-        check_length(
-            "positions of dynamic points",
-            points.len(),
-            t.columns().len(),
-        )?;
+        check_length("positions of dynamic points", points.len(), t.ncols())?;
         let mut all = Self::of_structure(structure);
         let sizes = model
             .sizes(factors)?
@@ -137,9 +133,11 @@ impl BulkData {
                 grid: label,
                 direction: DYNAMIC_DIRECTION,
             };
-            let terms = t.columns()[column]
-                .iter()
-                .map(|&(row, factor)| (structure.free_dof()[row], factor))
+            let loads = t.column(column);
+            let terms = structure.free_dof().iter().zip(&loads);
+            let terms = terms
+                .filter(|(_, factor)| **factor != 0.0)
+                .map(|(&dof, &factor)| (dof, factor))
                 .collect();
             all.ties.push(Tie {
                 dependent,

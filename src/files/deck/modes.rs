@@ -5,10 +5,10 @@ use crate::files::error::FileError;
 use crate::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
-use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure, positive};
-use crate::studies::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};
+use crate::sparse::factorization::FactorizedStiffness;
+use crate::sparse::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};
 
 /// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
 const MOST_MEMORY: f64 = 4.0;

@@ -6,7 +6,7 @@ use crate::files::deck::decoded;
 use crate::files::error::FileError;
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
-use crate::studies::whole_model::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;

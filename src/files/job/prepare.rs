@@ -10,9 +10,9 @@ use crate::method::error::Error;
 use crate::method::model::{ModalModel, Pair};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
+use crate::sparse::{FINITE, SparseMatrix};
 use crate::studies::assignment::pair_optimally;
 use crate::studies::expansion::mass_by_modes;
-use crate::studies::whole_model::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::Path;
 use std::sync::Arc;
@@ -238,7 +238,7 @@ impl Prepared {
     /// What the loops are handed at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`crate::studies::whole_model::WholeModel::analyze`] and its condensed way.
+    /// Those of [`crate::sparse::WholeModel::analyze`] and its condensed way.
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         if let Some((compare, count, test, first)) = &self.first
             && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)

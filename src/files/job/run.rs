@@ -8,13 +8,13 @@ use crate::method::model::{ModalModel, Range};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
+use crate::sparse::{WholeParameter, WholeShare};
 use crate::studies::noise::Noise;
 use crate::studies::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
 use crate::studies::weighted::identifiability::{Identifiability, identifiability};
 use crate::studies::weighted::residuals::{DEVIATIONS, jacobian, residuals};
-use crate::studies::whole_model::{WholeParameter, WholeShare};
 
 /// How the factors were found.
 #[derive(Debug, Clone)]

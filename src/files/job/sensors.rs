@@ -3,7 +3,7 @@
 use super::{Job, ModelSource, SensorRule};
 use crate::files::error::FileError;
 use crate::files::test_data::{DIRECTIONS, Sensor, TestData};
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 

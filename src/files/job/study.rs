@@ -6,7 +6,8 @@ use crate::files::error::FileError;
 use crate::files::test_data::quoted;
 use crate::method::modes::ModeSet;
 use crate::method::verdict::Outcome;
-use crate::studies::noise::{Noise, split_mix_64, uniform, with_noise_by_mode};
+use crate::sparse::random::{split_mix_64, uniform};
+use crate::studies::noise::{Noise, with_noise_by_mode};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use super::{Found, LabeledMatrix, is_wanted};
 use crate::files::deck::{Card, cards};
 use crate::files::error::FileError;
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// A grid and its component.

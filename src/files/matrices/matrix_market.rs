@@ -1,7 +1,7 @@
 //! The exchange format of the Matrix Market (Boisvert, Pozo, Remington, NISTIR 5935, 1996).
 
 use crate::files::error::FileError;
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 use std::fmt::Write;
 
 /// Reads a matrix; entries of one place in the coordinate format add up.

@@ -10,7 +10,7 @@ pub use matrix_market::write_matrix_market;
 
 use crate::files::deck::decoded;
 use crate::files::error::FileError;
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 
 /// A matrix of a file, with what the file says of its rows and columns.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use super::{Found, LabeledMatrix, is_wanted};
 use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
-use crate::studies::whole_model::SparseMatrix;
+use crate::sparse::SparseMatrix;
 
 /// Width of the integers of headers.
 const INTEGER: usize = 8;

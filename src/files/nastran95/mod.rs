@@ -210,7 +210,7 @@ fn check_assembled(
     let free = model.structure().free_dof();
     let sizes = model.sizes(factors)?;
     let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
-    let t = model.load_distribution().dense();
+    let t = model.load_distribution().clone();
     let lumped = lumped_mass(
         model.element_matrices(),
         &model.mass_sizes(factors)?,

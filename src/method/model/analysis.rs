@@ -1,12 +1,12 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
-use super::{DynamicModel, FiniteElementModel, ModalModel, Parameter, Scaled, Share};
-use crate::method::appendix_a::{dynamic_stiffness, generalized_mass, generalized_stiffness};
+use super::{DynamicModel, FiniteElementModel, ModalModel, Share};
+use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
+use crate::method::assembly::{ElementMatrix, dense_stiffness};
 use crate::method::error::Error;
-use crate::method::factorization::FactorizedStiffness;
-use crate::method::linear_algebra::{check_shape, finite};
-use crate::method::load_distribution::LoadDistribution;
+use crate::method::linear_algebra::{finite, free_motion};
 use crate::method::modes::{ModeSet, Modes, solve};
+use crate::method::structure::{DIRECTIONS, StructuralDof};
 use nalgebra::DMatrix;
 
 /// A structure condensed to its dynamic DOF at some parameter factors.
@@ -16,115 +16,70 @@ pub struct CondensedModel {
     pub stiffness: DMatrix<f64>,
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
-    structural: FactorizedStiffness,
-    loads: LoadDistribution,
-    /// Gage or area of every element as its stiffness has it.
-    sizes: Vec<f64>,
-    /// Gage or area of every element as its mass has it.
-    mass_sizes: Vec<f64>,
-    /// Point masses, lbf·s²/in (d × d).
-    point_mass: DMatrix<f64>,
-}
-
-impl CondensedModel {
-    /// Structural deflections $V_S = B^t V = K_S^{-1} T K_D V$ (free SDOF × m) of shapes $V$ at the dynamic DOF (d × m), by m solutions
-    /// and not by all of $B^t$, which it is for the identity.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
-    pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        check_shape(
-            "mode shapes",
-            shapes,
-            self.stiffness.nrows(),
-            shapes.ncols(),
-        )?;
-        self.transposed_shapes(shapes)
-            .map(|transposed| transposed.transpose())
-    }
-
-    fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        self.structural
-            .solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
-    }
+    /// $B^t$, structural deflections for unit dynamic ones (free SDOF × d).
+    pub transformation: DMatrix<f64>,
 }
 
 impl FiniteElementModel {
     /// The structure condensed to the dynamic DOF at the given parameter factors: $K_S$ anew, with it $B$, $K_D$ and $M$.
     ///
-    /// With $s_e$ of [`Self::sizes`], $m_e$ of [`Self::mass_sizes`] and $M_{points}$ of [`Self::point_masses`]:
+    /// With $s_e$ of [`sizes`](super::ScaledStructure::sizes), $m_e$ of [`mass_sizes`](super::ScaledStructure::mass_sizes) and
+    /// $M_{points}$ of [`point_masses`](super::ScaledStructure::point_masses):
     ///
     /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e m_e B M_e B^t $$
     ///
     /// # Errors
-    /// Those of [`Self::sizes`] and [`FactorizedStiffness::new`]; [`Error::Dependent`] when a dynamic DOF is a combination of others.
+    /// [`Error::WrongShape`] and [`Error::NotPositive`] for bad factors; [`Error::SingularStiffness`] naming the grid and
+    /// direction that nothing holds; [`Error::Dependent`] when a dynamic DOF is a combination of others.
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
         let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
-        let point_mass = self.point_masses(factors)?;
-        let (elements, loads) = (&self.element_matrices, self.load_distribution.clone());
-        let structural =
-            FactorizedStiffness::planned(&self.plan, elements, &sizes, self.structure.free_dof())?;
-        let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-        let mut mass = point_mass.clone();
-        if elements
-            .iter()
-            .any(|element| element.unit_mass.amax() > 0.0)
-        {
-            let b = structural.solve_transposed(&loads.times(&stiffness))?;
-            mass += generalized_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
+        let (elements, free) = (self.element_matrices(), self.structure().free_dof());
+        let structural = dense_stiffness(elements, &sizes, free.len())?;
+        let Condensed {
+            stiffness,
+            transformation,
+        } = condense(&structural, self.load_distribution()).map_err(|error| match error {
+            Error::NotPositiveDefinite {
+                what: "structural stiffness",
+                ..
+            } => is_free(&structural, free).unwrap_or(error),
+            other => other,
+        })?;
+        let mut mass = self.point_masses(factors)?;
+        for (element, size) in elements.iter().zip(mass_sizes) {
+            mass += generalized_mass(element, size, &transformation);
         }
-        let mass = finite("dynamic mass", mass)?;
         Ok(CondensedModel {
             stiffness,
-            mass,
-            structural,
-            loads,
-            sizes,
-            mass_sizes,
-            point_mass,
+            mass: finite("dynamic mass", mass)?,
+            transformation,
         })
     }
 
-    /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m), by the rows of each element's own DOF alone:
+    /// Every parameter's share seen through shapes $V$ at the dynamic DOF (d × m):
     ///
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares<'a>(
-        &'a self,
-        condensed: &'a CondensedModel,
+    fn shares(
+        &self,
+        condensed: &CondensedModel,
+        factors: &[f64],
         shapes: &DMatrix<f64>,
     ) -> Result<Vec<Share>, Error> {
-        let transposed = condensed.transposed_shapes(shapes)?;
-        let of_parameter = |(parameter, rows): (&Parameter, &'a Vec<usize>)| {
-            let members = |sizes: &'a [f64]| {
-                rows.iter()
-                    .map(|&row| (&self.element_matrices[row], sizes[row]))
-            };
-            match parameter.scaled {
-                Scaled::Stiffness => Share::Stiffness(generalized_stiffness(
-                    &transposed,
-                    members(&condensed.sizes),
-                )),
-                Scaled::ElementMass => Share::Mass(generalized_mass(
-                    &transposed,
-                    members(&condensed.mass_sizes),
-                )),
-                // A parameter has at least one member.
-                Scaled::PointMass => {
-                    let of = |&row: &usize| {
-                        condensed.point_mass[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row))
-                    };
-                    Share::Mass(rows.iter().map(of).sum())
-                }
-            }
+        let structural = &condensed.transformation * shapes;
+        let sum = |members: &[(&ElementMatrix, f64)], share: GeneralizedShare| {
+            members
+                .iter()
+                .map(|(element, size)| share(element, *size, &structural))
+                .sum()
         };
-        Ok(self
-            .parameters
-            .iter()
-            .zip(&self.rows)
-            .map(of_parameter)
-            .collect())
+        self.shares_of(
+            factors,
+            shapes,
+            |members| sum(members, generalized_stiffness),
+            |members| sum(members, generalized_mass),
+        )
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: what the loops are handed.
@@ -157,23 +112,13 @@ impl FiniteElementModel {
         analysis_modes: Option<usize>,
     ) -> Result<ModalModel, Error> {
         let condensed = self.condense(factors)?;
-        let through = |shapes: &DMatrix<f64>| self.shares(&condensed, shapes);
-        let mut model = ModalModel::new(
-            &condensed.stiffness,
-            &condensed.mass,
-            test,
-            analysis_modes,
-            through,
-        )?;
-        for ((size, parameter), rows) in
-            model.sizes.iter_mut().zip(&self.parameters).zip(&self.rows)
-        {
-            if parameter.scaled == Scaled::Stiffness {
-                *size =
-                    rows.iter().map(|&row| condensed.sizes[row]).sum::<f64>() / rows.len() as f64;
-            }
-        }
-        Ok(model)
+        let CondensedModel {
+            stiffness, mass, ..
+        } = &condensed;
+        let model = ModalModel::new(stiffness, mass, test, analysis_modes, |shapes| {
+            self.shares(&condensed, factors, shapes)
+        })?;
+        Ok(model.with_sizes(self.mean_sizes(factors)?))
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d), for those who look at whole matrices.
@@ -182,8 +127,8 @@ impl FiniteElementModel {
     /// Those of [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
         let condensed = self.condense(factors)?;
-        let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
-        let shares = self.shares(&condensed, &identity)?;
+        let identity = DMatrix::identity(self.mass().nrows(), self.mass().nrows());
+        let shares = self.shares(&condensed, factors, &identity)?;
         Ok(DynamicModel {
             stiffness: condensed.stiffness,
             mass: condensed.mass,
@@ -196,11 +141,23 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`Self::condense`] and [`solve`].
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
-        let condensed = self.condense(factors)?;
-        solve(
-            &condensed.stiffness,
-            &condensed.mass,
-            condensed.mass.nrows(),
-        )
+        let CondensedModel {
+            stiffness, mass, ..
+        } = self.condense(factors)?;
+        solve(&stiffness, &mass, mass.nrows())
     }
+}
+
+/// An element's share seen through shapes at the structural DOF.
+type GeneralizedShare = fn(&ElementMatrix, f64, &DMatrix<f64>) -> DMatrix<f64>;
+
+/// The error that names what moves most in the motion that a stiffness does not resist, if there is one.
+fn is_free(stiffness: &DMatrix<f64>, free: &[StructuralDof]) -> Option<Error> {
+    let (dof, ratio) = free_motion(stiffness)?;
+    let StructuralDof { grid, direction } = free[dof];
+    Some(Error::SingularStiffness {
+        grid,
+        direction: DIRECTIONS[direction],
+        ratio,
+    })
 }

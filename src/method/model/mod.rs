@@ -12,22 +12,32 @@ pub use parameters::{Parameter, Range, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
-use crate::method::factorization::FactorizationPlan;
 use crate::method::linear_algebra::{
-    check_length, check_shape, check_symmetric, cholesky, finite_list,
+    check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list,
 };
-use crate::method::load_distribution::LoadDistribution;
+use crate::method::step::REFERENCE_GAGE;
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
 use parameters::member_rows;
-use std::sync::Arc;
+use std::ops::Deref;
 
-/// A structure with its dynamic degrees of freedom, mass, and parameters.
+/// A structure, the mass of its dynamic points, and what may change of both.
 ///
 /// A stiffness parameter scales stiffness alone. An element keeps the mass of its first size, times the factor of a mass
 /// parameter if there is one: in the paper, too, the mass is known and never changes. A gage that a correlation finds is
 /// therefore a statement about stiffness and does not make the element heavier. [`Self::sizes`], [`Self::mass_sizes`] and
 /// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
+#[derive(Debug, Clone)]
+pub struct ScaledStructure {
+    structure: Structure,
+    element_matrices: Vec<ElementMatrix>,
+    mass: DMatrix<f64>,
+    parameters: Vec<Parameter>,
+    /// Rows of every parameter's members among the elements or the dynamic DOF.
+    rows: Vec<Vec<usize>>,
+}
+
+/// A [`ScaledStructure`] with its load distribution $T$ (A.3): what an analysis needs.
 ///
 /// # Example
 ///
@@ -65,14 +75,16 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
-    structure: Structure,
-    element_matrices: Vec<ElementMatrix>,
-    plan: Arc<FactorizationPlan>,
-    load_distribution: LoadDistribution,
-    mass: DMatrix<f64>,
-    parameters: Vec<Parameter>,
-    /// Rows of every parameter's members among the elements or the dynamic DOF.
-    rows: Vec<Vec<usize>>,
+    scaled: ScaledStructure,
+    load_distribution: DMatrix<f64>,
+}
+
+impl Deref for FiniteElementModel {
+    type Target = ScaledStructure;
+
+    fn deref(&self) -> &ScaledStructure {
+        &self.scaled
+    }
 }
 
 impl FiniteElementModel {
@@ -82,46 +94,59 @@ impl FiniteElementModel {
     /// with a density add to it.
     ///
     /// # Errors
-    /// Those of [`LoadDistribution::of`] and [`cholesky`] for the matrices, and of the elements' geometry; [`Error::Empty`],
-    /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
+    /// [`Error::WrongShape`] and [`Error::NotFinite`] for $T$; those of [`ScaledStructure::new`].
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
         mass: DMatrix<f64>,
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
-        let free = structure.free_dof().len();
-        check_shape(
-            "load distribution",
-            &load_distribution,
-            free,
-            load_distribution.ncols(),
-        )?;
-        Self::with_loads(
-            structure,
-            LoadDistribution::of(&load_distribution)?,
-            mass,
-            parameters,
-        )
+        let (free, dynamic) = (structure.free_dof().len(), load_distribution.ncols());
+        check_shape("load distribution", &load_distribution, free, dynamic)?;
+        check_finite("load distribution", &load_distribution)?;
+        check_shape("dynamic mass", &mass, dynamic, dynamic)?;
+        let scaled = ScaledStructure::new(structure, mass, parameters)?;
+        Ok(Self {
+            scaled,
+            load_distribution,
+        })
     }
 
-    /// The same from the coefficients of $T$ alone, for structures of any size.
+    /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
+    /// element's free DOF, lbf/in, in the structure's order.
     ///
     /// # Errors
-    /// Those of [`Self::new`].
-    pub fn with_loads(
+    /// Those of [`check_length`] for their number, of [`check_shape`] and [`check_symmetric`] for each.
+    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
+        check_length("element matrices", units.len(), self.element_matrices.len())?;
+        let mut model = self.clone();
+        for (element, unit) in model.scaled.element_matrices.iter_mut().zip(units) {
+            let dof_count = element.dof.len();
+            check_shape("element stiffness", &unit, dof_count, dof_count)?;
+            check_symmetric("element stiffness", &unit)?;
+            element.unit = unit;
+        }
+        Ok(model)
+    }
+
+    /// The load distribution $T$ (free SDOF × d).
+    pub fn load_distribution(&self) -> &DMatrix<f64> {
+        &self.load_distribution
+    }
+}
+
+impl ScaledStructure {
+    /// A structure with the mass of its dynamic points (d × d, lbf·s²/in) and parameters; forms every unit element matrix, once.
+    ///
+    /// # Errors
+    /// Those of [`check_symmetric`] and, without elements that have mass, [`cholesky`] for the mass; those of the elements'
+    /// geometry; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
+    pub fn new(
         structure: Structure,
-        load_distribution: LoadDistribution,
         mass: DMatrix<f64>,
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
-        let dof_count = load_distribution.columns().len();
-        check_length(
-            "load distribution",
-            load_distribution.rows(),
-            structure.free_dof().len(),
-        )?;
-        check_shape("dynamic mass", &mass, dof_count, dof_count)?;
+        let dof_count = mass.nrows();
         check_symmetric("dynamic mass", &mass)?;
         if structure
             .elements()
@@ -143,33 +168,13 @@ impl FiniteElementModel {
             }
         }
         let element_matrices = element_matrices(&structure)?;
-        let plan = Arc::new(FactorizationPlan::new(&structure, &element_matrices)?);
         Ok(Self {
             structure,
             element_matrices,
-            plan,
-            load_distribution,
             mass,
             parameters,
             rows,
         })
-    }
-
-    /// The same model with element matrices of another origin, such as another program's: stiffness for unit size at each
-    /// element's free DOF, lbf/in, in the structure's order.
-    ///
-    /// # Errors
-    /// Those of [`check_length`] for their number, of [`check_shape`] and [`check_symmetric`] for each.
-    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
-        check_length("element matrices", units.len(), self.element_matrices.len())?;
-        let mut model = self.clone();
-        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
-            let dof_count = element.dof.len();
-            check_shape("element stiffness", &unit, dof_count, dof_count)?;
-            check_symmetric("element stiffness", &unit)?;
-            element.unit = unit;
-        }
-        Ok(model)
     }
 
     /// The structure with its first sizes.
@@ -180,11 +185,6 @@ impl FiniteElementModel {
     /// Unit matrices of the elements at the free DOF.
     pub fn element_matrices(&self) -> &[ElementMatrix] {
         &self.element_matrices
-    }
-
-    /// The load distribution $T$ (free SDOF × d).
-    pub fn load_distribution(&self) -> &LoadDistribution {
-        &self.load_distribution
     }
 
     /// The dynamic mass $M$, lbf·s²/in (d × d).
@@ -292,5 +292,50 @@ impl FiniteElementModel {
             }
         }
         finite_list("scaled sizes or masses", values)
+    }
+
+    /// Mean gage or area of every stiffness parameter's elements at the given factors; [`REFERENCE_GAGE`] for other parameters.
+    pub(crate) fn mean_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        let sizes = self.sizes(factors)?;
+        let mean = |(parameter, rows): (&Parameter, &Vec<usize>)| match parameter.scaled {
+            Scaled::Stiffness => {
+                rows.iter().map(|&row| sizes[row]).sum::<f64>() / rows.len() as f64
+            }
+            Scaled::ElementMass | Scaled::PointMass => REFERENCE_GAGE,
+        };
+        Ok(self.parameters.iter().zip(&self.rows).map(mean).collect())
+    }
+
+    /// Every parameter's share seen through shapes at the dynamic DOF (d × m), from what `stiffness` and `mass` make of elements
+    /// with their sizes; of point masses from their rows of the shapes.
+    pub(crate) fn shares_of(
+        &self,
+        factors: &[f64],
+        shapes: &DMatrix<f64>,
+        stiffness: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
+        mass: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
+    ) -> Result<Vec<Share>, Error> {
+        let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
+        let points = self.point_masses(factors)?;
+        let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
+            let members = |sizes: &[f64]| -> Vec<(&ElementMatrix, f64)> {
+                rows.iter()
+                    .map(|&row| (&self.element_matrices[row], sizes[row]))
+                    .collect()
+            };
+            let point =
+                |&row: &usize| points[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
+            match parameter.scaled {
+                Scaled::Stiffness => Share::Stiffness(stiffness(&members(&sizes))),
+                Scaled::ElementMass => Share::Mass(mass(&members(&mass_sizes))),
+                Scaled::PointMass => Share::Mass(rows.iter().map(point).sum()),
+            }
+        };
+        Ok(self
+            .parameters
+            .iter()
+            .zip(&self.rows)
+            .map(of_parameter)
+            .collect())
     }
 }

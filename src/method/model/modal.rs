@@ -259,6 +259,11 @@ impl ModalModel {
         Ok(self)
     }
 
+    /// The same model with the mean gage or area of every parameter's elements.
+    pub(crate) fn with_sizes(self, sizes: Vec<f64>) -> Self {
+        Self { sizes, ..self }
+    }
+
     /// How far paired modes are from the test modes, with the weights.
     pub(crate) fn errors_of(&self, modes: &ModeSet, pairing: &Pairing) -> Result<Errors, Error> {
         weighted_errors(modes, pairing, &self.test, &self.weights)

@@ -3,7 +3,7 @@
 use crate::files::deck::{Deck, Reason, Unread};
 use crate::method::structure::DIRECTIONS;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
-use crate::studies::whole_modes::WholeModes;
+use crate::sparse::whole_modes::WholeModes;
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.
 const MODES_PER_TABLE: usize = 9;

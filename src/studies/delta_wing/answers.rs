@@ -5,9 +5,9 @@ use crate::cases::error::CaseError;
 use crate::cases::published::PublishedTable;
 use crate::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
 use crate::method::error::Error;
-use crate::method::factorization::FactorizedStiffness;
 use crate::method::structure::Structure;
-use crate::studies::whole_modes::{MassDof, WholeModes, whole_modes};
+use crate::sparse::factorization::FactorizedStiffness;
+use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.

@@ -17,13 +17,13 @@ use crate::cases::BUILT_IN;
 use crate::method::error::Error;
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::load_distribution::LoadDistribution;
 use crate::method::model::{FiniteElementModel, ModalModel, Parameter};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, Settings, correlate};
 use crate::method::state::UpdateRule;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::{Element, Material, Structure};
+use crate::sparse::load_distribution::LoadDistribution;
 use nalgebra::DMatrix;
 
 /// Elements that are scaled together.
@@ -146,7 +146,7 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
         .iter()
         .map(|g| Parameter::group(g.name, g.elements))
         .collect();
-    FiniteElementModel::with_loads(structure, loads, mass, parameters)
+    FiniteElementModel::new(structure, loads.dense(), mass, parameters)
 }
 
 /// The test modes at the measured grids.

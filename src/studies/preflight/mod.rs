@@ -24,9 +24,7 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use crate::studies::whole_model::{
-    CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel,
-};
+use crate::sparse::{CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{Look, changed, mend, paired_values, reordered};

@@ -6,7 +6,7 @@ use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
-use crate::studies::noise::uniform;
+use crate::sparse::random::uniform;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 

@@ -7,11 +7,12 @@ use corfem::method::appendix_b::{
 };
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_solution, check_symmetric, cholesky,
-    symmetric_eigen, symmetric_part,
+    check_finite, check_length, check_shape, check_symmetric, cholesky, symmetric_eigen,
+    symmetric_part,
 };
 use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
 use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes, paired};
+use corfem::sparse::check_solution;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 pub const MATRICES: &[Entry] = &[

@@ -8,12 +8,12 @@ use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::panel::mean_plane;
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
 use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
-use corfem::method::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::method::load_distribution::LoadDistribution;
 use corfem::method::model::{FiniteElementModel, Range};
 use corfem::method::structure::{ElementKind, Material, Structure};
-use corfem::studies::whole_model::WholeModel;
-use nalgebra::DMatrix;
+use corfem::sparse::LargeModel;
+use corfem::sparse::WholeModel;
+use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::load_distribution::LoadDistribution;
 use std::sync::Arc;
 
 pub const STRUCTURES: &[Entry] = &[
@@ -195,7 +195,7 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("appendix_a::condense", |d| {
         let (elements, sizes, free) = d.elements()?;
-        let structural = FactorizedStiffness::new(&elements, &sizes, &free)?;
+        let structural = dense_stiffness(&elements, &sizes, free.len())?;
         let load_distribution = d.load_distribution(free.len());
         let found = appendix_a::condense(&structural, &load_distribution)?;
         Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
@@ -207,16 +207,16 @@ pub const STRUCTURES: &[Entry] = &[
         FiniteElementModel::new(structure, load_distribution, mass, d.parameters())
             .map(|_| Vec::new())
     }),
-    ("FiniteElementModel::with_loads", |d| {
+    ("LargeModel::new", |d| {
         let structure = d.structure()?;
         let loads = LoadDistribution::of(&d.load_distribution(structure.free_dof().len()))?;
         let mass = d.symmetric(loads.columns().len());
-        FiniteElementModel::with_loads(structure, loads, mass, d.parameters()).map(|_| Vec::new())
+        LargeModel::new(structure, loads, mass, d.parameters()).map(|_| Vec::new())
     }),
-    ("CondensedModel::structural_shapes", |d| {
+    ("LargeCondensation::structural_shapes", |d| {
         let (model, factors) = d.finite_element()?;
         let (rows, columns) = (d.about(model.mass().nrows()), d.size());
-        model
+        LargeModel::of(&model)?
             .condense(&factors)?
             .structural_shapes(&d.matrix(rows, columns))
             .map(|found| entries(&found))
@@ -263,8 +263,7 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::condense", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.condense(&factors)?;
-        let shapes =
-            found.structural_shapes(&DMatrix::identity(found.mass.nrows(), found.mass.nrows()))?;
+        let shapes = found.transformation;
         Ok([
             entries(&found.stiffness),
             entries(&found.mass),
@@ -296,14 +295,14 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("WholeModel::seen_modes", |d| {
         let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&model)?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
         whole
             .seen_modes(&factors, &sensors, d.size())
             .map(|found| modes(&found))
     }),
     ("WholeModel::condensation_errors", |d| {
         let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&model)?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
         let found = whole.condensation_errors(&factors, &sensors, d.size())?;
         Ok(found
             .iter()
@@ -312,7 +311,7 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("WholeModel::limits_allowing_for_condensation", |d| {
         let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&model)?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
         let limits = MovementLimits::default();
         let found =
             whole.limits_allowing_for_condensation(&factors, &sensors, d.size(), &limits)?;

@@ -4,8 +4,8 @@ use super::{Factor, SparseMatrix};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::{ModeSet, check_count};
-use crate::studies::free_modes::{CountedModes, counted_modes};
-use crate::studies::noise::split_mix_64;
+use crate::sparse::free_modes::{CountedModes, counted_modes};
+use crate::sparse::random::split_mix_64;
 use nalgebra::{DMatrix, DVector};
 
 /// Most rows of a pencil that is solved as dense matrices.

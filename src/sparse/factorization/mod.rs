@@ -7,12 +7,10 @@ pub use plan::FactorizationPlan;
 
 use crate::method::assembly::{ElementMatrix, check_elements, dense_stiffness};
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{
-    add_squares, check_finite, check_length, check_shape, check_solution, cholesky, finite,
-    start_vector,
-};
-use crate::method::load_distribution::LoadDistribution;
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, cholesky, finite};
 use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
+use crate::sparse::load_distribution::LoadDistribution;
+use crate::sparse::{add_squares, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -65,7 +63,7 @@ impl FactorizedStiffness {
     /// use corfem::closed_forms::spring_chain::rods;
     /// use corfem::method::assembly::element_matrices;
     /// use corfem::method::error::Error;
-    /// use corfem::method::factorization::FactorizedStiffness;
+    /// use corfem::sparse::factorization::FactorizedStiffness;
     ///
     /// // Held nowhere, the chain can move along x.
     /// let free = rods(&[100.0, 50.0], [false, false])?;

@@ -1,14 +1,15 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
+use super::sum_of_stiffness;
 use super::{Factor, SparseMatrix, lowest_modes};
-use crate::method::appendix_a::{Condensed, dynamic_stiffness, generalized_stiffness};
+use crate::method::appendix_a::{Condensed, dynamic_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
 use crate::method::model::{ModalModel, Pair, Range, Share};
 use crate::method::modes::{ModeSet, Modes};
 use crate::method::structure::positive;
-use crate::studies::free_modes::CountedModes;
+use crate::sparse::free_modes::CountedModes;
 use nalgebra::DMatrix;
 
 /// What one parameter holds of the whole model's matrices.
@@ -242,7 +243,7 @@ impl WholeModel {
                     let present = members
                         .iter()
                         .map(|(element, size)| (element, factor * size));
-                    Share::Stiffness(generalized_stiffness(&transposed, present))
+                    Share::Stiffness(sum_of_stiffness(&transposed, present))
                 }
                 WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&transposed)?),
             })

@@ -1,9 +1,10 @@
 //! Whole models made of elements.
 
+use super::LargeModel;
 use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::method::assembly::{ElementMatrix, stiffness_entries};
 use crate::method::error::Error;
-use crate::method::model::{FiniteElementModel, Scaled};
+use crate::method::model::Scaled;
 
 /// The entries (row, column, value) of an element's lumped mass for its size.
 pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
@@ -32,11 +33,11 @@ impl WholeModel {
     ///
     /// $$ K = \sum_e s_e K_e, \qquad M = T M_{points} T^t + \sum_e s_e M_e . $$
     ///
-    /// It may hang free. Point masses of parameters are those of the model's own law ([`FiniteElementModel`]).
+    /// It may hang free. Point masses of parameters are those of the model's own law ([`crate::method::model::ScaledStructure`]).
     ///
     /// # Errors
-    /// Those of [`FiniteElementModel::factor_ranges`] and [`WholeModel::new`].
-    pub fn of(model: &FiniteElementModel) -> Result<(Self, SparseMatrix), Error> {
+    /// Those of [`LargeModel::factor_ranges`] and [`WholeModel::new`].
+    pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
         let (elements, structure, t) = (
             model.element_matrices(),
             model.structure(),

@@ -2,8 +2,8 @@
 
 use crate::method::assembly::{ElementMatrix, check_elements};
 use crate::method::error::Error;
-use crate::method::ordering::Mesh;
 use crate::method::structure::{StructuralDof, Structure};
+use crate::sparse::ordering::Mesh;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;

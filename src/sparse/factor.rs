@@ -2,8 +2,9 @@
 
 use super::SparseMatrix;
 use crate::method::error::Error;
-use crate::method::factorization::FactorizationPlan;
-use crate::method::linear_algebra::{check_length, check_shape, check_solution, start_vector};
+use crate::method::linear_algebra::{check_length, check_shape};
+use crate::sparse::factorization::FactorizationPlan;
+use crate::sparse::{check_solution, start_vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
 use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholeskyRaw};

@@ -1,11 +1,11 @@
 //! Modes of a structure at every degree of freedom that has mass, also where the mass matrix is singular.
 
 use crate::method::error::Error;
-use crate::method::factorization::FactorizedStiffness;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
-use crate::studies::free_modes::{CountedModes, counted_modes};
+use crate::sparse::factorization::FactorizedStiffness;
+use crate::sparse::free_modes::{CountedModes, counted_modes};
 use nalgebra::{DMatrix, DVector};
 
 /// Eigenvalue of the weighted flexibility relative to the largest below which a frequency counts as infinite: far above

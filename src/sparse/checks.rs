@@ -1,0 +1,64 @@
+//! Small pieces that several parts of the room share.
+
+use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::{DMatrix, DVector};
+
+/// Checks a factorization of a symmetric matrix $A$ by a probe $x$: that it solves $A y = A x$ to
+///
+/// $$ \lVert A y - A x \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
+///
+/// which is the round-off of a stable solver with room for its constant, where $A$ (n × n) has unit diagonal and some tens of
+/// entries in a row. `product` is $A x$ and `solve` $A^{-1} b$.
+///
+/// # Errors
+/// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
+pub fn check_solution(
+    what: &'static str,
+    product: impl Fn(&DVector<f64>) -> DVector<f64>,
+    solve: impl Fn(&DVector<f64>) -> DVector<f64>,
+    probe: &DVector<f64>,
+) -> Result<(), Error> {
+    let loads = product(probe);
+    let found = solve(&loads);
+    check_length(what, found.len(), probe.len())?;
+    let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
+    let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
+    let (residual, allowed) = (residual / size, allowed / size);
+    if residual <= allowed {
+        Ok(())
+    } else {
+        Err(Error::WrongSolution {
+            what,
+            residual,
+            allowed,
+        })
+    }
+}
+
+/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
+pub(crate) fn start_vector(size: usize) -> DVector<f64> {
+    let golden = 0.618_033_988_749_894_8;
+    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
+}
+
+/// Adds the lower triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
+pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
+    let count = sum.nrows();
+    let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
+    let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
+    let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+    matmul(
+        sum,
+        lower,
+        Accum::Add,
+        columns,
+        full,
+        columns.transpose(),
+        full,
+        1.0,
+        Par::Seq,
+    );
+}

@@ -1,0 +1,28 @@
+//! The method's analysis at any size: compressed matrices, an ordering, a factorization with its inertia, and counted modes.
+//!
+//! [`crate::method`] says what is computed; here it is computed fast. Each fast form equals the plain one by a property of the
+//! specification.
+
+mod checks;
+mod condensation;
+mod condensation_error;
+pub(crate) mod elements;
+mod factor;
+pub mod factorization;
+pub mod free_modes;
+pub mod load_distribution;
+mod lowest_modes;
+mod matrix;
+mod ordering;
+pub mod random;
+pub mod whole_modes;
+mod whole_model;
+
+pub use checks::check_solution;
+pub(crate) use checks::{add_squares, start_vector};
+pub use condensation::{LargeCondensation, LargeModel, sum_of_mass, sum_of_stiffness};
+pub use condensation_error::{CondensationError, LARGEST_CONDENSATION_ERROR};
+pub use factor::Factor;
+pub use lowest_modes::{FINITE, MOST_DENSE_ROWS, check_none_missed, lowest_modes};
+pub use matrix::SparseMatrix;
+pub use whole_model::{WholeModel, WholeParameter, WholeShare};
