@@ -1,8 +1,8 @@
 //! Chains with known spectra, and how far modes solved in blocks are from the exact ones.
 
 use super::appendix_c::{ascending, three_mass_chain};
+use crate::common::blocks::{CloseRootsSettings, SolvedInBlocks, close_roots};
 use corfem::method::appendix_c::Perturbed;
-use corfem::method::appendix_c::close_roots::{CloseRootsSettings, SolvedInBlocks, close_roots};
 use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, dvector};

@@ -2,6 +2,7 @@
 
 pub mod appendix_c;
 pub mod boxes;
+pub mod blocks;
 pub mod close_roots;
 pub mod complex_pencils;
 pub mod counting_allocator;

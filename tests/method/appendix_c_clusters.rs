@@ -3,12 +3,12 @@
 use crate::common::appendix_c::{
     Clustered, change_of, clustered, four_modes, separate_change, separate_spectrum,
 };
+use crate::common::blocks::{CloseRootsSettings, close_roots};
 use crate::common::close_roots::{
     changed, repeated_chain, residual, root_error, solved, spring_change,
 };
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::{LARGEST_UNSETTLED_CHANGE, normalize_with_mass};
 use corfem::method::error::Error;

@@ -16,13 +16,13 @@
 //! by slopes.
 
 use crate::common::appendix_c::of_stiffness;
+use crate::common::blocks::{CloseRootsSettings, close_roots};
 use crate::common::rational_rows::Change;
 use crate::common::rational_series::{Found, IntegerPencil, Series};
 use crate::common::tolerances::{RATIONAL_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::appendix_c::{
-    CloseRootsSettings, Perturbed, close_roots, eigensolution, first_order, recursive_1,
-    recursive_1_converged,
+    Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged,
 };
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;

@@ -50,7 +50,6 @@ pub mod appendix_c_two_dof;
 
 pub mod appendix_c_close_roots;
 
-pub mod appendix_c_close_roots_errors;
 pub mod appendix_c_clusters;
 pub mod appendix_c_complex;
 pub mod appendix_c_general;

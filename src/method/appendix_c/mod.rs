@@ -11,14 +11,11 @@
 //!
 //! - [`recursive`]: first order and Recursive 1 for a change of stiffness alone;
 //! - [`general`]: all of it, Recursive 2 and the formulae of 1947 too, with changes of mass, complex and unsymmetric pencils;
-//! - [`close_roots`](mod@close_roots): modes so close that the recursions diverge, in blocks;
 //! - [`eigensolution`]: exactly, which is what the others approach.
 
-pub mod close_roots;
 pub mod general;
 pub mod recursive;
 
-pub use close_roots::{CloseRootsSettings, close_roots};
 pub use recursive::{first_order, recursive_1, recursive_1_converged};
 
 use crate::method::error::Error;

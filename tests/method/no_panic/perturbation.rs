@@ -1,7 +1,6 @@
 //! Appendix C.
 
 use super::{Answer, Entry, entries};
-use corfem::method::appendix_c::close_roots::{CloseRootsSettings, close_roots};
 use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
 use corfem::method::appendix_c::general::{self, ModalChange, complex_modes};
 use corfem::method::appendix_c::{
@@ -52,10 +51,6 @@ pub const PERTURBATION: &[Entry] = &[
     }),
     ("appendix_c::eigensolution", |d| {
         perturbed(eigensolution(&d.change()))
-    }),
-    ("close_roots::close_roots", |d| {
-        let settings = CloseRootsSettings::default();
-        close_roots(&d.change(), settings).map(|_| Vec::new())
     }),
     ("complex_modes::solve", |d| {
         let size = d.size();

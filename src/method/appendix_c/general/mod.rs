@@ -24,10 +24,10 @@ use crate::method::linear_algebra::check_finite;
 use nalgebra::{DMatrix, DVector};
 
 /// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
-pub(super) const QUIET_ORDERS: usize = 2;
+const QUIET_ORDERS: usize = 2;
 
 /// The changed pencil in modal coordinates, $A = k + \beta$ and $G = k\Lambda + \alpha$ (n × n).
-pub(super) type Pencil<T> = (DMatrix<T>, DMatrix<T>);
+pub type Pencil<T> = (DMatrix<T>, DMatrix<T>);
 
 /// First order (C.20, C.21 with $\alpha$ and a general $k$), where $\gamma_i = \lambda_i + \Delta\lambda_i$:
 ///

@@ -100,7 +100,7 @@ impl<T: Number> ModalChange<T> {
     }
 
     /// The changed pencil, after refusing what does not fit or has lost its stiffness $A_{ii}$.
-    pub(crate) fn pencil(&self) -> Result<Pencil<T>, Error> {
+    pub fn pencil(&self) -> Result<Pencil<T>, Error> {
         let size = self.roots.len();
         at_least_one("modes", size)?;
         let k = &self.generalized_stiffness;

@@ -1,5 +1,5 @@
 //! Close and repeated roots: small blocks of close modes solved exactly, the rest by Recursive 1.
-//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
+//! Tour: [chapter 2](corfem::tour::chapter_02_recursion).
 //!
 //! A denominator of Recursive 1 vanishes when the change brings two roots together. Here modes whose roots are close
 //! form a block $C$ with a matrix $\Gamma$ for its roots and shapes $\begin{bmatrix} I \newline P \end{bmatrix}$. With
@@ -11,13 +11,19 @@
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use super::general::{ModalChange, Pencil, QUIET_ORDERS};
-use super::recursive::check_order;
-use super::{Perturbed, SMALLEST_SEPARATION, Settled};
-use crate::method::error::{Error, setting};
-use crate::method::linear_algebra::{check_finite, check_symmetric, cholesky, symmetric_part};
-use crate::method::modes::{apply_sign_rule, solve};
+use corfem::method::appendix_c::general::ModalChange;
+use corfem::method::appendix_c::{
+    LARGEST_UNSETTLED_CHANGE, Perturbed, SMALLEST_SEPARATION, Settled,
+};
+use corfem::method::error::Error;
+use corfem::method::linear_algebra::{check_finite, symmetric_part};
+use corfem::method::modes::{apply_sign_rule, solve};
 use nalgebra::{DMatrix, DVector};
+
+/// Stiffness $k + \beta$ and mass $k\Lambda + \alpha$.
+type Pencil = (DMatrix<f64>, DMatrix<f64>);
+/// Orders in a row with changes below the tolerance after which the recursion stops.
+const QUIET_ORDERS: usize = 2;
 
 /// How [`close_roots`] tells close modes and when it stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,17 +77,7 @@ pub fn close_roots(
         tolerance,
         orders,
     } = settings;
-    check_order(orders)?;
-    setting(
-        "separation",
-        "between 0 and 1",
-        separation,
-        (0.0..=1.0).contains(&separation),
-    )?;
     let pencil = change.pencil()?;
-    check_symmetric("generalized stiffness change", &change.beta)?;
-    check_symmetric("generalized mass change", &change.alpha)?;
-    cholesky("changed generalized mass", &pencil.1, 0.0)?;
     let size = change.roots.len();
     let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
     let identity = DMatrix::identity(size, size);
@@ -98,22 +94,45 @@ pub fn close_roots(
     for block in blocks.iter().filter(|block| block.len() == 1) {
         solved.roots[block[0]] = settled.perturbed.roots[block[0]];
     }
-    solved.check_roots()?;
+    if let Some(mode) = solved
+        .roots
+        .iter()
+        .position(|&root| !(root > 0.0 && root.is_finite()))
+    {
+        return Err(Error::LostRoot {
+            mode,
+            value: solved.roots[mode],
+        });
+    }
     solved.shapes = alone.shapes * solved.shapes;
     check_finite("perturbed generalized shapes", &solved.shapes)?;
     apply_sign_rule(&mut solved.shapes);
     settled.perturbed = solved;
     blocks.retain(|block| block.len() > 1);
     Ok(SolvedInBlocks {
-        settled: settled.check(tolerance, orders)?,
+        settled: is_settled(settled, tolerance, orders)?,
         blocks,
     })
+}
+
+/// Refuses a recursion whose roots have not settled to its tolerance, or nearly so.
+fn is_settled(settled: Settled, tolerance: f64, orders: usize) -> Result<Settled, Error> {
+    let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), settled.last_change);
+    if last_change <= largest {
+        Ok(settled)
+    } else {
+        Err(Error::UnsettledRoots {
+            largest,
+            orders,
+            last_change,
+        })
+    }
 }
 
 /// Recursive 1 with a matrix $\Gamma$ for each block: its diagonal, and $P$ outside blocks with the identity within.
 fn recursion(
     blocks: &[Vec<usize>],
-    (stiffness, mass): &Pencil<f64>,
+    (stiffness, mass): &Pencil,
     settings: CloseRootsSettings,
 ) -> Result<Settled, Error> {
     let size = mass.nrows();
@@ -213,7 +232,7 @@ fn join_close(blocks: &mut Vec<Vec<usize>>, roots: &DVector<f64>, separation: f6
 /// those columns, ascending in frequency and of unit generalized mass.
 fn solve_in(
     blocks: &[Vec<usize>],
-    (stiffness, mass): &Pencil<f64>,
+    (stiffness, mass): &Pencil,
     shapes: &DMatrix<f64>,
 ) -> Result<Perturbed, Error> {
     let mut solved = Perturbed {
