@@ -15,7 +15,7 @@ fn modes() -> DMatrix<f64> {
         .expect("a chain")
         .lowest(3)
         .expect("modes")
-        .shapes
+        .shapes()
         .clone()
 }
 

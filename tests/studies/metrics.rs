@@ -107,7 +107,8 @@ fn with_the_whole_mass_pseudo_orthogonality_of_modes_is_cross_orthogonality() {
     let mass = DMatrix::from_diagonal_element(6, 6, 0.01);
     let few = modes.lowest(3).expect("modes");
     let cross = cross_orthogonality(&modes, &few, &mass).expect("it fits");
-    let pseudo = pseudo_orthogonality(&(2.5 * &modes.shapes), &few.shapes, &mass).expect("it fits");
+    let pseudo =
+        pseudo_orthogonality(&(2.5 * modes.shapes()), few.shapes(), &mass).expect("it fits");
     assert!((pseudo - cross).amax() < MATRIX_ROUND_OFF);
 }
 
@@ -126,11 +127,11 @@ fn shapes_whose_squares_leave_the_range_of_numbers_are_compared_all_the_same() {
 #[test]
 fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     let modes = uniform_held_modes(6, 1000.0, 0.01).expect("a chain");
-    let mut test = modes.shapes.columns(0, 4).into_owned();
+    let mut test = modes.shapes().columns(0, 4).into_owned();
     // Two cables exchanged.
     test.swap_rows(0, 3);
     let pairs = [Some(0), Some(1), Some(2), Some(3)];
-    let comac = coordinate_assurance(&modes.shapes, &test, &pairs).expect("pairs");
+    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).expect("pairs");
     let mut order: Vec<usize> = (0..6).collect();
     order.sort_by(|a, b| comac[*a].total_cmp(&comac[*b]));
     order.truncate(2);
