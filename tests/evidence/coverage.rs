@@ -6,9 +6,9 @@ use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
 use corfem::sparse::LargeModel;
 use corfem::studies::known::Known;
-use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.

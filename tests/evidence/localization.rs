@@ -8,8 +8,8 @@ use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Noise of the study: 1 % of shapes, 0.5 % of frequencies.

@@ -11,8 +11,8 @@ use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::Settings;
 use corfem::present::table::{Cell, Table};
-use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::Finding;
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use std::ops::RangeInclusive;
 

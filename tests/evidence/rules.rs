@@ -8,8 +8,8 @@ use corfem::present::table::{Cell, Table, percents};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use corfem::studies::known::Known;
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights};
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::residuals::{DEVIATIONS, equal_weights};
 
 /// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,9 +5,10 @@ use std::fs;
 use std::path::Path;
 
 /// From the top down.
-const ROOMS: [&str; 8] = [
+const ROOMS: [&str; 9] = [
     "method",
     "sparse",
+    "weighted",
     "closed_forms",
     "cases",
     "studies",

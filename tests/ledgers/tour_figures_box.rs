@@ -9,9 +9,9 @@ use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
-use corfem::studies::noise::Noise;
-use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{equal_weights, jacobian};
+use corfem::weighted::identifiability::identifiability;
+use corfem::weighted::noise::Noise;
+use corfem::weighted::residuals::{equal_weights, jacobian};
 use nalgebra::DMatrix;
 
 /// A case's first model, and the change of its first pass in modal coordinates.

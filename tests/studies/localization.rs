@@ -8,7 +8,7 @@ use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::ModeSet;
 use corfem::studies::known::Known;
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::weighted::residuals::{equal_weights, residuals};
+use corfem::weighted::residuals::{equal_weights, residuals};
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {

@@ -12,10 +12,10 @@ use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::sparse::random::split_mix_64;
 use corfem::studies::delta_wing::{DeltaWing, correlation};
-use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::{
     Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, preflight,
 };
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::DMatrix;
 
 pub fn case(number: usize) -> Specimen {

@@ -12,12 +12,12 @@ use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::studies::known::Known;
-use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::gauss_newton::{
+use corfem::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
-use corfem::studies::weighted::identifiability::{NORMAL_95, identifiability};
-use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian, residuals};
+use corfem::weighted::identifiability::{NORMAL_95, identifiability};
+use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::{DEVIATIONS, equal_weights, jacobian, residuals};
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel and a mass parameter for every point.
 fn by_matrices() -> DynamicModel {

@@ -12,7 +12,7 @@ use corfem::cases::Case;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::present::render::csv;
 use corfem::studies::localization::by_single_fit;
-use corfem::studies::weighted::residuals::{equal_weights, residuals};
+use corfem::weighted::residuals::{equal_weights, residuals};
 
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {

@@ -6,11 +6,9 @@ use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::studies::known::Known;
-use corfem::studies::weighted::gauss_newton::{
-    WeightedSettings, WeightedStop, from_several_starts,
-};
-use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian};
+use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
+use corfem::weighted::identifiability::identifiability;
+use corfem::weighted::residuals::{DEVIATIONS, equal_weights, jacobian};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]

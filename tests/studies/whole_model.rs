@@ -16,9 +16,9 @@ use corfem::sparse::free_modes::{CountedModes, counted_modes};
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::GROUPS;
-use corfem::studies::noise::Noise;
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::noise::Noise;
+use corfem::weighted::residuals::equal_weights;
 use nalgebra::{DMatrix, DVector};
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.

@@ -7,7 +7,7 @@ use crate::method::linear_algebra::{finite, finite_list};
 use crate::method::model::{ModalModel, Share, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
-use crate::studies::noise::Noise;
+use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
