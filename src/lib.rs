@@ -24,7 +24,7 @@
 //!      [`outer_loop`](method::outer_loop).
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
-//! - [`closed_forms`]: structures whose answers can be written down.
+//! - [`chain`]: chains of masses and springs, for examples.
 //! - [`cases`]: the paper's wing torque box, its four cases, its tables.
 //! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, a pre-flight
 //!   that names mistakes in model and test before the first step, and measures of correlation.
@@ -67,7 +67,7 @@
 pub mod method;
 pub mod sparse;
 pub mod weighted;
-pub mod closed_forms;
+pub mod chain;
 pub mod cases;
 pub mod studies;
 pub mod files;

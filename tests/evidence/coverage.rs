@@ -1,6 +1,7 @@
 //! How often the 95 % intervals of a weighted correlation hold the true factors, over noisy tests.
 
 use super::{PERCENT, noise_words};
+use crate::common::measured::equal_weights;
 use corfem::cases::error::CaseError;
 use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
@@ -8,7 +9,6 @@ use corfem::sparse::LargeModel;
 use corfem::studies::known::Known;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::equal_weights;
 use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.
@@ -59,7 +59,7 @@ impl Coverage {
 /// estimate at one has no interval of its own.
 fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
     let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
-    let weights = equal_weights(Noise::USUAL, known.test.len())?;
+    let weights = equal_weights(Noise::USUAL, known.test.len());
     let names = known
         .model
         .parameters()

@@ -5,7 +5,7 @@ use super::plant::{MISTAKES, Mistake, Naming, plant};
 use super::specimen::Specimen;
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;

@@ -1,7 +1,7 @@
 //! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
 
 use crate::common::drawings::{size, written};
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range, Share};
 use corfem::method::modes::ModeSet;
