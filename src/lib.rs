@@ -22,11 +22,12 @@
 //!      are put together;
 //!   7. [`derivatives`](method::derivatives) (12), [`step`](method::step) (13), [`inner_loop`](method::inner_loop),
 //!      [`outer_loop`](method::outer_loop).
-//! - [`closed_forms`]: structures whose answers can be written down.
+//! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
+//!   sees of the parameters.
+//! - [`chain`]: chains of masses and springs, for examples.
 //! - [`cases`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, noise on test modes, a pre-flight that
-//!   names mistakes in model and test before the first step, whole models without condensation, weighted steps with what the
-//!   test sees of the parameters, and measures of correlation.
+//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, a pre-flight
+//!   that names mistakes in model and test before the first step, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
@@ -65,7 +66,8 @@
 
 pub mod method;
 pub mod sparse;
-pub mod closed_forms;
+pub mod weighted;
+pub mod chain;
 pub mod cases;
 pub mod studies;
 pub mod files;

@@ -55,7 +55,7 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 /// # Example
 ///
 /// ```rust
-/// use corfem::closed_forms::spring_chain::rods;
+/// use corfem::chain::rods;
 /// use corfem::method::assembly::element_matrices;
 /// use nalgebra::dmatrix;
 ///
@@ -107,7 +107,7 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 /// # Example
 ///
 /// ```rust
-/// use corfem::closed_forms::spring_chain::rods;
+/// use corfem::chain::rods;
 /// use corfem::method::assembly::{dense_stiffness, element_matrices};
 /// use nalgebra::dmatrix;
 ///

@@ -1,7 +1,6 @@
 //! What condensation to the sensors costs: the condensed modes beside those of the whole model.
 
 use super::{SparseMatrix, WholeModel};
-use crate::method::appendix_b::{Movement, MovementLimits, orthogonalize};
 use crate::method::error::Error;
 use crate::method::modes::{ModeSet, check_count, solve};
 use crate::method::pairing::{modal_assurance, pair_modes};
@@ -91,31 +90,5 @@ impl WholeModel {
             .enumerate()
             .map(error)
             .collect())
-    }
-
-    /// Limits of [`crate::method::appendix_b::examine`] that do not blame the test for condensation: raised by what
-    /// orthogonalization with the condensed mass moves the model's own `count` lowest modes.
-    ///
-    /// # Errors
-    /// Those of [`Self::condensed`], [`Self::seen_modes`] and [`orthogonalize`].
-    pub fn limits_allowing_for_condensation(
-        &self,
-        factors: &[f64],
-        sensors: &SparseMatrix,
-        count: usize,
-        limits: &MovementLimits,
-    ) -> Result<MovementLimits, Error> {
-        let (_, mass) = self.condensed(factors, sensors)?;
-        let moved = orthogonalize(&self.seen_modes(factors, sensors, count)?, &mass)?.movement;
-        let most = |of: fn(&Movement) -> f64| moved.iter().map(of).fold(0.0, f64::max);
-        let (frequency, shape) = (
-            most(|moved| moved.frequency.abs()),
-            most(|moved| moved.shape),
-        );
-        Ok(MovementLimits {
-            frequency: limits.frequency + frequency,
-            shape: limits.shape + shape,
-            ..*limits
-        })
     }
 }

@@ -1,7 +1,7 @@
 //! The lowest modes of a sparse pencil, none of them missed.
 
 use super::{Factor, SparseMatrix};
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::{ModeSet, check_count};
 use crate::sparse::free_modes::{CountedModes, counted_modes};
@@ -236,23 +236,6 @@ fn squared_frequencies(
     Ok(DVector::from_fn(shapes.ncols(), |mode, _| {
         shapes.column(mode).dot(&forces.column(mode)).max(0.0)
     }))
-}
-
-/// Refuses squared frequencies (rad²/s², ascending, rigid-body modes among them) that are not all the lowest ones of a pencil: one
-/// that was missed, whatever program found them, is missing from the count by inertia just above the last.
-///
-/// # Errors
-/// [`Error::Empty`]; [`Error::Miscounted`]; those of [`SparseMatrix::check_symmetric`].
-pub fn check_none_missed(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    omega_squared: &DVector<f64>,
-) -> Result<(), Error> {
-    at_least_one("modes", omega_squared.len())?;
-    stiffness.check_symmetric("stiffness")?;
-    mass.check_symmetric("mass")?;
-    let factor_at = factors(stiffness, mass)?;
-    check_number(&factor_at, omega_squared, omega_squared.len(), false)
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.

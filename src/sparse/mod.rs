@@ -23,6 +23,6 @@ pub(crate) use checks::{add_squares, start_vector};
 pub use condensation::{LargeCondensation, LargeModel, sum_of_mass, sum_of_stiffness};
 pub use condensation_error::{CondensationError, LARGEST_CONDENSATION_ERROR};
 pub use factor::Factor;
-pub use lowest_modes::{FINITE, MOST_DENSE_ROWS, check_none_missed, lowest_modes};
+pub use lowest_modes::{FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use whole_model::{WholeModel, WholeParameter, WholeShare};

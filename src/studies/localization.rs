@@ -7,7 +7,7 @@ use crate::method::inner_loop::InnerSettings;
 use crate::method::model::ModalModel;
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{stiffness_changes, unlimited_factors};
-use crate::studies::weighted::residuals::{residuals, residuals_of};
+use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
 /// Decades on either side of the best factor so far that are searched, at first about one: 25 factors each, to 1 %.

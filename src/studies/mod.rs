@@ -10,7 +10,5 @@ pub mod localization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod metrics;
-pub mod noise;
 pub mod preflight;
-pub mod weighted;
 pub mod wing;

@@ -1,11 +1,11 @@
 //! Rods in a row against the closed forms of chains and of the uniform rod.
 
+use crate::common::closed_forms::analytical::{
+    ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
+};
 use crate::common::log_log_slope;
 use crate::common::structures::{dense, sizes, spring_chain};
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
-use corfem::closed_forms::analytical::{
-    ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
-};
 use corfem::method::appendix_a::condense;
 use corfem::method::modes;
 use nalgebra::{DMatrix, DVector};

@@ -1,7 +1,7 @@
 //! Matrices, modes and models that nobody means: of any size, of extreme numbers, of what is no number.
 
 use super::draws::Draws;
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::assembly::{ElementMatrix, element_matrices};
 use corfem::method::error::Error;

@@ -10,7 +10,7 @@ use corfem::method::modes::ModeSet;
 use corfem::sparse::WholeShare;
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
-use corfem::studies::noise::{Noise, with_noise};
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::Vector3;
 
 use super::whole_models::{sensors_at, shear_building};

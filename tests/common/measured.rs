@@ -3,7 +3,9 @@
 use crate::common::alter;
 use corfem::method::appendix_b::MeasuringPoint;
 use corfem::method::elements::rod;
+use corfem::method::error_sum::ModeWeight;
 use corfem::method::modes::ModeSet;
+use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -262,4 +264,13 @@ pub fn mixture(modes: usize) -> impl Strategy<Value = Mixture> {
             modes: [order[0], order[1], order[2]],
             fractions: [a, b],
         })
+}
+
+/// The same weights for every one of `modes` test modes: one over the standard deviations.
+pub fn equal_weights(deviations: Noise, modes: usize) -> Vec<ModeWeight> {
+    let weight = ModeWeight {
+        frequency: 1.0 / deviations.frequency,
+        shape: 1.0 / deviations.shape,
+    };
+    vec![weight; modes]
 }

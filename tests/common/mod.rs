@@ -4,6 +4,7 @@ pub mod appendix_c;
 pub mod boxes;
 pub mod blocks;
 pub mod close_roots;
+pub mod closed_forms;
 pub mod complex_pencils;
 pub mod counting_allocator;
 pub mod decks;

@@ -147,7 +147,7 @@ pub fn boxes() -> StoredBoxes {
 /// The factor NASTRAN-95 puts on a shear panel's stiffness: its own energy, with sides taken for parallel when the
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
-    use corfem::closed_forms::analytical::{
+    use crate::common::closed_forms::analytical::{
         no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
         sides_14_23_parallel_energy,
     };

@@ -1,6 +1,6 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
-use corfem::closed_forms::spring_chain::rods;
+use corfem::chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter, Range};

@@ -3,7 +3,7 @@
 
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, Modes};
 use nalgebra::{DMatrix, DVector};

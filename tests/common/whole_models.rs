@@ -1,6 +1,6 @@
 //! Whole models of springs and masses as sparse matrices.
 
-use corfem::closed_forms::analytical::ChainEnds;
+use crate::common::closed_forms::analytical::ChainEnds;
 use corfem::method::model::Range;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 

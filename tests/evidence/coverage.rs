@@ -1,14 +1,14 @@
 //! How often the 95 % intervals of a weighted correlation hold the true factors, over noisy tests.
 
 use super::{PERCENT, noise_words};
+use crate::common::measured::equal_weights;
 use corfem::cases::error::CaseError;
 use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
 use corfem::sparse::LargeModel;
 use corfem::studies::known::Known;
-use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::noise::{Noise, with_noise};
 use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.
@@ -59,7 +59,7 @@ impl Coverage {
 /// estimate at one has no interval of its own.
 fn coverage(known: &Known, seeds: RangeInclusive<u64>) -> Result<Coverage, CaseError> {
     let (ones, ranges) = (vec![1.0; known.truth.len()], vec![None; known.truth.len()]);
-    let weights = equal_weights(Noise::USUAL, known.test.len())?;
+    let weights = equal_weights(Noise::USUAL, known.test.len());
     let names = known
         .model
         .parameters()

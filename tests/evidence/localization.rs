@@ -1,6 +1,7 @@
 //! How often a panel that is too thin is named: every panel of the box in turn, by both rankings.
 
 use super::noise_words;
+use crate::common::measured::equal_weights;
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
@@ -8,8 +9,7 @@ use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::noise::{Noise, with_noise};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::noise::{Noise, with_noise};
 use std::ops::RangeInclusive;
 
 /// Noise of the study: 1 % of shapes, 0.5 % of frequencies.
@@ -45,7 +45,7 @@ pub struct Located {
 pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseError> {
     let case = Case::new(4)?;
     let exact = ModeSet::from(case.test_modes()?);
-    let weights = equal_weights(NOISE, exact.len())?;
+    let weights = equal_weights(NOISE, exact.len());
     let noisy = seeds
         .map(|seed| with_noise(&exact, NOISE, seed))
         .collect::<Result<Vec<_>, Error>>()?;

@@ -12,7 +12,7 @@ pub mod rules;
 pub mod specimen;
 
 use corfem::present::table::Digits;
-use corfem::studies::noise::Noise;
+use corfem::weighted::noise::Noise;
 
 const PERCENT: Digits = Digits::Fixed(1);
 const RMS_PERCENT: Digits = Digits::Fixed(2);

@@ -17,7 +17,7 @@ use corfem::method::outer_loop::correlate;
 use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
 use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::studies::noise::{Noise, with_noise};
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 

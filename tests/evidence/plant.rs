@@ -4,8 +4,8 @@ use super::specimen::Specimen;
 use crate::common::alter;
 use corfem::method::error::Error;
 use corfem::sparse::random::split_mix_64;
-use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::{Change, FACTORS, Finding, Mended};
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::DMatrix;
 
 /// A mistake made on purpose; what it hits is drawn.

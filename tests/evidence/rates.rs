@@ -5,14 +5,14 @@ use super::plant::{MISTAKES, Mistake, Naming, plant};
 use super::specimen::Specimen;
 use corfem::cases::Case;
 use corfem::cases::error::CaseError;
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::Settings;
 use corfem::present::table::{Cell, Table};
-use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::Finding;
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use std::ops::RangeInclusive;
 

@@ -1,6 +1,7 @@
 //! The paper's rule and the weighted one on the same structures.
 
 use super::RMS_PERCENT;
+use crate::common::measured::equal_weights;
 use corfem::cases::error::CaseError;
 use corfem::cases::fit::rms;
 use corfem::cases::{Case, run_case};
@@ -8,8 +9,8 @@ use corfem::present::table::{Cell, Table, percents};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use corfem::studies::known::Known;
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights};
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::residuals::DEVIATIONS;
 
 /// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +70,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
                 run_case(&Case::new(number)?, |_, _| {})?.correlation,
             ),
         };
-        let weights = equal_weights(DEVIATIONS, known.test.len())?;
+        let weights = equal_weights(DEVIATIONS, known.test.len());
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let ones = vec![1.0; known.truth.len()];
         let found = gauss_newton(

@@ -7,7 +7,7 @@ use crate::common::tolerances::{PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
 use corfem::files::job::{Finished, History, Study, Vary, run};
 use corfem::method::verdict::Outcome;
-use corfem::studies::weighted::residuals::residuals;
+use corfem::weighted::residuals::residuals;
 use std::cell::Cell;
 
 const A: &str = "elements = [1]";

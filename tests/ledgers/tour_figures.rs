@@ -3,7 +3,7 @@
 use crate::common::sketch::{Mark, Series, Sketch};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use corfem::cases::table_1::TwoMasses;
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error_sum::{ErrorMeasure, Errors};
 use corfem::method::model::{DynamicModel, ModalModel, Share};

@@ -1,5 +1,6 @@
 //! The figures of the tour that show the paper's box.
 
+use crate::common::measured::equal_weights;
 use crate::common::sketch::{Mark, Series, Sketch};
 use corfem::cases::published::PublishedTable;
 use corfem::cases::torque_box::TEST_GAGE;
@@ -9,9 +10,9 @@ use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
-use corfem::studies::noise::Noise;
-use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{equal_weights, jacobian};
+use corfem::weighted::identifiability::identifiability;
+use corfem::weighted::noise::Noise;
+use corfem::weighted::residuals::jacobian;
 use nalgebra::DMatrix;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
@@ -228,7 +229,7 @@ pub fn deviations() -> Sketch {
         .expect("a model")
         .analyze(&[1.0; 15], &test, None)
         .expect("a model");
-    let weights = equal_weights(Noise::USUAL, 9).expect("weights");
+    let weights = equal_weights(Noise::USUAL, 9);
     let seen = jacobian(&model, &weights)
         .and_then(|jacobian| identifiability(&jacobian, 1.0))
         .expect("what is seen");

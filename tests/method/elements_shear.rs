@@ -1,5 +1,9 @@
 //! The Garvey shear panel against hand results and against the closed forms of its energy.
 
+use crate::common::closed_forms::analytical::{
+    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
+    sides_14_23_parallel_energy,
+};
 use crate::common::log_log_slope;
 use crate::common::matrices::relative_distance;
 use crate::common::panels::{
@@ -10,10 +14,6 @@ use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
 use approx::assert_relative_eq;
-use corfem::closed_forms::analytical::{
-    no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
-    sides_14_23_parallel_energy,
-};
 use corfem::method::elements::panel::{MeanPlane, mean_plane};
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, shear_panel};
 use corfem::method::structure::Material;

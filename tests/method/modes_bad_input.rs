@@ -1,6 +1,5 @@
 //! What the eigenproblem and the measured modes refuse, by variant and by who is named.
 
-use corfem::closed_forms::spring_chain::uniform_held_modes;
 use corfem::method::error::Error;
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
@@ -273,32 +272,6 @@ fn shapes_are_scaled_with_a_mass_that_fits_and_that_they_move() {
             ..
         })
     ));
-}
-
-#[test]
-fn a_chain_needs_masses_and_springs() {
-    assert!(matches!(
-        uniform_held_modes(0, 1.0, 1.0),
-        Err(Error::Empty { what: "masses" })
-    ));
-    match uniform_held_modes(2, 0.0, 1.0) {
-        Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!(
-                (what, owner.as_str(), value),
-                ("stiffness", "the uniform chain", 0.0)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
-    match uniform_held_modes(2, 1.0, -1.0) {
-        Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!(
-                (what, owner.as_str(), value),
-                ("mass", "the uniform chain", -1.0)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::studies::noisy_modes::study;
 use corfem::cases::Case;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
-use corfem::studies::noise::Noise;
+use corfem::weighted::noise::Noise;
 
 #[test]
 fn noisy_modes_as_numbers() {

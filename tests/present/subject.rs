@@ -2,7 +2,7 @@
 
 use crate::common::alter;
 use crate::common::drawings::{size, written};
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range, Share};
 use corfem::method::modes::ModeSet;

@@ -11,7 +11,7 @@ use corfem::files::job::Prepared;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
-use corfem::studies::weighted::gauss_newton::WeightedSettings;
+use corfem::weighted::gauss_newton::WeightedSettings;
 use std::path::Path;
 
 fn fits(tables: &[Table]) {

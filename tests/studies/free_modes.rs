@@ -1,9 +1,9 @@
 //! Free structures and massless degrees of freedom: every mode found once, and counted another way.
 
+use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
-use corfem::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use corfem::closed_forms::spring_chain::spring_stiffness;
+use corfem::chain::spring_stiffness;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};

@@ -1,5 +1,6 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
+use crate::common::measured::equal_weights;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
 use crate::evidence::localization::NOISE;
 use crate::studies::weighted::at;
@@ -8,7 +9,7 @@ use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::ModeSet;
 use corfem::studies::known::Known;
 use corfem::studies::localization::{by_factor, by_single_fit};
-use corfem::studies::weighted::residuals::{equal_weights, residuals};
+use corfem::weighted::residuals::residuals;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
@@ -52,7 +53,7 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
         case.model().unwrap().matrices(&[1.0; 15]).unwrap(),
         ModeSet::from(case.test_modes().unwrap()),
     );
-    let weights = equal_weights(NOISE, test.len()).unwrap();
+    let weights = equal_weights(NOISE, test.len());
     let objective = |factors: &[f64]| {
         let model = at(&first, factors).analyze(&test, None).unwrap();
         0.5 * residuals(&model, &weights).unwrap().norm_squared()

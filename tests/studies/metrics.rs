@@ -1,11 +1,9 @@
-//! Pseudo-orthogonality, modal scale factors and coordinate assurance, each by what its definition promises.
+//! Coordinate assurance by what its definition promises.
 
-use crate::common::strategies::positive_definite;
+use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::closed_forms::spring_chain::uniform_held_modes;
 use corfem::method::error::Error;
-use corfem::method::pairing::{cross_orthogonality, modal_assurance};
-use corfem::studies::metrics::{coordinate_assurance, modal_scale_factors, pseudo_orthogonality};
+use corfem::studies::metrics::coordinate_assurance;
 use nalgebra::{DMatrix, DVector, dmatrix};
 use proptest::prelude::*;
 
@@ -39,27 +37,17 @@ proptest! {
     #![proptest_config(crate::common::config())]
 
     #[test]
-    fn scales_and_signs_change_no_magnitude_of_pseudo_orthogonality_and_no_coordinate_assurance(
+    fn scales_and_signs_change_no_coordinate_assurance(
         (analysis, test) in (shapes(5, 4), shapes(5, 3)),
         (a, b) in (scales(4), scales(3)),
-        (mass, _) in positive_definite(5, 1.0),
     ) {
-        let pseudo = pseudo_orthogonality(&analysis, &test, &mass).unwrap();
-        let scaled = pseudo_orthogonality(&(&analysis * &a), &(&test * &b), &mass).unwrap();
-        prop_assert_eq!(pseudo.shape(), (4, 3));
-        prop_assert!((scaled.abs() - pseudo.abs()).amax() < MATRIX_ROUND_OFF);
-        let signs = |scales: &DMatrix<f64>| DMatrix::from_diagonal(&scales.diagonal().map(f64::signum));
-        let signs = signs(&a) * &pseudo * signs(&b);
-        prop_assert!((scaled - signs).amax() < MATRIX_ROUND_OFF, "the signs of the shapes are its signs");
         let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
         let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS).unwrap();
         prop_assert!((scaled - comac).amax() < MATRIX_ROUND_OFF);
     }
 
     #[test]
-    fn no_measure_is_beyond_one((analysis, test) in (shapes(5, 4), shapes(5, 3)), (mass, _) in positive_definite(5, 1.0)) {
-        let pseudo = pseudo_orthogonality(&analysis, &test, &mass).unwrap();
-        prop_assert!(pseudo.amax() <= 1.0 + ROUND_OFF, "Cauchy and Schwarz: {}", pseudo);
+    fn no_coordinate_assurance_is_beyond_one((analysis, test) in (shapes(5, 4), shapes(5, 3))) {
         let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
         prop_assert!(comac.iter().all(|value| (0.0..=1.0).contains(value)), "{}", comac);
     }
@@ -71,62 +59,11 @@ proptest! {
         prop_assert!(comac.iter().all(|value| (value - 1.0).abs() < ROUND_OFF), "{}", comac);
     }
 
-    #[test]
-    fn with_a_mass_of_one_the_square_of_pseudo_orthogonality_is_modal_assurance(
-        (analysis, test) in (shapes(5, 4), shapes(5, 3)),
-    ) {
-        let pseudo = pseudo_orthogonality(&analysis, &test, &DMatrix::identity(5, 5)).unwrap();
-        let assurance = modal_assurance(&analysis, &test).unwrap();
-        prop_assert!((pseudo.map(|x| x * x) - assurance).amax() < ROUND_OFF);
-    }
-
-    #[test]
-    fn the_scale_factor_leaves_a_difference_orthogonal_to_the_analysis_shape(
-        (analysis, test) in (shapes(5, 4), shapes(5, 3)),
-    ) {
-        let factors = modal_scale_factors(&analysis, &test).unwrap();
-        for (i, v) in analysis.column_iter().enumerate() {
-            for (j, w) in test.column_iter().enumerate() {
-                prop_assert!((w - factors[(i, j)] * v).dot(&v).abs() < ROUND_OFF * 5.0);
-            }
-        }
-    }
-
-    #[test]
-    fn the_scale_factor_of_a_multiple_is_the_multiple(analysis in shapes(5, 3), scale in scales(3)) {
-        let factors = modal_scale_factors(&analysis, &(&analysis * &scale)).unwrap();
-        for mode in 0..3 {
-            prop_assert!((factors[(mode, mode)] / scale[(mode, mode)] - 1.0).abs() < ROUND_OFF);
-        }
-    }
-}
-
-#[test]
-fn with_the_whole_mass_pseudo_orthogonality_of_modes_is_cross_orthogonality() {
-    let modes = uniform_held_modes(6, 1000.0, 0.01).expect("a chain");
-    let mass = DMatrix::from_diagonal_element(6, 6, 0.01);
-    let few = modes.lowest(3).expect("modes");
-    let cross = cross_orthogonality(&modes, &few, &mass).expect("it fits");
-    let pseudo =
-        pseudo_orthogonality(&(2.5 * modes.shapes()), few.shapes(), &mass).expect("it fits");
-    assert!((pseudo - cross).amax() < MATRIX_ROUND_OFF);
-}
-
-#[test]
-fn shapes_whose_squares_leave_the_range_of_numbers_are_compared_all_the_same() {
-    let (analysis, test) = (dmatrix![1.0, 0.3; 0.5, -2.0], dmatrix![0.8, 1.0; 0.7, -0.5]);
-    let mass = dmatrix![2.0, 0.1; 0.1, 1.0];
-    let usual = pseudo_orthogonality(&analysis, &test, &mass).expect("it fits");
-    for scale in [1e200, 1e-200] {
-        let scaled =
-            pseudo_orthogonality(&(scale * &analysis), &(&test / scale), &mass).expect("it fits");
-        assert!((scaled - &usual).amax() < ROUND_OFF);
-    }
 }
 
 #[test]
 fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
-    let modes = uniform_held_modes(6, 1000.0, 0.01).expect("a chain");
+    let modes = uniform_held_modes(6, 1000.0, 0.01);
     let mut test = modes.shapes().columns(0, 4).into_owned();
     // Two cables exchanged.
     test.swap_rows(0, 3);
@@ -155,11 +92,6 @@ fn what_does_not_fit_is_refused() {
     );
     let zero = DMatrix::<f64>::zeros(2, 1);
     let wrong = |error: Option<Error>| matches!(error, Some(Error::WrongShape { .. }));
-    assert!(
-        wrong(pseudo_orthogonality(&three, &two, &two).err())
-            && wrong(pseudo_orthogonality(&two, &three, &two).err())
-    );
-    assert!(wrong(modal_scale_factors(&two, &three).err()));
     assert!(wrong(coordinate_assurance(&two, &three, &[None; 3]).err()));
     assert!(wrong(coordinate_assurance(&two, &two, &[Some(0)]).err()));
     assert!(matches!(
@@ -175,19 +107,7 @@ fn what_does_not_fit_is_refused() {
         Err(Error::NotPositive { .. })
     ));
     assert!(matches!(
-        modal_scale_factors(&zero, &two),
-        Err(Error::NotPositive { .. })
-    ));
-    let negative = -DMatrix::<f64>::identity(2, 2);
-    assert!(matches!(
-        pseudo_orthogonality(&two, &two, &negative),
-        Err(Error::NotPositive {
-            what: "generalized mass",
-            ..
-        })
-    ));
-    assert!(matches!(
-        pseudo_orthogonality(&(f64::NAN * &two), &two, &two),
+        coordinate_assurance(&(f64::NAN * &two), &two, &[Some(0), None]),
         Err(Error::NotFinite { .. })
     ));
 }

@@ -14,7 +14,7 @@ use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::method::step::StepRule;
 use corfem::sparse::random::split_mix_64;
-use corfem::studies::noise::{Noise, with_noise};
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use std::sync::OnceLock;

@@ -1,22 +1,23 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
 use crate::common::alter;
+use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::rates::spring_chain;
 use crate::evidence::specimen::Specimen;
 use corfem::cases::Case;
 use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
+use corfem::chain::spring_stiffness;
 use corfem::method::model::{DynamicModel, FiniteElementModel};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::sparse::random::split_mix_64;
 use corfem::studies::delta_wing::{DeltaWing, correlation};
-use corfem::studies::noise::{Noise, with_noise};
 use corfem::studies::preflight::{
     Change, CommonFactor, FACTORS, Finding, LEAST_DIFFERENCE, LOW_PAIR, Mended, preflight,
 };
+use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::DMatrix;
 
 pub fn case(number: usize) -> Specimen {
@@ -243,7 +244,7 @@ fn a_reversed_sensor_costs_a_right_model_two_of_all_its_modes() {
         mass: DMatrix::from_diagonal_element(count, count, mass),
         shares: Vec::new(),
     };
-    let test = ModeSet::from(uniform_held_modes(count, stiffness, mass).unwrap());
+    let test = uniform_held_modes(count, stiffness, mass);
     let right = Specimen {
         model,
         test,

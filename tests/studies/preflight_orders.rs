@@ -1,11 +1,12 @@
 //! The pre-flight: points in another order in shapes of any scale, ratios of frequencies, and what is too little to be named.
 
 use crate::common::alter;
+use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::plant::mass_follows;
 use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{agreement, case, chain, findings, mended, wing, with_shapes};
-use corfem::closed_forms::spring_chain::{spring_stiffness, uniform_held_modes};
+use corfem::chain::spring_stiffness;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
@@ -72,12 +73,12 @@ fn a_mistake_that_costs_less_than_two_thousandths_is_not_named() {
         shares: Vec::new(),
     };
     // In the lowest mode the mass at the wall all but rests.
-    let test = ModeSet::from(
-        uniform_held_modes(count, stiffness, mass)
-            .unwrap()
-            .lowest(1)
-            .unwrap(),
-    );
+    let lowest = uniform_held_modes(count, stiffness, mass);
+    let test = ModeSet::new(
+        lowest.omega_squared().rows(0, 1).into_owned(),
+        lowest.shapes().columns(0, 1).into_owned(),
+    )
+    .expect("modes");
     let right = Specimen {
         model,
         test,

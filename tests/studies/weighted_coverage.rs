@@ -1,6 +1,7 @@
 //! How often 95 % intervals hold the truth, and how often a culprit is found.
 
 use crate::common::golden::{Numbers, assert_golden};
+use crate::common::measured::equal_weights;
 use crate::common::tolerances::{
     COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_DETECTIONS,
     LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR,
@@ -12,7 +13,7 @@ use corfem::cases::Case;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::present::render::csv;
 use corfem::studies::localization::by_single_fit;
-use corfem::studies::weighted::residuals::{equal_weights, residuals};
+use corfem::weighted::residuals::residuals;
 
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {
@@ -98,7 +99,7 @@ fn a_single_error_is_undone_by_its_own_factor() {
         .matrices(&[1.0; 15])
         .unwrap();
     let test: ModeSet = solve(&right.stiffness, &right.mass, 9).unwrap().into();
-    let weights = equal_weights(NOISE, 9).unwrap();
+    let weights = equal_weights(NOISE, 9);
     for culprit in 0..15 {
         let mut factors = [1.0; 15];
         factors[culprit] = 0.05;

@@ -1,22 +1,21 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
+use crate::common::measured::equal_weights;
 use crate::common::tolerances::{ROUND_OFF, STANDARD_ERRORS};
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::studies::known::Known;
-use corfem::studies::weighted::gauss_newton::{
-    WeightedSettings, WeightedStop, from_several_starts,
-};
-use corfem::studies::weighted::identifiability::identifiability;
-use corfem::studies::weighted::residuals::{DEVIATIONS, equal_weights, jacobian};
+use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
+use corfem::weighted::identifiability::identifiability;
+use corfem::weighted::residuals::{DEVIATIONS, jacobian};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
 fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
     let known = Known::of_case(2).unwrap();
-    let weights = equal_weights(DEVIATIONS, known.test.len()).unwrap();
+    let weights = equal_weights(DEVIATIONS, known.test.len());
     // Without trials there is one analysis a start.
     let settings = WeightedSettings {
         trials: 0,

@@ -1,5 +1,6 @@
 //! Models without condensation, correlated at the sensors alone.
 
+use crate::common::measured::equal_weights;
 use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
 use corfem::cases::Case;
@@ -16,9 +17,8 @@ use corfem::sparse::free_modes::{CountedModes, counted_modes};
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::GROUPS;
-use corfem::studies::noise::Noise;
-use corfem::studies::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::studies::weighted::residuals::equal_weights;
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
@@ -312,8 +312,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
             shape: 5e-3,
         },
         test.len(),
-    )
-    .expect("weights");
+    );
     let settings = WeightedSettings::default();
     let found = gauss_newton(analyze, &[1.0; 3], &model.ranges(), &weights, &settings)
         .expect("a correlation");

@@ -9,12 +9,12 @@ use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
 use crate::sparse::{WholeParameter, WholeShare};
-use crate::studies::noise::Noise;
-use crate::studies::weighted::gauss_newton::{
+use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
-use crate::studies::weighted::identifiability::{Identifiability, identifiability};
-use crate::studies::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::weighted::identifiability::{Identifiability, identifiability};
+use crate::weighted::noise::Noise;
+use crate::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 
 /// How the factors were found.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@ use crate::files::test_data::quoted;
 use crate::method::modes::ModeSet;
 use crate::method::verdict::Outcome;
 use crate::sparse::random::{split_mix_64, uniform};
-use crate::studies::noise::{Noise, with_noise_by_mode};
+use crate::weighted::noise::{Noise, with_noise_by_mode};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -92,7 +92,7 @@ impl FiniteElementModel {
     /// # Example
     ///
     /// ```rust
-    /// # use corfem::closed_forms::spring_chain::rods;
+    /// # use corfem::chain::rods;
     /// # use corfem::method::model::{FiniteElementModel, Parameter};
     /// use corfem::method::modes::ModeSet;
     /// use nalgebra::{dmatrix, dvector};

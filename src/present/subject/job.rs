@@ -5,7 +5,7 @@ use crate::files::job::{Finished, History, PlacedSensor, Prepared};
 use crate::method::model::ModalModel;
 use crate::present::PresentError;
 use crate::studies::expansion::expand;
-use crate::studies::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
+use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use nalgebra::{DMatrix, DVectorView, Vector3};
 
 impl Subject {

@@ -9,8 +9,8 @@ use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::studies::localization::{by_factor, by_single_fit};
 use crate::studies::metrics::coordinate_assurance;
 use crate::studies::preflight::{Finding, coarse_condensation, preflight};
-use crate::studies::weighted::identifiability::Identifiability;
-use crate::studies::weighted::residuals::residuals;
+use crate::weighted::identifiability::Identifiability;
+use crate::weighted::residuals::residuals;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
 const COLLINEAR: f64 = 0.95;

@@ -60,7 +60,7 @@ impl FactorizedStiffness {
     /// # Example
     ///
     /// ```rust
-    /// use corfem::closed_forms::spring_chain::rods;
+    /// use corfem::chain::rods;
     /// use corfem::method::assembly::element_matrices;
     /// use corfem::method::error::Error;
     /// use corfem::sparse::factorization::FactorizedStiffness;

@@ -2,7 +2,6 @@
 
 use super::{Entry, entries, modes};
 use corfem::method::appendix_a;
-use corfem::method::appendix_b::MovementLimits;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::panel::mean_plane;
@@ -313,13 +312,5 @@ pub const STRUCTURES: &[Entry] = &[
             .iter()
             .flat_map(|error| [error.whole_hz, error.frequency, error.shape])
             .collect())
-    }),
-    ("WholeModel::limits_allowing_for_condensation", |d| {
-        let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
-        let limits = MovementLimits::default();
-        let found =
-            whole.limits_allowing_for_condensation(&factors, &sensors, d.size(), &limits)?;
-        Ok(vec![found.balance, found.frequency, found.shape])
     }),
 ];

@@ -86,7 +86,7 @@ pub struct WeightedCorrelation {
 }
 
 /// Where a correlation stands.
-struct Place {
+struct Iterate {
     factors: Vec<f64>,
     exact: Check,
     jacobian: DMatrix<f64>,
@@ -129,7 +129,7 @@ pub fn gauss_newton<E: From<Error>>(
         .flatten()
         .try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
     let prior = settings.prior_deviation.powi(-2);
-    let mut place_at = |factors: Vec<f64>| -> Result<Place, E> {
+    let mut place_at = |factors: Vec<f64>| -> Result<Iterate, E> {
         let within = |(&factor, range): (&f64, &Option<Range>)| {
             range.map_or(factor, |range| range.clamp(factor))
         };
@@ -142,7 +142,7 @@ pub fn gauss_newton<E: From<Error>>(
         let gradient = jacobian.tr_mul(&residuals) + prior * &logs;
         let curvature =
             jacobian.tr_mul(&jacobian) + prior * DMatrix::identity(logs.len(), logs.len());
-        Ok(Place {
+        Ok(Iterate {
             factors,
             exact: model.exact,
             jacobian,
@@ -155,7 +155,7 @@ pub fn gauss_newton<E: From<Error>>(
     let initial = place.exact.clone();
     let (mut iterations, mut damping, mut growth, mut trials) = (Vec::new(), FIRST_DAMPING, 2.0, 0);
     let stop = loop {
-        let Place {
+        let Iterate {
             factors,
             gradient,
             curvature,
@@ -220,7 +220,7 @@ pub fn gauss_newton<E: From<Error>>(
     };
     let identifiability = identifiability(&place.jacobian, settings.prior_deviation)?;
     let (
-        Place {
+        Iterate {
             factors, objective, ..
         },
         analyses,

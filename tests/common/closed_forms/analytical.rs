@@ -1,14 +1,12 @@
 //! Closed forms that the numerical routes are compared with: the energy of the shear panel, chains of equal
 //! masses and springs, the uniform rod.
-//!
-//! Nothing in the correlation uses them. They are here, not in the tests, because they are results of their own.
 
-use crate::method::elements::panel::MeanPlane;
-use crate::method::structure::Material;
+use corfem::method::elements::panel::MeanPlane;
+use corfem::method::structure::Material;
 use std::f64::consts::PI;
 
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
-/// [`crate::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
+/// [`corfem::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
 /// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad
 ///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$

@@ -4,4 +4,5 @@
 
 pub mod gauss_newton;
 pub mod identifiability;
+pub mod noise;
 pub mod residuals;

@@ -1,13 +1,13 @@
 //! Residuals between analysis and test, each over its standard deviation, and their Jacobian.
 
 use crate::method::appendix_c::SMALLEST_SEPARATION;
-use crate::method::error::{Error, positive_setting};
+use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::{finite, finite_list};
 use crate::method::model::{ModalModel, Share, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
-use crate::studies::noise::Noise;
+use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
@@ -16,22 +16,6 @@ pub const DEVIATIONS: Noise = Noise {
     shape: 0.02,
     frequency: 0.005,
 };
-
-/// The same weights for every one of `modes` test modes: one over the standard deviations.
-///
-/// # Errors
-/// [`Error::Setting`] for a standard deviation that is not positive.
-pub fn equal_weights(deviations: Noise, modes: usize) -> Result<Vec<ModeWeight>, Error> {
-    positive_setting("standard deviation of frequencies", deviations.frequency)?;
-    positive_setting("standard deviation of shapes", deviations.shape)?;
-    Ok(vec![
-        ModeWeight {
-            frequency: 1.0 / deviations.frequency,
-            shape: 1.0 / deviations.shape
-        };
-        modes
-    ])
-}
 
 /// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors.
 ///

@@ -1,9 +1,6 @@
 //! Closed forms of two degrees of freedom: the exact answers that every approximation is measured against.
 
-use crate::method::appendix_c::Perturbed;
-use crate::method::appendix_c::recursive::check_input;
-use crate::method::error::Error;
-use crate::method::linear_algebra::{check_shape, check_symmetric, cholesky};
+use corfem::method::appendix_c::Perturbed;
 use nalgebra::{DMatrix, DVector, dvector};
 
 /// Squared circular frequencies of $K v = \omega^2 M v$ (2 × 2), ascending, rad²/s².
@@ -19,17 +16,7 @@ use nalgebra::{DMatrix, DVector, dvector};
 ///
 /// `stiffness` in lbf/in, `mass` in lbf·s²/in. A motion that nothing holds has the root zero, an unstable one a
 /// negative root.
-///
-/// # Errors
-/// Those of [`check_symmetric`] for the stiffness and [`cholesky`] for the mass.
-pub fn squared_frequencies(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-) -> Result<[f64; 2], Error> {
-    check_shape("stiffness", stiffness, 2, 2)?;
-    check_symmetric("stiffness", stiffness)?;
-    check_shape("mass", mass, 2, 2)?;
-    cholesky("mass", mass, 0.0)?;
+pub fn squared_frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> [f64; 2] {
     let [k11, k12, k22] = entries(stiffness);
     let [m11, m12, m22] = entries(mass);
     let b = k11 * m22 + k22 * m11 - 2.0 * k12 * m12;
@@ -38,11 +25,11 @@ pub fn squared_frequencies(
     // The discriminant of a symmetric pencil is never negative; round-off may make it so.
     let numerator = (b + discriminant.max(0.0).sqrt().copysign(b)) / 2.0;
     if numerator == 0.0 {
-        return Ok([0.0, 0.0]);
+        return [0.0, 0.0];
     }
     let larger = numerator / (m11 * m22 - m12 * m12);
     let other = (k11 * k22 - k12 * k12) / numerator;
-    Ok([larger.min(other), larger.max(other)])
+    [larger.min(other), larger.max(other)]
 }
 
 /// Exact roots and generalized shapes of two modes after a change of stiffness, by Jacobi's rotation.
@@ -55,17 +42,7 @@ pub fn squared_frequencies(
 ///
 /// The smaller angle, at most 45 degrees, is what makes mode $j$ the continuation of mode $j$.
 /// `generalized_stiffness` is $k_{ii} = \omega_i^2$ (rad²/s², 2) and `beta` $= V^t \Delta K V$ (2 × 2).
-///
-/// # Errors
-/// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`], [`Error::NotAVibration`] for bad input;
-/// [`Error::LostRoot`] when the change leaves no positive root.
-pub fn perturbed(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
-    check_shape("generalized stiffness change", beta, 2, 2)?;
-    check_symmetric("generalized stiffness change", beta)?;
-    check_input(generalized_stiffness, beta)?;
+pub fn perturbed(generalized_stiffness: &DVector<f64>, beta: &DMatrix<f64>) -> Perturbed {
     let [beta11, b, beta22] = entries(beta);
     let a = generalized_stiffness[0] + beta11;
     let d = generalized_stiffness[1] + beta22;
@@ -76,12 +53,10 @@ pub fn perturbed(
         (1.0 / (tau.abs() + tau.hypot(1.0))).copysign(tau)
     };
     let roots = dvector![1.0 / (a - tangent * b), 1.0 / (d + tangent * b)];
-    let perturbed = Perturbed {
+    Perturbed {
         roots,
         shapes: DMatrix::from_row_slice(2, 2, &[1.0, tangent, -tangent, 1.0]),
-    };
-    perturbed.check_roots()?;
-    Ok(perturbed)
+    }
 }
 
 /// The three entries of a symmetric 2 × 2 matrix: first diagonal, off-diagonal, second diagonal.
