@@ -4,6 +4,7 @@
 mod common;
 mod ledgers;
 
+mod sparse;
 mod method;
 mod closed_forms;
 mod cases;

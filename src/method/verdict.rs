@@ -1,10 +1,9 @@
-//! What a correlation came to, as data and in words.
+//! What a correlation came to, as data.
 //! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 use crate::method::error_sum::ModeError;
 use crate::method::model::Range;
 use serde::Serialize;
-use std::fmt;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
@@ -69,69 +68,5 @@ impl Verdict {
             at_bound: (0..factors.len()).filter(at_end).collect(),
             unseen: (0..factors.len()).filter(is_unseen).collect(),
         }
-    }
-
-    /// The verdict in sentences, with the parameters' names; numbers stand for those that have none.
-    pub fn in_words(&self, names: &[String]) -> String {
-        let named = |indices: &[usize]| {
-            let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
-            indices.iter().map(name).collect::<Vec<_>>().join(", ")
-        };
-        let within = if self.is_within {
-            "within tolerance"
-        } else {
-            "outside tolerance"
-        };
-        let mut words = match self.outcome {
-            Outcome::Tolerance => "Within tolerance".to_owned(),
-            Outcome::LocalMinimum => format!("Stopped at a local minimum, {within}"),
-            Outcome::Cap => {
-                "Stopped by the number of iterations or passes allowed, outside tolerance"
-                    .to_owned()
-            }
-            Outcome::Nothing => {
-                "Nothing could be done, outside tolerance: no step from the first model lowers the \
-                                 error sum, or none was allowed"
-                    .to_owned()
-            }
-        };
-        words += &format!(
-            ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
-            100.0 * self.error_sum,
-            self.worst_mode + 1,
-            // Rounded first, so that no zero has a minus sign.
-            (1e4 * self.worst.frequency).round() / 100.0 + 0.0,
-            100.0 * self.worst.shape
-        );
-        if !self.at_bound.is_empty() {
-            words += &format!(" At a bound: {}.", named(&self.at_bound));
-        }
-        if !self.unseen.is_empty() {
-            words += &format!(
-                " Hardly seen by the test modes, and so not to be trusted: {}.",
-                named(&self.unseen)
-            );
-        }
-        if !self.is_within {
-            words += match self.outcome {
-                Outcome::Cap => " Try more iterations or passes.",
-                Outcome::Nothing => {
-                    " Look for a mistake in the test's units, sensors or order of modes."
-                }
-                _ if !self.at_bound.is_empty() => {
-                    " Try wider bounds, or look at how the elements at a bound are modeled."
-                }
-                _ => {
-                    " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
-                }
-            };
-        }
-        words
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(&self.in_words(&[]))
     }
 }

@@ -10,6 +10,7 @@ pub mod page;
 pub mod render;
 pub mod subject;
 pub mod table;
+pub mod verdict;
 pub mod tables;
 
 use crate::cases::error::CaseError;

@@ -57,6 +57,9 @@ pub const GOLDEN_GAGE: f64 = 1e-5;
 pub const GOLDEN_PERCENT: f64 = 1e-4;
 /// Numbers written for a reader: none has more than six digits, so that any other digit is another number.
 pub const GOLDEN_AS_WRITTEN: f64 = 1e-7;
+/// The fast forms beside the plain ones, relative to the norm of a matrix, a frequency or a shape: round-off of a structural
+/// stiffness whose condition is a million at most.
+pub const TWO_PROGRAMS: f64 = 1e-9;
 /// Whole correlations of one problem put in two ways: round-off through dozens of iterations.
 pub const SAME_CORRELATION: f64 = 1e-9;
 /// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest

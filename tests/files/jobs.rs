@@ -93,7 +93,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let found = condensed("building", 5);
     assert!(
         found.verdict.error_sum > 0.2 && !found.verdict.is_within,
-        "{}",
+        "{:?}",
         found.verdict
     );
     for pair in found.factors.chunks(2) {

@@ -3,8 +3,7 @@
 
 use crate::common::boxes::{problem_of, uneven_box};
 use crate::common::loops::{
-    Given, assert_error_sum_only_falls, assert_limits_hold, assert_record_is_the_loop,
-    chain_problem, given,
+    Given, assert_error_sum_only_falls, assert_limits_hold, chain_problem, given,
 };
 use crate::common::vibrations::chain_and_truth;
 use corfem::cases::Case;
@@ -82,12 +81,6 @@ proptest! {
     fn limits_hold_in_every_iteration(given in given()) {
         let (_, run) = run_given(&given)?;
         assert_limits_hold(&run, &given.base, &given.total_ranges, given.settings.factor_range);
-    }
-
-    #[test]
-    fn the_record_is_the_loop(given in given()) {
-        let (problem, run) = run_given(&given)?;
-        assert_record_is_the_loop(&problem, &given, &run);
     }
 
     #[test]

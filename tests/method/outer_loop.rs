@@ -5,13 +5,12 @@ use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
-use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::{Check, Range};
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::model::Range;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::UpdateRule;
 use corfem::method::step::Accumulation;
 use proptest::prelude::*;
-use std::cell::RefCell;
 
 /// Settings with tolerances from loose to strict and up to four passes, so that loops end for every reason.
 fn settings() -> impl Strategy<Value = Settings> {
@@ -39,61 +38,6 @@ fn settings() -> impl Strategy<Value = Settings> {
 
 proptest! {
     #![proptest_config(crate::common::costly_config())]
-
-    #[test]
-    fn the_record_is_the_loop((chain, truth) in chain_and_truth(), settings in settings()) {
-        let (test, ranges) = (chain.modes(&truth), vec![None; truth.len()]);
-        let (asked, told) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
-        let found = correlate(
-            |factors| {
-                asked.borrow_mut().push(factors.to_vec());
-                chain.model(factors).analyze(&test, None)
-            },
-            &ranges,
-            &settings,
-            |number, pass| told.borrow_mut().push((number, pass.factors.clone())),
-        )
-        .unwrap();
-        let meets = |check: &Check| {
-            let scale = 3.0 / (check.errors.mode_count as f64).sqrt();
-            scale * check.errors.sum() <= settings.error_sum_tolerance
-                && scale * check.errors.frequency <= settings.frequency_tolerance
-                && scale * check.errors.shape <= settings.shape_tolerance
-        };
-        let mut factors = vec![1.0; truth.len()];
-        let mut analyses = vec![factors.clone()];
-        let mut tolerance = settings.inner.tolerance;
-        let (mut converged, mut stuck) = (meets(&found.initial), false);
-        for (number, pass) in found.passes.iter().enumerate() {
-            prop_assert!(number < settings.most_passes && !stuck);
-            prop_assert!(number < settings.least_passes || !converged);
-            // The inner loop of this pass begins at the factors so far, with this pass's tolerance.
-            let model = chain.model(&factors);
-            let problem = model.analyze(&test, Some(truth.len())).unwrap();
-            let inner = InnerSettings { tolerance, ..settings.inner.clone() };
-            let expected = run(&problem, &factors, &ranges, &inner).unwrap();
-            prop_assert_eq!(&pass.inner.factors, &expected.factors);
-            prop_assert_eq!(pass.inner.stop, expected.stop);
-            prop_assert_eq!(pass.inner.iterations.len(), expected.iterations.len());
-            for (factor, step) in factors.iter_mut().zip(&expected.factors) {
-                *factor *= step;
-            }
-            prop_assert_eq!(&pass.factors, &factors);
-            prop_assert_eq!(&told.borrow()[number], &(number + 1, factors.clone()));
-            analyses.push(factors.clone());
-            tolerance = settings.later_inner_tolerance;
-            converged = meets(&pass.check);
-            stuck = pass.inner.iterations.is_empty();
-        }
-        // It went on for as long as it had to.
-        let count = found.passes.len();
-        prop_assert!(stuck || count == settings.most_passes || (count >= settings.least_passes && converged));
-        let any = meets(&found.initial) || found.passes.iter().any(|pass| meets(&pass.check));
-        prop_assert_eq!(found.converged, any);
-        prop_assert_eq!(found.verdict.is_within, any);
-        prop_assert_eq!(told.borrow().len(), count);
-        prop_assert_eq!(&*asked.borrow(), &analyses);
-    }
 
     #[test]
     fn checks_are_exact_solutions((chain, truth) in chain_and_truth()) {

@@ -3,6 +3,7 @@
 use super::html::{escaped, figure, figures, prose};
 use super::{Contents, Part, named};
 use crate::cases::CaseResult;
+use crate::present::verdict::verdict_in_words;
 
 /// A part for every section of the words whose case or wing there is.
 pub(super) fn story(contents: &Contents) -> Vec<Part> {
@@ -51,7 +52,7 @@ fn outcome(result: &CaseResult) -> String {
     let Some(anomaly) = &result.anomaly else {
         return format!(
             "<p class=\"note\">{}</p>\n",
-            result.correlation.verdict.in_words(&result.parameter_names)
+            verdict_in_words(&result.correlation.verdict, &result.parameter_names)
         );
     };
     let (number, element, factor, ratio) = (

@@ -14,6 +14,7 @@ use crate::method::pairing::{cross_orthogonality, modal_assurance};
 use crate::method::state::ModalState;
 use crate::method::structure::Structure;
 use crate::method::verdict::Verdict;
+use crate::present::verdict::verdict_in_words;
 use nalgebra::{DMatrix, Vector3};
 
 /// A row of the shapes.
@@ -208,9 +209,9 @@ impl Subject {
 
     /// What it came to in words.
     pub fn words(&self) -> String {
-        self.verdict
-            .as_ref()
-            .map_or_else(String::new, |verdict| verdict.in_words(&self.parameters))
+        self.verdict.as_ref().map_or_else(String::new, |verdict| {
+            verdict_in_words(verdict, &self.parameters)
+        })
     }
 
     fn best_stage(&self) -> Option<&Stage> {

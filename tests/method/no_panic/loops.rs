@@ -4,7 +4,7 @@ use super::Entry;
 use crate::common::draws::Draws;
 use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, gradient};
 use corfem::method::error::Error;
-use corfem::method::error_sum::{ErrorMeasure, ModeError, ModeWeight, errors, mode_errors};
+use corfem::method::error_sum::{ErrorMeasure, ModeWeight, errors, mode_errors};
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::model::Range;
 use corfem::method::outer_loop::{Settings, correlate};
@@ -12,7 +12,6 @@ use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{
     Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors,
 };
-use corfem::method::verdict::{Outcome, Verdict};
 
 pub const LOOPS: &[Entry] = &[
     ("ModalState::at", |d| {
@@ -185,32 +184,6 @@ pub const LOOPS: &[Entry] = &[
         for accumulation in [Accumulation::Sum, Accumulation::Product] {
             accumulation.next_share_factor(d.number(), d.number(), d.number());
         }
-        Ok(Vec::new())
-    }),
-    ("Verdict::in_words", |d| {
-        let outcomes = [
-            Outcome::Tolerance,
-            Outcome::LocalMinimum,
-            Outcome::Cap,
-            Outcome::Nothing,
-        ];
-        let verdict = Verdict {
-            outcome: outcomes[d.below(4)],
-            is_within: d.below(2) == 0,
-            error_sum: d.number(),
-            worst_mode: d.size(),
-            worst: ModeError {
-                frequency: d.number(),
-                shape: d.number(),
-            },
-            at_bound: vec![d.size(); d.size()],
-            unseen: vec![d.size(); d.size()],
-        };
-        assert!(
-            !verdict
-                .in_words(&vec!["one".to_owned(); d.size()])
-                .is_empty()
-        );
         Ok(Vec::new())
     }),
 ];

@@ -1,0 +1,203 @@
+//! Two properties that let the fast forms stand in for the text: matrices at the dynamic DOF, and modes at the sensors. Both hold
+//! over random structures, the paper's cases and the delta wing.
+
+use crate::common::tolerances::TWO_PROGRAMS;
+use crate::common::torque_boxes::reconstruction;
+use corfem::cases::torque_box::{Reconstruction, load_distribution, structure};
+use corfem::cases::{CASES, Case};
+use corfem::method::assembly::{dense_stiffness, lumped_mass};
+use corfem::method::model::{FiniteElementModel, Parameter, Scaled, Share};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::structure::Structure;
+use corfem::sparse::{LargeModel, WholeModel};
+use corfem::studies::delta_wing::DeltaWing;
+use corfem::studies::delta_wing::correlation::first_model;
+use nalgebra::DMatrix;
+use proptest::prelude::*;
+
+/// Condition of the structural stiffness scaled to unit diagonal beyond which round-off leaves less than the digits compared.
+const LARGEST_CONDITION: f64 = 1e6;
+/// Relative distance of squared frequencies below which modes are compared as one subspace.
+const CLUSTER: f64 = 1e-3;
+
+/// A box of any shape whose elements have mass, and parameters of every kind: the stiffness of each of its 39 elements, the mass
+/// of the panels, and the mass of two points.
+fn random_model() -> impl Strategy<Value = FiniteElementModel> {
+    let boxed = |(number, reconstruction, density): (usize, Reconstruction, f64)| {
+        let case = Case::on(number, reconstruction).ok()?;
+        let bare = structure(&case.reconstruction, &case.panels, case.rod_area).ok()?;
+        let mut elements = bare.elements().to_vec();
+        for element in &mut elements {
+            element.material = element.material.with_density(density).ok()?;
+        }
+        let structure = Structure::new(bare.grids().to_vec(), elements).ok()?;
+        let mut parameters: Vec<Parameter> = (1..=39)
+            .map(|label| Parameter::element(label, None))
+            .collect();
+        let panels: Vec<usize> = (1..=15).collect();
+        parameters.push(Parameter::of("panels", Scaled::ElementMass, &panels));
+        parameters.push(Parameter::of("points", Scaled::PointMass, &[2, 5]));
+        let (t, mass) = (
+            load_distribution(&case.reconstruction).ok()?,
+            case.reconstruction.mass(),
+        );
+        let model = FiniteElementModel::new(structure, t, mass, parameters).ok()?;
+        (condition(&model) <= LARGEST_CONDITION).then_some(model)
+    };
+    (1..=4_usize, reconstruction(), 1e-5..1e-2_f64).prop_filter_map("a box that is held", boxed)
+}
+
+fn condition(model: &FiniteElementModel) -> f64 {
+    let stiffness = structural_stiffness(model);
+    let scale = stiffness.diagonal().map(|entry| 1.0 / entry.sqrt());
+    let spectrum = stiffness
+        .component_mul(&(&scale * scale.transpose()))
+        .symmetric_eigenvalues();
+    spectrum.max() / spectrum.min().max(0.0)
+}
+
+fn structural_stiffness(model: &FiniteElementModel) -> DMatrix<f64> {
+    let sizes: Vec<f64> = model
+        .structure()
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect();
+    dense_stiffness(
+        model.element_matrices(),
+        &sizes,
+        model.structure().free_dof().len(),
+    )
+    .expect("a size each")
+}
+
+/// Largest difference of two matrices relative to the norm of the first.
+fn distance(plain: &DMatrix<f64>, fast: &DMatrix<f64>) -> f64 {
+    (plain - fast).norm() / plain.norm().max(f64::MIN_POSITIVE)
+}
+
+fn assert_same_matrices(model: &FiniteElementModel, factors: &[f64]) {
+    let fast = LargeModel::of(model).expect("a plan");
+    let (plain_condensed, fast_condensed) = (
+        model.condense(factors).expect("held"),
+        fast.condense(factors).expect("held"),
+    );
+    let identity = DMatrix::identity(model.mass().nrows(), model.mass().nrows());
+    let transformation = fast_condensed.structural_shapes(&identity).expect("solved");
+    for (what, plain, fast) in [
+        ("K_D", &plain_condensed.stiffness, &fast_condensed.stiffness),
+        ("M", &plain_condensed.mass, &fast_condensed.mass),
+        ("B", &plain_condensed.transformation, &transformation),
+    ] {
+        let apart = distance(plain, fast);
+        assert!(apart <= TWO_PROGRAMS, "{what}: {apart:e}");
+    }
+    let (plain, fast) = (
+        model.matrices(factors).unwrap(),
+        fast.matrices(factors).unwrap(),
+    );
+    assert_eq!(plain.shares.len(), fast.shares.len());
+    for (plain, fast) in plain.shares.iter().zip(&fast.shares) {
+        let kind = |share: &Share| matches!(share, Share::Stiffness(_));
+        assert_eq!(kind(plain), kind(fast));
+        let apart = distance(plain.matrix(), fast.matrix());
+        assert!(apart <= TWO_PROGRAMS, "share: {apart:e}");
+    }
+}
+
+/// The lowest modes at every structural DOF by dense matrices, or at the dynamic ones where all the mass is.
+fn dense_modes(model: &FiniteElementModel, count: usize) -> (Modes, DMatrix<f64>) {
+    let t = model.load_distribution();
+    if model
+        .structure()
+        .elements()
+        .iter()
+        .all(|element| element.material.density == 0.0)
+    {
+        let condensed = model
+            .condense(&vec![1.0; model.parameters().len()])
+            .expect("held");
+        let modes = solve(&condensed.stiffness, &condensed.mass, count).expect("modes");
+        let seen = modes.shapes().clone();
+        return (modes, seen);
+    }
+    let sizes: Vec<f64> = model
+        .structure()
+        .elements()
+        .iter()
+        .map(|element| element.size)
+        .collect();
+    let lumped = lumped_mass(model.element_matrices(), &sizes, t.nrows()).expect("a size each");
+    let mass = DMatrix::from_diagonal(&lumped) + t * model.mass() * t.transpose();
+    let modes = solve(&structural_stiffness(model), &mass, count).expect("modes");
+    let seen = t.tr_mul(modes.shapes());
+    (modes, seen)
+}
+
+fn assert_same_modes(model: &FiniteElementModel, count: usize) {
+    let fast = LargeModel::of(model).expect("a plan");
+    let (whole, sensors) = WholeModel::of(&fast).expect("a whole model");
+    let found = whole
+        .modes(&vec![1.0; model.parameters().len()], count)
+        .expect("modes")
+        .vibrations;
+    let seen = sensors.times(found.shapes()).expect("they fit");
+    let (plain, plain_seen) = dense_modes(model, count);
+    let squares = plain.omega_squared();
+    for (mode, (a, b)) in squares.iter().zip(found.omega_squared()).enumerate() {
+        assert!(
+            ((b / a).sqrt() - 1.0).abs() <= TWO_PROGRAMS,
+            "frequency {mode}: {a} {b}"
+        );
+        // A cluster at the end of the list may go on behind it.
+        let is_near = |other: &usize| (squares[*other] / a - 1.0).abs() < CLUSTER;
+        let cluster: Vec<usize> = (0..count).filter(is_near).collect();
+        if cluster.contains(&(count - 1)) && cluster.len() > 1 {
+            continue;
+        }
+        let (span, shape) = (
+            plain_seen.select_columns(&cluster),
+            seen.column(mode).into_owned(),
+        );
+        let part = span
+            .clone()
+            .svd(true, true)
+            .solve(&shape, 0.0)
+            .expect("a solution");
+        let apart = (span * part - &shape).norm() / seen.amax();
+        assert!(apart <= TWO_PROGRAMS, "shape {mode}: {apart:e}");
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::costly_config())]
+
+    #[test]
+    fn a_random_structure_has_the_same_matrices(
+        model in random_model(),
+        factors in prop::collection::vec(0.55..=1.5_f64, 41),
+    ) {
+        assert_same_matrices(&model, &factors);
+    }
+
+    #[test]
+    fn a_random_structure_has_the_same_modes_at_its_sensors(model in random_model()) {
+        assert_same_modes(&model, 9);
+    }
+}
+
+#[test]
+fn every_case_has_the_same_matrices_and_modes() {
+    for number in CASES {
+        let model = Case::new(number).expect("a case").model().expect("a model");
+        assert_same_matrices(&model, &[1.0; 15]);
+        assert_same_modes(&model, 9);
+    }
+}
+
+#[test]
+fn the_delta_wing_has_the_same_matrices_and_modes() {
+    let model = first_model(&DeltaWing::embedded().expect("the wing")).expect("a model");
+    assert_same_matrices(&model, &vec![1.0; model.parameters().len()]);
+    assert_same_modes(&model, 10);
+}
