@@ -113,16 +113,16 @@ pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()
     )?;
     numbers(&at("t_value"), &[count], entries().map(|(.., value)| value))?;
     matrix(&at("mass"), model.mass())?;
-    matrix(&at("test_shapes"), &modal.test.shapes)?;
-    let frequencies = modal.exact.modes.frequencies_hz();
+    matrix(&at("test_shapes"), modal.test().shapes())?;
+    let frequencies = modal.exact().modes.frequencies_hz();
     numbers(
         &at("frequencies"),
         &[frequencies.len()],
         frequencies.into_iter(),
     )?;
-    let (count, modes) = (modal.shares.len(), modal.exact.modes.len());
+    let (count, modes) = (modal.shares().len(), modal.exact().modes.len());
     let diagonals = modal
-        .shares
+        .shares()
         .iter()
         .flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
     numbers(&at("shares"), &[count, modes], diagonals)

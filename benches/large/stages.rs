@@ -145,7 +145,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
         solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes")
     });
     stages.time("shapes of the structure: 10 solutions", || {
-        condensed.structural_shapes(&modes.shapes).expect("shapes")
+        condensed.structural_shapes(modes.shapes()).expect("shapes")
     });
     drop(condensed);
     let analyze = |factors: &[f64]| model.analyze(factors, test, Some(MODES));

@@ -60,7 +60,7 @@ fn derivatives(criterion: &mut Criterion, setting: &Setting) {
 /// New roots and shapes after a step of ten percent up and down.
 fn update(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::UPDATE);
-    let k = &setting.problem.exact.modes.omega_squared;
+    let k = setting.problem.exact().modes.omega_squared();
     for (name, formula) in summary::formulae() {
         group.bench_function(name, |bencher| {
             bencher.iter(|| formula(black_box(k), black_box(&setting.beta)).expect("separate"));
@@ -123,7 +123,7 @@ fn main() {
     cases(&mut criterion, &passes);
     criterion.final_summary();
     summary::print(&folder, &passes);
-    let k = &setting.problem.exact.modes.omega_squared;
+    let k = setting.problem.exact().modes.omega_squared();
     let settled =
         recursive_1_converged(k, &setting.beta, ROOT_TOLERANCE, MOST_ORDERS).expect("it settles");
     println!("Recursive 1 settles at order {}", settled.order);

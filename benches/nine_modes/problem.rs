@@ -56,10 +56,10 @@ impl Setting {
                 .map(|share| standard(&(DERIVATIVE_STEP * *share)))
                 .collect(),
             beta: problem
-                .exact
+                .exact()
                 .modes
-                .shapes
-                .tr_mul(&(&change * &problem.exact.modes.shapes)),
+                .shapes()
+                .tr_mul(&(&change * problem.exact().modes.shapes())),
             step_matrix: standard(&change),
             problem,
         }

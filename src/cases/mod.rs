@@ -224,7 +224,7 @@ pub fn published_reading(case: usize) -> StepRule {
     if case == 2 || case == 3 {
         StepRule::Relative
     } else {
-        StepRule::Own
+        StepRule::Diagonal
     }
 }
 

@@ -17,8 +17,8 @@ use serde::Serialize;
 
 /// The readings of the step that the tables are asked about, the library's own first.
 pub const READINGS: [StepRule; 4] = [
-    StepRule::Matrix,
-    StepRule::Own,
+    StepRule::Norm,
+    StepRule::Diagonal,
     StepRule::Relative,
     StepRule::Gage,
 ];

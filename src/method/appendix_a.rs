@@ -64,10 +64,11 @@ pub fn condense(
     // Round-off of a pivot grows as the root of the number of DOF.
     let round_off = 32.0 * f64::EPSILON * (dof_count as f64).sqrt();
     let lower = cholesky("structural stiffness", stiffness, round_off)?;
-    let mut deflections = solve_lower(&lower, load_distribution.clone());
+    // With K_S = L Lᵗ and W = L⁻¹ T: Tᵗ K_S⁻¹ T = Wᵗ W, and K_S⁻¹ T = L⁻ᵗ W.
+    let half = solve_lower(&lower, load_distribution.clone());
+    let stiffness = dynamic_stiffness(&half.tr_mul(&half))?;
+    let mut deflections = half;
     lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
-    let flexibility = symmetric_part(&load_distribution.tr_mul(&deflections));
-    let stiffness = dynamic_stiffness(&flexibility)?;
     Ok(Condensed {
         transformation: deflections * &stiffness,
         stiffness,
@@ -91,7 +92,7 @@ pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f6
 /// `structural_shapes` (free SDOF × m) at its own DOF.
 ///
 /// For $B^t$ it is the element's share of $K_D$, $s_e B K_e B^t$; the shares sum to $K_D$ exactly.
-pub fn generalized_stiffness(
+pub(crate) fn generalized_stiffness(
     element: &ElementMatrix,
     size: f64,
     structural_shapes: &DMatrix<f64>,
@@ -101,7 +102,7 @@ pub fn generalized_stiffness(
 }
 
 /// Its share of the mass in the same way, $s_e V_e^t M_e V_e$ with the lumped $M_e$.
-pub fn generalized_mass(
+pub(crate) fn generalized_mass(
     element: &ElementMatrix,
     size: f64,
     structural_shapes: &DMatrix<f64>,

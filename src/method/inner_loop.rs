@@ -158,7 +158,6 @@ pub fn run(
     let is_range =
         |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
     total_ranges.iter().flatten().try_for_each(is_range)?;
-    model.check()?;
     let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
     let start = state.errors;
     let scale = settings.measure.scale(model.test.len());
@@ -169,8 +168,7 @@ pub fn run(
             break Stop::Iterations;
         }
         let changes = error_changes(model, &state, settings.derivatives)?;
-        let stiffnesses =
-            stiffness_changes(model, &state.factors, &factors, &changes, settings.step)?;
+        let stiffnesses = stiffness_changes(model, &state.factors, &factors, settings.step);
         let relaxation = if iterations.is_empty() {
             settings.first_relaxation
         } else {

@@ -6,7 +6,7 @@ use crate::method::linear_algebra::{
     check_finite, check_shape, check_symmetric, cholesky, pencil_eigen,
 };
 use crate::method::structure::positive;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 use std::f64::consts::PI;
 use std::ops::Deref;
 
@@ -18,44 +18,70 @@ pub(crate) const SIGN_TIE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSet {
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
-    pub omega_squared: DVector<f64>,
+    pub(crate) omega_squared: DVector<f64>,
     /// Mode shapes, one per column (d × n).
-    pub shapes: DMatrix<f64>,
+    pub(crate) shapes: DMatrix<f64>,
 }
 
 impl ModeSet {
+    /// Squared circular frequencies $\omega_i^2$, rad²/s².
+    pub fn omega_squared(&self) -> &DVector<f64> {
+        &self.omega_squared
+    }
+
+    /// Mode shapes, one per column (d × n).
+    pub fn shapes(&self) -> &DMatrix<f64> {
+        &self.shapes
+    }
+
+    /// Modes from squared circular frequencies (rad²/s²) and shapes of any scale and sign, one per column (d × g).
+    ///
+    /// # Errors
+    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a squared frequency that is not
+    /// positive or a shape that is zero.
+    pub fn new(omega_squared: DVector<f64>, shapes: DMatrix<f64>) -> Result<Self, Error> {
+        at_least_one("test modes", omega_squared.len())?;
+        check_shape(
+            "test mode shapes",
+            &shapes,
+            shapes.nrows(),
+            omega_squared.len(),
+        )?;
+        check_finite("test mode shapes", &shapes)?;
+        for (mode, (&square, shape)) in omega_squared.iter().zip(shapes.column_iter()).enumerate() {
+            positive("squared frequency", || test_mode(mode), square)?;
+            positive("largest component", || test_mode(mode), shape.amax())?;
+        }
+        Ok(Self {
+            omega_squared,
+            shapes,
+        })
+    }
+
     /// Measured modes: frequencies in hertz, and shapes of any scale and sign, one per column (d × g).
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`]; [`Error::NotPositive`] for a frequency that is not
-    /// positive or a shape that is zero.
+    /// Those of [`Self::new`]; [`Error::NotPositive`] for a frequency that is not positive.
     pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
-        at_least_one("test modes", frequencies_hz.len())?;
-        check_shape(
-            "test mode shapes",
-            shapes,
-            shapes.nrows(),
-            frequencies_hz.len(),
-        )?;
-        check_finite("test mode shapes", shapes)?;
         for (mode, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || test_mode(mode), frequency)?;
-            positive(
-                "squared frequency",
-                || test_mode(mode),
-                (2.0 * PI * frequency).powi(2),
-            )?;
-            positive(
-                "largest component",
-                || test_mode(mode),
-                shapes.column(mode).amax(),
-            )?;
         }
         let omega_squared = frequencies_hz.iter().map(|f| (2.0 * PI * f).powi(2));
-        Ok(Self {
-            omega_squared: DVector::from_iterator(frequencies_hz.len(), omega_squared),
-            shapes: shapes.clone(),
-        })
+        let omega_squared = DVector::from_iterator(frequencies_hz.len(), omega_squared);
+        Self::new(omega_squared, shapes.clone())
+    }
+
+    /// The same frequencies with other shapes (d × n), such as those that sensors see.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_shapes(&self, shapes: DMatrix<f64>) -> Result<Self, Error> {
+        Self::new(self.omega_squared.clone(), shapes)
+    }
+
+    /// Squared frequencies and shapes, for whoever makes other modes of them.
+    pub fn into_parts(self) -> (DVector<f64>, DMatrix<f64>) {
+        (self.omega_squared, self.shapes)
     }
 
     /// Number of modes.
@@ -86,22 +112,14 @@ impl ModeSet {
 
     /// Generalized masses $v_i^t M v_i$ of test modes (n), after refusing modes that have none.
     pub(crate) fn generalized_masses(&self, mass: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
-        at_least_one("test modes", self.len())?;
         check_shape("dynamic mass", mass, mass.nrows(), mass.nrows())?;
         check_shape("test mode shapes", &self.shapes, mass.nrows(), self.len())?;
-        check_finite("test mode shapes", &self.shapes)?;
-        let of_mode = |mode: usize| {
-            let shape = self.shapes.column(mode);
+        let of_mode = |(mode, shape): (usize, DVectorView<f64>)| {
             let generalized_mass = shape.dot(&(mass * shape));
-            positive(
-                "squared frequency",
-                || test_mode(mode),
-                self.omega_squared[mode],
-            )?;
             positive("generalized mass", || test_mode(mode), generalized_mass)?;
             Ok(generalized_mass)
         };
-        (0..self.len()).map(of_mode).collect()
+        self.shapes.column_iter().enumerate().map(of_mode).collect()
     }
 
     /// The same modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;

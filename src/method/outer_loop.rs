@@ -131,7 +131,6 @@ pub(crate) fn correlate_while<E: From<Error>>(
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
     check_length("parameter factors", total_ranges.len(), model.shares.len())?;
-    model.check()?;
     let (test, initial) = (model.test.clone(), model.exact.clone());
     let seen: Vec<f64> = model
         .test_shares

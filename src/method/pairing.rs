@@ -11,30 +11,43 @@ use nalgebra::DMatrix;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairing {
     /// For each test mode, the index of its analysis mode.
-    pub analysis_mode: Vec<usize>,
+    pub(crate) analysis_mode: Vec<usize>,
     /// For each test mode, +1 or −1: the sign that turns the analysis shape its way.
-    pub sign: Vec<f64>,
+    pub(crate) sign: Vec<f64>,
 }
 
 impl Pairing {
+    /// For each test mode, the index of its analysis mode.
+    pub fn analysis_mode(&self) -> &[usize] {
+        &self.analysis_mode
+    }
+
+    /// For each test mode, +1 or −1: the sign that turns the analysis shape its way.
+    pub fn sign(&self) -> &[f64] {
+        &self.sign
+    }
+
+    /// Pairs of known analysis modes (from zero) and signs, one of each for every test mode.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for lists of different lengths.
+    pub fn new(analysis_mode: Vec<usize>, sign: Vec<f64>) -> Result<Self, Error> {
+        check_length("signs of paired modes", sign.len(), analysis_mode.len())?;
+        Ok(Self {
+            analysis_mode,
+            sign,
+        })
+    }
+
     /// Refuses analysis modes other than those paired, and another number of test modes.
     pub(crate) fn check(&self, analysis: &ModeSet, test_count: usize) -> Result<(), Error> {
-        check_shape(
-            "analysis mode shapes",
-            &analysis.shapes,
-            analysis.shapes.nrows(),
-            analysis.len(),
-        )?;
         check_length("paired modes", self.analysis_mode.len(), test_count)?;
-        check_length("signs of paired modes", self.sign.len(), test_count)?;
-        let place = |&mode: &usize| {
-            check_count(
-                "paired analysis modes",
-                mode.saturating_add(1),
-                analysis.len(),
-            )
-        };
-        self.analysis_mode.iter().try_for_each(place)
+        let highest = self
+            .analysis_mode
+            .iter()
+            .max()
+            .map_or(0, |mode| mode.saturating_add(1));
+        check_count("paired analysis modes", highest, analysis.len())
     }
 }
 

@@ -34,18 +34,43 @@ pub enum UpdateRule {
 #[derive(Debug, Clone)]
 pub struct ModalState {
     /// Factor on each parameter's share since the last exact modes.
-    pub factors: Vec<f64>,
+    pub(crate) factors: Vec<f64>,
     /// The modes, each in the place of the exact mode it continues.
-    pub modes: ModeSet,
+    pub(crate) modes: ModeSet,
     /// Their shapes in terms of the exact ones, of unit generalized mass (n × n).
-    pub generalized_shapes: DMatrix<f64>,
+    pub(crate) generalized_shapes: DMatrix<f64>,
     /// Which mode answers which test mode.
-    pub pairing: Pairing,
+    pub(crate) pairing: Pairing,
     /// Distance from the test modes.
-    pub errors: Errors,
+    pub(crate) errors: Errors,
 }
 
 impl ModalState {
+    /// Factor on each parameter's share since the last exact modes.
+    pub fn factors(&self) -> &[f64] {
+        &self.factors
+    }
+
+    /// The modes, each in the place of the exact mode it continues.
+    pub fn modes(&self) -> &ModeSet {
+        &self.modes
+    }
+
+    /// Their shapes in terms of the exact ones, of unit generalized mass (n × n).
+    pub fn generalized_shapes(&self) -> &DMatrix<f64> {
+        &self.generalized_shapes
+    }
+
+    /// Which mode answers which test mode.
+    pub fn pairing(&self) -> &Pairing {
+        &self.pairing
+    }
+
+    /// Distance from the test modes.
+    pub fn errors(&self) -> Errors {
+        self.errors
+    }
+
     /// The state before any change: all factors one, the exact modes.
     pub fn start(model: &ModalModel) -> Self {
         let count = model.exact.modes.len();
@@ -58,19 +83,11 @@ impl ModalState {
         }
     }
 
-    /// Refuses a state of another model, or whose parts do not fit together.
+    /// Refuses a state of another model.
     pub(crate) fn check(&self, model: &ModalModel) -> Result<(), Error> {
-        model.check()?;
-        let count = model.exact.modes.len();
+        let (rows, columns) = model.exact.modes.shapes.shape();
         check_length("parameter factors", self.factors.len(), model.shares.len())?;
-        check_shape(
-            "shapes of the state",
-            &self.modes.shapes,
-            model.test.shapes.nrows(),
-            count,
-        )?;
-        check_shape("generalized shapes", &self.generalized_shapes, count, count)?;
-        self.pairing.check(&self.modes, model.test.len())
+        check_shape("shapes of the state", &self.modes.shapes, rows, columns)
     }
 
     /// The state at `factors` on the shares, the whole change since the last exact modes taken at once:
@@ -81,7 +98,6 @@ impl ModalState {
     /// [`Error::WrongShape`] for factors or a model that do not fit; those of [`recursive_1_converged`], with changes of mass
     /// [`general::recursive_1_converged`], or [`eigensolution`]; those of [`normalize_with_mass`].
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
-        model.check()?;
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let exact = &model.exact.modes;
         let count = exact.len();

@@ -2,9 +2,8 @@
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
 use crate::method::derivatives::DERIVATIVE_STEP;
-use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, finite_list};
 use crate::method::model::{ModalModel, Range};
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// Gage that [`StepRule::Gage`] measures in, in.
@@ -24,60 +23,41 @@ pub enum StepRule {
     /// $0.001 \lVert \kappa \rVert_F$, the coupling of modes included: one rule for every case and the library's own. With all
     /// modes it is $\lVert K_G^{-1/2} \Delta K K_G^{-1/2} \rVert_F$ with the test's stiffness $K_G$, whatever the basis.
     #[default]
-    Matrix,
-    /// $0.001 (\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone. Cases 1 and 4 were run so.
-    Own,
-    /// The relative change itself, 0.001 for every parameter. Cases 2 and 3 and Tables 9 to 12 were run so.
+    #[serde(rename = "matrix")]
+    Norm,
+    /// $0.001 (\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone.
+    #[serde(rename = "own")]
+    Diagonal,
+    /// The relative change itself, 0.001 for every parameter.
     Relative,
     /// The change of gage in units of [`REFERENCE_GAGE`], $0.001 t_e/(0.01 \text{ in})$.
     Gage,
-    /// $0.001 \sum_i \kappa_{ii}$: larger than [`Self::Own`], so that steps are smaller.
-    Sum,
-    /// $0.001 \sum_s (\Delta e_s/0.001)^2$ for every parameter alike: the direction of [`Self::Relative`] with the length that
-    /// would bring the linearized error sum to zero.
-    SteepestDescent,
 }
 
 /// $\Delta k_e$ of every parameter for a change of 0.1 % (12), dimensionless.
 ///
-/// The parameters stand at `share_factors` on the model's shares and at `size_factors` on its gages.
-///
-/// # Errors
-/// [`Error::WrongShape`] when the lists do not match the parameters, or the model's parts each other; [`Error::NotFinite`].
+/// The parameters stand at `share_factors` on the model's shares and at `size_factors` on its gages, one of either a parameter.
 pub fn stiffness_changes(
     model: &ModalModel,
     share_factors: &[f64],
     size_factors: &[f64],
-    error_changes: &[f64],
     rule: StepRule,
-) -> Result<Vec<f64>, Error> {
-    model.check()?;
-    let is_whole = |list: &&[f64]| {
-        check_length(
-            "parameter factors or changes",
-            list.len(),
-            model.shares.len(),
-        )
-    };
-    [share_factors, size_factors, error_changes]
-        .iter()
-        .try_for_each(is_whole)?;
-    let squared_slopes: f64 = error_changes
-        .iter()
-        .map(|change| (change / DERIVATIVE_STEP).powi(2))
-        .sum();
-    let of_parameter = |e: usize| match rule {
-        StepRule::Matrix => share_factors[e] * model.test_shares[e].norm(),
-        StepRule::Own => share_factors[e] * model.test_shares[e].diagonal().norm(),
-        StepRule::Relative => 1.0,
-        StepRule::Gage => size_factors[e] * model.sizes[e] / REFERENCE_GAGE,
-        StepRule::Sum => share_factors[e] * model.test_shares[e].trace(),
-        StepRule::SteepestDescent => squared_slopes,
-    };
-    let changes = (0..model.shares.len())
-        .map(|e| DERIVATIVE_STEP * of_parameter(e))
-        .collect();
-    finite_list("changes of stiffness", changes)
+) -> Vec<f64> {
+    let relative =
+        |((share, share_factor), (size, size_factor)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
+            match rule {
+                StepRule::Norm => share_factor * share.norm(),
+                StepRule::Diagonal => share_factor * share.diagonal().norm(),
+                StepRule::Relative => 1.0,
+                StepRule::Gage => size_factor * size / REFERENCE_GAGE,
+            }
+        };
+    let shares = model.test_shares.iter().zip(share_factors);
+    let sizes = model.sizes.iter().zip(size_factors);
+    shares
+        .zip(sizes)
+        .map(|parameter| DERIVATIVE_STEP * relative(parameter))
+        .collect()
 }
 
 /// Unlimited stiffness change factors by (13).
@@ -162,12 +142,10 @@ impl StepRule {
     /// What the rule is called in reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Matrix => "matrix",
-            Self::Own => "own",
+            Self::Norm => "matrix",
+            Self::Diagonal => "own",
             Self::Relative => "relative",
             Self::Gage => "gage",
-            Self::Sum => "sum",
-            Self::SteepestDescent => "steepest_descent",
         }
     }
 }

@@ -89,7 +89,7 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
                 say(format_args!(
                     "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
                     counted(done.inner.iterations.len(), "iteration", "iterations"),
-                    done.inner.last.errors.sum(),
+                    done.inner.last.errors().sum(),
                     done.check.errors.sum(),
                 ));
             }

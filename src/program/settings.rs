@@ -13,7 +13,7 @@ use serde::de::value::{Error, StrDeserializer};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Settings of the loops")]
 pub struct SettingsArguments {
-    /// How the step measures a change of stiffness: matrix, own, relative, gage, sum or steepest_descent
+    /// How the step measures a change of stiffness: matrix, own, relative or gage
     #[arg(long, value_name = "RULE", value_parser = named::<StepRule>)]
     rule: Option<StepRule>,
     /// How changes of several iterations come together: sum or product

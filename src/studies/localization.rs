@@ -31,13 +31,7 @@ pub struct Suspect {
 pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
     let state = ModalState::start(model);
     let changes = error_changes(model, &state, settings.derivatives)?;
-    let stiffnesses = stiffness_changes(
-        model,
-        &state.factors,
-        &state.factors,
-        &changes,
-        settings.step,
-    )?;
+    let stiffnesses = stiffness_changes(model, &state.factors, &state.factors, settings.step);
     let error_sum = settings.measure.scale(model.test.len()) * state.errors.sum();
     let factors = unlimited_factors(&changes, &stiffnesses, error_sum, settings.first_relaxation);
     let suspect = |(parameter, factor): (usize, f64)| Suspect {

@@ -136,10 +136,10 @@ impl Pencil {
     /// Certifies modes as the lowest of the pencil: a root within the bound of each, and no other below or between.
     fn certify(&self, what: &str, modes: &ModeSet) {
         let mut order: Vec<usize> = (0..modes.len()).collect();
-        order.sort_by(|&a, &b| modes.omega_squared[a].total_cmp(&modes.omega_squared[b]));
+        order.sort_by(|&a, &b| modes.omega_squared()[a].total_cmp(&modes.omega_squared()[b]));
         for (place, &mode) in order.iter().enumerate() {
-            let square = modes.omega_squared[mode];
-            let bound = self.bound(square, modes.shapes.column(mode).as_slice());
+            let square = modes.omega_squared()[mode];
+            let bound = self.bound(square, modes.shapes().column(mode).as_slice());
             assert!(bound < CERTIFIED_ROOT, "{what}, mode {mode}: {bound:e}");
             // A rounding each for the two ends.
             let [lower, upper] =
@@ -236,14 +236,18 @@ fn frequencies_with_fewer_modes_are_certified() {
             &case.settings.inner,
         )
         .expect("it runs");
-        let shares: Vec<&DMatrix<f64>> =
-            analyzed.shares.iter().map(|share| share.matrix()).collect();
-        let squares = analyzed.exact.modes.omega_squared.as_slice();
-        let modal = ModeSet {
-            omega_squared: inner.last.modes.omega_squared.clone(),
-            shapes: inner.last.generalized_shapes.clone(),
-        };
-        let inner = of_inner_loop(squares, &shares, &inner.last.factors);
+        let shares: Vec<&DMatrix<f64>> = analyzed
+            .shares()
+            .iter()
+            .map(|share| share.matrix())
+            .collect();
+        let squares = analyzed.exact().modes.omega_squared().as_slice();
+        let modal = ModeSet::new(
+            inner.last.modes().omega_squared().clone(),
+            inner.last.generalized_shapes().clone(),
+        )
+        .expect("modes");
+        let inner = of_inner_loop(squares, &shares, inner.last.factors());
         inner.certify(&what, &modal);
         let gages = fewer_modes_run(&case, test_modes, analysis_modes)
             .expect("it runs")

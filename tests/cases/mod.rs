@@ -6,6 +6,7 @@ pub mod torque_box_nastran95;
 
 pub mod appendices_expected;
 pub mod cases_expected;
+pub mod plain;
 pub mod certified;
 pub mod double_double;
 

@@ -1,9 +1,7 @@
 //! Goldens of the report: Tables 3 to 8 and 13, Case 4, and the fit of the box.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{
-    GOLDEN_ABSOLUTE_PERCENT, GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE,
-};
+use crate::common::tolerances::{GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
 use corfem::cases::fit::fit;
 use corfem::cases::torque_box::Reconstruction;
 use corfem::cases::{CASES, Case, Grouping, run_case};
@@ -23,11 +21,7 @@ fn tables() -> Vec<Table> {
 
 #[test]
 fn every_table_as_numbers() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
+    let numbers = Numbers::BY_UNIT;
     let tables = tables();
     let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
     assert_eq!(
@@ -70,11 +64,7 @@ fn report_as_text_and_markdown() {
 
 #[test]
 fn cases_by_substructures() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
+    let numbers = Numbers::BY_UNIT;
     let results: Vec<_> = CASES
         .into_iter()
         .map(|number| {
@@ -100,6 +90,7 @@ fn root_errors_of_table_1() {
         relative: GOLDEN_RELATIVE,
         absolute: GOLDEN_ABSOLUTE_ROOT_PERCENT,
         last_digit: false,
+        ..Numbers::AS_WRITTEN
     };
     let table = root_error_table().expect("separate roots");
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));

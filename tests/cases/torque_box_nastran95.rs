@@ -39,7 +39,7 @@ fn eigenvalues(matrices: &[ElementMatrix], structure: &Structure, mass: f64) -> 
     let condensed = condense(&stiffness, &select).unwrap();
     let mass = mass * DMatrix::identity(12, 12);
     let modes = modes::solve(&condensed.stiffness, &mass, 12).unwrap();
-    modes.omega_squared.iter().copied().collect()
+    modes.omega_squared().iter().copied().collect()
 }
 
 fn by_name<'a>(all: &'a StoredBoxes, name: &str) -> &'a StoredBox {

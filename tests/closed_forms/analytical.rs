@@ -32,7 +32,7 @@ proptest! {
         let expected = chain_eigenvalues(ends, count, spring, mass);
         prop_assert_eq!(found.len(), expected.len());
         let bar = CONDITIONED_ROUND_OFF * expected[count - 1] / expected[0];
-        for (found, expected) in found.omega_squared.iter().zip(&expected) {
+        for (found, expected) in found.omega_squared().iter().zip(&expected) {
             prop_assert!((found / expected - 1.0).abs() <= bar, "{found} {expected}");
         }
     }

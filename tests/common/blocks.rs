@@ -255,10 +255,10 @@ fn solve_in(
                 other => other,
             })?;
         for (column, &mode) in block.iter().enumerate() {
-            solved.roots[mode] = modes.omega_squared[column].recip();
+            solved.roots[mode] = modes.omega_squared()[column].recip();
             solved
                 .shapes
-                .set_column(mode, &(&span * modes.shapes.column(column)));
+                .set_column(mode, &(&span * modes.shapes().column(column)));
         }
     }
     Ok(solved)

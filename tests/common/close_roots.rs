@@ -26,7 +26,7 @@ pub fn root_error(roots: &DVector<f64>, change: &ModalChange<f64>) -> f64 {
     let exact = corfem::method::modes::solve(&stiffness, &mass, roots.len()).expect("vibrations");
     ascending(roots.map(f64::recip).iter())
         .iter()
-        .zip(exact.omega_squared.iter())
+        .zip(exact.omega_squared().iter())
         .map(|(found, exact)| (found / exact - 1.0).abs())
         .fold(0.0, f64::max)
 }
@@ -57,7 +57,7 @@ pub fn separate_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
 /// A change of springs seen through a chain's modes.
 pub fn spring_change(modes: &Modes, ground: [f64; 3], between: [f64; 3]) -> ModalChange<f64> {
     let beta = modes
-        .shapes
-        .tr_mul(&(three_mass_chain(ground, between) * &modes.shapes));
-    ModalChange::of_vibrations(&modes.omega_squared, beta, DMatrix::zeros(3, 3))
+        .shapes()
+        .tr_mul(&(three_mass_chain(ground, between) * modes.shapes()));
+    ModalChange::of_vibrations(modes.omega_squared(), beta, DMatrix::zeros(3, 3))
 }

@@ -1,49 +1,108 @@
 //! Snapshots compared number by number, so that another machine's last digit does not fail them.
 
+use crate::common::tolerances::{
+    GOLDEN_AS_WRITTEN, GOLDEN_FREQUENCY, GOLDEN_GAGE, GOLDEN_PERCENT, GOLDEN_RELATIVE,
+};
 use insta::Snapshot;
 use insta::comparator::Comparator;
 use insta::internals::SnapshotContents;
 
-/// How far numbers may be apart; all text around them must be the same.
+/// How far numbers may be apart. Everything else must be the same to the letter: words, blanks, rules, and whole numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Numbers {
     /// Relative difference allowed.
     pub relative: f64,
     /// Absolute difference allowed, for numbers that are differences themselves.
     pub absolute: f64,
-    /// Whether one unit of the last digit written is allowed too: for numbers rounded for a reader.
+    /// Whether one unit of the last decimal written is allowed too: for places in a drawing.
     pub last_digit: bool,
+    /// Whether tables of numbers are compared by the unit of each row instead.
+    pub by_unit: bool,
+    /// Whether whole numbers may differ too: for counts of what chance decides.
+    pub whole: bool,
 }
 
 impl Numbers {
-    /// Those a reader sees, a tenth of a pixel of a drawing among them: each to the last digit written.
+    /// Those that a reader sees: to the last digit written, as far as [`GOLDEN_AS_WRITTEN`] tells them apart.
     pub const AS_WRITTEN: Self = Self {
-        relative: 0.0,
+        relative: GOLDEN_AS_WRITTEN,
         absolute: 0.0,
+        last_digit: false,
+        by_unit: false,
+        whole: false,
+    };
+
+    /// Places in a drawing, to a tenth of a pixel.
+    pub const DRAWN: Self = Self {
         last_digit: true,
+        ..Self::AS_WRITTEN
+    };
+
+    /// Tables of numbers: each by its unit.
+    pub const BY_UNIT: Self = Self {
+        by_unit: true,
+        ..Self::AS_WRITTEN
     };
 
     /// Whether two texts agree.
     pub fn agree(&self, one: &str, other: &str) -> bool {
-        let (one, other) = (tokens(one), tokens(other));
-        one.len() == other.len()
-            && one
-                .iter()
-                .zip(&other)
-                .all(|(a, b)| match (number(a), number(b)) {
-                    (Some(x), Some(y)) => {
-                        let unit = if self.last_digit {
-                            1.001 * last_unit(a).max(last_unit(b))
-                        } else {
-                            0.0
-                        };
-                        let allowed = self.relative * x.abs().max(y.abs()) + self.absolute + unit;
-                        (x - y).abs() <= allowed
-                    }
-                    (None, None) => a == b,
-                    _ => false,
-                })
+        let (lines, others) = (lines(one), lines(other));
+        lines.len() == others.len()
+            && lines.iter().zip(others).all(|(a, b)| {
+                let numbers = if self.by_unit { Self::of_row(a) } else { *self };
+                numbers.same_line(a, b)
+            })
     }
+
+    /// The rule for a row `table,row,column,unit,computed,published`.
+    fn of_row(row: &str) -> Self {
+        // The unit and the numbers are the last three cells; names before them may hold commas.
+        let unit = row.rsplit(',').nth(2).unwrap_or_default();
+        let (relative, absolute) = match unit {
+            "Hz" => (GOLDEN_FREQUENCY, 0.0),
+            "in" | "in²" => (GOLDEN_GAGE, 0.0),
+            "%" => (0.0, GOLDEN_PERCENT),
+            _ => {
+                return Self {
+                    relative: GOLDEN_RELATIVE,
+                    ..Self::AS_WRITTEN
+                };
+            }
+        };
+        Self {
+            relative,
+            absolute,
+            whole: true,
+            ..Self::AS_WRITTEN
+        }
+    }
+
+    fn same_line(&self, one: &str, other: &str) -> bool {
+        let (one, other) = (tokens(one), tokens(other));
+        one.len() == other.len() && one.iter().zip(&other).all(|(a, b)| self.same_token(a, b))
+    }
+
+    fn same_token(&self, a: &str, b: &str) -> bool {
+        let is_whole = |token: &str| !token.contains(['.', 'e', 'E']);
+        let (Some(x), Some(y)) = (number(a), number(b)) else {
+            return a == b;
+        };
+        if !self.whole && is_whole(a) && is_whole(b) {
+            return a == b;
+        }
+        let decimal = if self.last_digit {
+            last_unit(a).max(last_unit(b))
+        } else {
+            0.0
+        };
+        let allowed = self.relative * x.abs().max(y.abs()) + self.absolute + 1.001 * decimal;
+        (x - y).abs() <= allowed
+    }
+}
+
+/// The lines of a text, without blanks at its ends.
+fn lines(text: &str) -> Vec<&str> {
+    text.trim_end().lines().map(str::trim_end).collect()
 }
 
 impl Comparator for Numbers {
@@ -71,26 +130,15 @@ pub fn assert_golden(name: &str, text: &str, numbers: Numbers) {
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-/// Splits a text into numbers and the runs of other characters between them. Runs of blanks and of rules count as
-/// one: they are as long as the numbers are wide.
+/// Splits a text into numbers and the single characters between them.
 fn tokens(text: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
     let characters: Vec<char> = text.chars().collect();
     let mut at = 0;
     while at < characters.len() {
-        let end = number_end(&characters, at);
-        if end > at {
-            tokens.push(characters[at..end].iter().collect());
-            at = end;
-            continue;
-        }
-        let character = characters[at];
-        let same_run = matches!(character, ' ' | '─')
-            && tokens.last().is_some_and(|last| last.ends_with(character));
-        if !same_run {
-            tokens.push(character.to_string());
-        }
-        at += 1;
+        let end = number_end(&characters, at).max(at + 1);
+        tokens.push(characters[at..end].iter().collect());
+        at = end;
     }
     tokens
 }
@@ -133,35 +181,62 @@ fn number(token: &str) -> Option<f64> {
         .then(|| token.parse().ok())?
 }
 
-/// One unit of the last digit a number is written with.
+/// One unit of the last decimal that a number is written with; zero for one without decimals.
 fn last_unit(token: &str) -> f64 {
     match token.split_once('.') {
         Some((_, decimals)) => 10f64.powi(-(decimals.len() as i32)),
-        None => 1.0,
+        None => 0.0,
     }
 }
 
 #[test]
-fn golden_comparison_forgives_the_last_digit_and_nothing_else() {
-    let numbers = Numbers {
-        relative: 1e-6,
-        absolute: 0.0,
-        last_digit: false,
-    };
-    assert!(numbers.agree("f 10.0000001 Hz", "f 10.0 Hz"));
-    assert!(!numbers.agree("f 10.0001 Hz", "f 10.0 Hz"));
-    assert!(!numbers.agree("f 10.0 Hz", "g 10.0 Hz"));
-    assert!(!numbers.agree("f 10.0 Hz", "f 10.0 Hz 3"));
-    assert!(!numbers.agree("f 1e-3", "f 1e-4"));
-    assert!(!numbers.agree("f -1.0", "f 1.0"));
-    assert!(
-        numbers.agree("a    1.0", "a  1.0"),
-        "column widths follow the numbers"
-    );
-    let rounded = Numbers {
-        last_digit: true,
-        ..numbers
-    };
-    assert!(rounded.agree("10.60 (10.66)", "10.61 (10.66)"));
-    assert!(!rounded.agree("10.60 (10.66)", "10.62 (10.66)"));
+fn a_golden_holds_words_blanks_rules_and_whole_numbers() {
+    let text = Numbers::AS_WRITTEN;
+    for (one, other) in [
+        ("element 8", "element 9"),
+        ("Worst is mode 6.", "Worst is mode 7."),
+        ("2 passes", "3 passes"),
+        ("Table 3", "Table 4"),
+        ("a    1.0", "a  1.0"),
+        ("a 1.0", "a\u{a0}1.0"),
+        ("─────", "────"),
+        ("f 10.60 Hz", "f 10.61 Hz"),
+        ("f -1.0", "f 1.0"),
+        ("f 10.0 Hz", "g 10.0 Hz"),
+        ("f 10.0 Hz", "f 10.0 Hz 3"),
+        ("f 1e-3", "f 1e-4"),
+        ("one\ntwo", "one two"),
+    ] {
+        assert!(
+            text.agree(one, one) && !text.agree(one, other),
+            "{one}: {other}"
+        );
+        assert!(!Numbers::BY_UNIT.agree(one, other), "{one}: {other}");
+    }
+    assert!(Numbers::DRAWN.agree("x=\"10.6\"", "x=\"10.7\""));
+    assert!(!Numbers::DRAWN.agree("x=\"10.6\"", "x=\"10.8\""));
+    assert!(!Numbers::DRAWN.agree("x=\"10\"", "x=\"11\""));
+}
+
+#[test]
+fn a_golden_table_holds_every_number_by_its_unit() {
+    let row = |unit: &str, value: f64| format!("table,\"1, 2\",GVT,{unit},{value},10");
+    for (unit, within, beyond) in [
+        ("Hz", 10.0 * (1.0 + 0.9e-6), 10.0 * (1.0 + 1.1e-6)),
+        ("in", 10.0 * (1.0 + 0.9e-5), 10.0 * (1.0 + 1.1e-5)),
+        ("%", 10.0 + 0.9e-4, 10.0 + 1.1e-4),
+        ("", 10.0, 11.0),
+    ] {
+        let golden = row(unit, 10.0);
+        assert!(
+            Numbers::BY_UNIT.agree(&golden, &row(unit, within)),
+            "{unit}"
+        );
+        assert!(
+            !Numbers::BY_UNIT.agree(&golden, &row(unit, beyond)),
+            "{unit}"
+        );
+    }
+    // A gage half a percent off, which a tolerance meant for percent would forgive.
+    assert!(!Numbers::BY_UNIT.agree(&row("in", 0.01), &row("in", 0.01005)));
 }

@@ -90,13 +90,10 @@ impl Draws {
         }
     }
 
-    pub fn modes(&mut self, dof: usize) -> ModeSet {
+    pub fn modes(&mut self, dof: usize) -> Result<ModeSet, Error> {
         let (rows, count) = (self.about(dof), self.size());
         let length = self.about(count);
-        ModeSet {
-            omega_squared: self.vector(length),
-            shapes: self.matrix(rows, count),
-        }
+        ModeSet::new(self.vector(length), self.matrix(rows, count))
     }
 
     pub fn corners(&mut self) -> [Vector3<f64>; 4] {
@@ -171,30 +168,26 @@ impl Draws {
     }
 
     /// A pairing of so many test modes with analysis modes, or of others.
-    pub fn pairing(&mut self, test: usize, analysis: usize) -> Pairing {
+    pub fn pairing(&mut self, test: usize, analysis: usize) -> Result<Pairing, Error> {
         let (modes, signs) = (self.about(test), self.about(test));
         let outside = self.below(8) / 7;
         let analysis_mode = (0..modes).map(|_| self.below(analysis + outside)).collect();
-        Pairing {
-            analysis_mode,
-            sign: (0..signs)
-                .map(|_| {
-                    if self.below(9) == 0 {
-                        self.number()
-                    } else {
-                        1.0
-                    }
-                })
-                .collect(),
-        }
+        let sign = |_| {
+            if self.below(9) == 0 {
+                self.number()
+            } else {
+                1.0
+            }
+        };
+        Pairing::new(analysis_mode, (0..signs).map(sign).collect())
     }
 
     /// Analysis modes, test modes and what pairs them.
-    pub fn compared(&mut self) -> (ModeSet, Pairing, ModeSet) {
+    pub fn compared(&mut self) -> Result<(ModeSet, Pairing, ModeSet), Error> {
         let size = self.size();
-        let (analysis, test) = (self.modes(size), self.modes(size));
-        let pairing = self.pairing(test.len(), analysis.len());
-        (analysis, pairing, test)
+        let (analysis, test) = (self.modes(size)?, self.modes(size)?);
+        let pairing = self.pairing(test.len(), analysis.len())?;
+        Ok((analysis, pairing, test))
     }
 
     /// Errors of any number of modes, none included.
@@ -206,55 +199,17 @@ impl Draws {
         }
     }
 
-    /// A chain's modal model of which a part may have been changed to what does not fit the others.
-    pub fn bent_chain(&mut self) -> Result<ModalModel, Error> {
-        let mut model = self.chain().ok_or(Error::Empty { what: "chains" })?;
-        let (count, size) = (self.size(), self.size());
-        match self.below(16) {
-            0 => model.test = self.modes(size),
-            1 => model.cross = self.matrix(count, size),
-            2 => model.exact.pairing = self.pairing(count, size),
-            3 => model.shares = self.shares(size),
-            4 => model.test_shares = (0..count).map(|_| self.symmetric(size)).collect(),
-            5 => model.sizes = self.list(count),
-            6 => {
-                (model.exact.errors.frequency, model.exact.errors.shape) =
-                    (self.number(), self.number())
-            }
-            7 => {
-                model.exact.modes = self
-                    .chain()
-                    .ok_or(Error::Empty { what: "chains" })?
-                    .exact
-                    .modes
-            }
-            8 => model.test.omega_squared = self.vector(model.test.len()),
-            _ => {}
-        }
-        Ok(model)
-    }
-
-    /// A state of a model, or one that is none of it.
+    /// A state of a model, or of another.
     pub fn state(&mut self, model: &ModalModel) -> ModalState {
+        let other = self.chain().filter(|_| self.below(6) == 0);
+        let model = other.as_ref().unwrap_or(model);
         let factors = if self.below(2) == 0 {
-            vec![1.0; model.shares.len()]
+            vec![1.0; model.shares().len()]
         } else {
-            vec![1.1; model.shares.len()]
+            vec![1.1; model.shares().len()]
         };
         let start = ModalState::start(model);
-        let mut state = ModalState::at(model, factors, UpdateRule::Eigensolution).unwrap_or(start);
-        let (count, size) = (self.size(), self.size());
-        match self.below(12) {
-            0 => state.factors = self.list(count),
-            1 => state.modes = self.modes(size),
-            2 => state.generalized_shapes = self.symmetric(size),
-            3 => state.pairing = self.pairing(count, size),
-            4 => (state.errors.frequency, state.errors.shape) = (self.number(), self.number()),
-            5 => state.modes.shapes *= self.number(),
-            6 => state.modes.omega_squared *= self.number(),
-            _ => {}
-        }
-        state
+        ModalState::at(model, factors, UpdateRule::Eigensolution).unwrap_or(start)
     }
 
     /// Four grids, two of them held, and rods and panels between them.

@@ -34,7 +34,7 @@ fn task() -> Task {
 }
 
 fn test_data(modes: &ModeSet, sensors: Vec<Sensor>) -> TestData {
-    let mut shapes = modes.shapes.clone();
+    let mut shapes = modes.shapes().clone();
     // As a test has them: of unit largest component.
     shapes
         .column_iter_mut()
@@ -113,10 +113,9 @@ pub fn building() -> Files {
     let measured = [1, 3, 5, 7, 9];
     let sensors = sensors_at(&measured, 10);
     let modes = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let seen = ModeSet {
-        shapes: sensors.times(&modes.shapes).expect("it fits"),
-        ..modes
-    };
+    let seen = modes
+        .with_shapes(sensors.times(modes.shapes()).expect("it fits"))
+        .expect("shapes that fit");
     let places =
         measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
     let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\
@@ -175,10 +174,11 @@ pub fn delta_wing() -> Files {
             .expect("a row")
     };
     let rows: Vec<usize> = grids.iter().map(row).collect();
-    let modes = ModeSet {
-        omega_squared: lowest.omega_squared.clone(),
-        shapes: lowest.shapes.select_rows(&rows),
-    };
+    let modes = ModeSet::new(
+        lowest.omega_squared().clone(),
+        lowest.shapes().select_rows(&rows),
+    )
+    .expect("modes");
     let place = |grid: &usize| {
         model
             .structure()

@@ -1,5 +1,6 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
+use crate::common::alter;
 use corfem::method::appendix_b::MeasuringPoint;
 use corfem::method::elements::rod;
 use corfem::method::error_sum::ModeWeight;
@@ -163,10 +164,7 @@ pub fn with_raw_shapes(
                     raw[(mode, mode)] += 2.0;
                 }
                 let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
-                let modes = ModeSet {
-                    omega_squared: omega,
-                    shapes: raw,
-                };
+                let modes = ModeSet::new(omega, raw).expect("modes");
                 (structure.clone(), modes)
             })
     })
@@ -200,10 +198,7 @@ pub fn orthonormal_modes(
                     Some(omega.powi(2))
                 }),
             );
-            let modes = ModeSet {
-                omega_squared,
-                shapes,
-            };
+            let modes = ModeSet::new(omega_squared, shapes).expect("modes");
             (modes, mass)
         })
 }
@@ -247,11 +242,11 @@ impl Mixture {
         let [wrong, first, second] = self.modes;
         let [a, b] = self.fractions;
         let own = (1.0 - a * a - b * b).sqrt();
-        let shape = own * exact.shapes.column(wrong)
-            + a * exact.shapes.column(first)
-            + b * exact.shapes.column(second);
+        let shape = own * exact.shapes().column(wrong)
+            + a * exact.shapes().column(first)
+            + b * exact.shapes().column(second);
         let mut spoiled = exact.clone();
-        spoiled.shapes.set_column(wrong, &shape);
+        alter(&mut spoiled, |_, shapes| shapes.set_column(wrong, &shape));
         spoiled
     }
 }

@@ -39,6 +39,8 @@ pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
 
+use corfem::method::modes::ModeSet;
+use nalgebra::{DMatrix, DVector};
 use proptest::test_runner::{Config, FileFailurePersistence};
 
 /// Proptest's configuration for every property: `PROPTEST_CASES` sets the depth, failures are kept beside the
@@ -83,4 +85,11 @@ pub fn log_log_slope(points: &[(f64, f64)]) -> f64 {
     let above: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let below: f64 = logs.iter().map(|p| (p.0 - mx).powi(2)).sum();
     above / below
+}
+
+/// Changes something about modes.
+pub fn alter(modes: &mut ModeSet, change: impl FnOnce(&mut DVector<f64>, &mut DMatrix<f64>)) {
+    let (mut omega_squared, mut shapes) = modes.clone().into_parts();
+    change(&mut omega_squared, &mut shapes);
+    *modes = ModeSet::new(omega_squared, shapes).expect("modes");
 }

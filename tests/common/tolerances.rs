@@ -49,8 +49,16 @@ pub const QUADRATURE_DISTORTED: f64 = 1e-6;
 /// Goldens on another machine: the inner loop steps through some thirty finite-difference iterations, each of which
 /// multiplies a difference in the last digit; two builds of the independent program differ by 1e-6.
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
-/// Goldens of percent errors, which are differences of numbers that agree to `GOLDEN_RELATIVE`.
-pub const GOLDEN_ABSOLUTE_PERCENT: f64 = 1e-4;
+/// Frequencies in goldens, relative: what another machine's rounding moves at the end of a correlation, with room.
+pub const GOLDEN_FREQUENCY: f64 = 1e-6;
+/// Gages in goldens, relative: ten times as much, for a factor moves more than the frequencies that it serves.
+pub const GOLDEN_GAGE: f64 = 1e-5;
+/// Percent in goldens, in points: differences of numbers that agree to a millionth.
+pub const GOLDEN_PERCENT: f64 = 1e-4;
+/// Numbers written for a reader: none has more than six digits, so that any other digit is another number.
+pub const GOLDEN_AS_WRITTEN: f64 = 1e-7;
+/// Whole correlations of one problem put in two ways: round-off through dozens of iterations.
+pub const SAME_CORRELATION: f64 = 1e-9;
 /// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest
 /// entry; the product of the conditions times `ROUND_OFF`.
 pub const CORRECTION_ROUND_OFF: f64 = 1e-9;

@@ -188,11 +188,11 @@ pub fn error_sum_by_definition(
     test: &ModeSet,
 ) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
-    let cross = shapes.transpose() * mass * &test.shapes;
+    let cross = shapes.transpose() * mass * test.shapes();
     let (mut frequency, mut shape) = (0.0, 0.0);
     for (j, i) in pairs_by_sorting(&cross).into_iter().enumerate() {
-        let (analysis, measured) = (shapes.column(i), test.shapes.column(j));
-        frequency += (omega_squared[i].sqrt() / test.omega_squared[j].sqrt() - 1.0).powi(2);
+        let (analysis, measured) = (shapes.column(i), test.shapes().column(j));
+        frequency += (omega_squared[i].sqrt() / test.omega_squared()[j].sqrt() - 1.0).powi(2);
         let sign = cross[(i, j)].signum();
         let difference = sign * analysis / analysis.amax() - measured / measured.amax();
         shape += difference.norm_squared() / difference.len() as f64;

@@ -163,7 +163,7 @@ fn correlated(
     )?;
     let factors = &correlation.best_factors;
     let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
-    let truth = model.analyze(factors, exact, None)?.exact.errors;
+    let truth = model.analyze(factors, exact, None)?.exact().errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {
         converged: correlation.converged,
@@ -175,7 +175,7 @@ fn correlated(
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
         gage_rms: rms(&errors),
-        error_sum: model.analyze(factors, test, None)?.exact.errors.sum(),
+        error_sum: model.analyze(factors, test, None)?.exact().errors.sum(),
         true_frequency_rms: truth.frequency_rms(),
         true_shape_rms: truth.shape_rms(),
         gages_in: gages,

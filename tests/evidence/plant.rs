@@ -1,6 +1,7 @@
 //! Mistakes made on purpose.
 
 use super::specimen::Specimen;
+use crate::common::alter;
 use corfem::method::error::Error;
 use corfem::sparse::random::split_mix_64;
 use corfem::studies::preflight::{Change, FACTORS, Finding, Mended};
@@ -131,13 +132,16 @@ pub(super) fn plant(
         test: with_noise(&right.test, Noise::USUAL, seed)?,
         ..right.clone()
     };
-    let (points, modes) = specimen.test.shapes.shape();
+    let (points, modes) = specimen.test.shapes().shape();
     let mut draw = Draw(seed);
-    let shapes = &mut specimen.test.shapes;
+    let mut moved = specimen.test.shapes().clone();
+    let shapes = &mut moved;
     let named: Box<dyn Fn(&Finding) -> Naming> = match mistake {
         Mistake::Factor => {
             let known = FACTORS[seed as usize % FACTORS.len()];
-            specimen.test.omega_squared *= known.factor.powi(2);
+            alter(&mut specimen.test, |squares, _| {
+                *squares *= known.factor.powi(2)
+            });
             Box::new(move |finding| {
                 either(
                     matches!(finding, Finding::CommonFactor(found) if found.named == Some(known)),
@@ -185,7 +189,9 @@ pub(super) fn plant(
         Mistake::Transposed => return Ok(None),
         Mistake::Frequencies => {
             let two = draw.two(modes);
-            specimen.test.omega_squared.swap_rows(two[0], two[1]);
+            alter(&mut specimen.test, |squares, _| {
+                squares.swap_rows(two[0], two[1])
+            });
             Box::new(move |finding| {
                 either(
                     matches!(finding, Finding::FrequenciesExchanged(found) if found.modes == two),
@@ -196,8 +202,10 @@ pub(super) fn plant(
             let two = draw.two(modes);
             // Noise of its own: that of another seed.
             let again = with_noise(&right.test, Noise::USUAL, seed + 1_000_000)?;
-            shapes.set_column(two[1], &again.shapes.column(two[0]));
-            specimen.test.omega_squared[two[1]] = again.omega_squared[two[0]];
+            shapes.set_column(two[1], &again.shapes().column(two[0]));
+            alter(&mut specimen.test, |squares, _| {
+                squares[two[1]] = again.omega_squared()[two[0]];
+            });
             Box::new(move |finding| {
                 either(matches!(finding, Finding::NearlySame { modes, .. } if *modes == two))
             })
@@ -212,5 +220,6 @@ pub(super) fn plant(
             Box::new(|finding| either(matches!(finding, Finding::TooManyModes { .. })))
         }
     };
+    specimen.test = specimen.test.with_shapes(moved)?;
     Ok(Some((specimen, named)))
 }

@@ -70,7 +70,7 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
         .expect("it reads")
         .model;
     let modes = deck::modes(&read).expect("modes").modes;
-    [&own.omega_squared, &modes.omega_squared].map(|squared| squared.as_slice().to_vec())
+    [own.omega_squared(), modes.omega_squared()].map(|squared| squared.as_slice().to_vec())
 }
 
 proptest! {

@@ -519,7 +519,8 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
     let prepared = Prepared::new(&path).expect("a job");
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
-    let [first, last] = [&finished.first, &finished.last].map(|model| model.exact.errors.frequency);
+    let [first, last] =
+        [&finished.first, &finished.last].map(|model| model.exact().errors.frequency);
     assert!(last < first, "{last} after {first}");
     assert!(
         prepared
@@ -538,7 +539,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         let (_folder, path) = placed(files);
         let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-        (finished.first.exact.errors, finished.factors)
+        (finished.first.exact().errors, finished.factors)
     };
     let ones = ran(&paper("shape_weights = [1, 1, 1]"));
     assert_eq!(ones, ran(&paper("")));

@@ -34,7 +34,7 @@ fn measured_building(stories: usize, modes: usize) -> Files {
     let data = TestData {
         frequencies_hz,
         sensors: sensors.collect(),
-        shapes: found.shapes,
+        shapes: found.shapes().clone(),
         ..TestData::default()
     };
     let (stiffness, mass) = model.at(&ones).expect("matrices");
@@ -104,7 +104,7 @@ fn cross_orthogonality_is_measured_with_the_condensed_mass_where_that_will_do() 
         (
             prepared.mass_at_sensors(&model).expect("a mass"),
             condensed,
-            model.exact.modes.shapes.clone(),
+            model.exact().modes.shapes().clone(),
         )
     };
     let (mass, condensed, _) = of_modes("modes = [1]");
@@ -125,10 +125,10 @@ fn test_modes_keep_the_sense_in_which_they_were_measured() {
     let prepared = prepared(&rods());
     let model = prepared.analyze(&[1.0, 1.0]).expect("a model");
     for (compared, measured) in model
-        .test
-        .shapes
+        .test()
+        .shapes()
         .column_iter()
-        .zip(prepared.test.shapes.column_iter())
+        .zip(prepared.test.shapes().column_iter())
     {
         assert!(compared.dot(&measured) > 0.0, "{compared} {measured}");
     }
@@ -137,7 +137,7 @@ fn test_modes_keep_the_sense_in_which_they_were_measured() {
 #[test]
 fn a_minus_before_the_direction_turns_the_sensor() {
     let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
-    let shapes = |files: &Files| prepared(files).test.shapes;
+    let shapes = |files: &Files| prepared(files).test.shapes().clone();
     let (plain, turned) = (
         shapes(&rods()),
         shapes(&with(rods(), "job.toml", "[sensors]", turned)),

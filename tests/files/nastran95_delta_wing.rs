@@ -44,7 +44,8 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
         let own = model
             .analyze(&found.factors, &test, None)
             .expect("an analysis")
-            .exact;
+            .exact()
+            .clone();
         assert_near(
             &found.frequencies_hz,
             &own.frequencies_hz,

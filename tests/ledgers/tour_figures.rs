@@ -105,7 +105,7 @@ fn crease() -> Sketch {
     let at = |factor: f64| {
         ModalState::at(&modal, vec![factor, 1.0], UpdateRule::Eigensolution)
             .expect("a state")
-            .errors
+            .errors()
     };
     let series = |name, mark, of: fn(&Errors) -> f64| {
         Series::new(
@@ -136,9 +136,8 @@ fn first_step() -> Sketch {
         let modal = too_stiff(vec![whole], 1.001);
         let start = ModalState::start(&modal);
         let changes = error_changes(&modal, &start, DerivativeRule::Gradient).expect("a slope");
-        let stiffness =
-            stiffness_changes(&modal, &[1.0], &[1.0], &changes, rule).expect("a change");
-        let error = measure.scale(n) * start.errors.sum();
+        let stiffness = stiffness_changes(&modal, &[1.0], &[1.0], rule);
+        let error = measure.scale(n) * start.errors().sum();
         // Newton's is the step to the right factor.
         (
             n as f64,
@@ -168,18 +167,12 @@ fn first_step() -> Sketch {
                 StepRule::Relative,
                 ErrorMeasure::Sum,
             ),
-            series(
-                "matrix",
-                Mark::Line,
-                30,
-                StepRule::Matrix,
-                ErrorMeasure::Sum,
-            ),
+            series("matrix", Mark::Line, 30, StepRule::Norm, ErrorMeasure::Sum),
             series(
                 "matrix, as nine modes",
                 Mark::Dashed,
                 30,
-                StepRule::Matrix,
+                StepRule::Norm,
                 ErrorMeasure::NineModes,
             ),
         ],

@@ -24,9 +24,9 @@ fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
         .and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?))
         .expect("a model");
     let result = run_case(&case, |_, _| {}).expect("a run");
-    let factors = &result.correlation.passes[0].inner.last.factors;
+    let factors = result.correlation.passes[0].inner.last.factors();
     let beta = modal
-        .shares
+        .shares()
         .iter()
         .zip(factors)
         .map(|(share, factor)| (factor - 1.0) * share.matrix())
@@ -44,7 +44,7 @@ pub fn orders() -> Sketch {
     };
     let of_case = |name, number, mark, is_first: bool| {
         let (modal, beta) = first_pass(number);
-        let k = &modal.exact.modes.omega_squared;
+        let k = modal.exact().modes.omega_squared();
         let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
         let exact = eigensolution(&change).expect("modes");
         let by = |order| {

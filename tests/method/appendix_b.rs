@@ -16,10 +16,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Test modes from squared circular frequencies and shapes by columns.
 fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> ModeSet {
-    ModeSet {
-        omega_squared: DVector::from_column_slice(omega_squared),
-        shapes,
-    }
+    ModeSet::new(DVector::from_column_slice(omega_squared), shapes).expect("modes")
 }
 
 /// The mass norm of a shape.

@@ -124,7 +124,7 @@ proptest! {
         let [above, below, exact] =
             [above, below, exact].map(|k| solve(&(0.5 * (&k + k.transpose())), &mass, count).expect("modes"));
         for mode in 0..count {
-            let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared[mode]);
+            let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared()[mode]);
             prop_assert!(low <= exact * (1.0 + 1e2 * EIGEN_ROUND_OFF) && exact <= high * (1.0 + 1e2 * EIGEN_ROUND_OFF));
         }
     }
@@ -160,7 +160,7 @@ proptest! {
         let [above, below] =
             [above, below].map(|k| solve(&(0.5 * (&k + k.transpose())), &first.mass, 9).expect("modes"));
         for mode in 0..9 {
-            let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared[mode]);
+            let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared()[mode]);
             prop_assert!(low <= exact * (1.0 + 1e2 * EIGEN_ROUND_OFF) && exact <= high * (1.0 + 1e2 * EIGEN_ROUND_OFF));
         }
     }

@@ -13,7 +13,7 @@ use proptest::prelude::*;
 /// The error sum by eigensolution in modal coordinates at the given factors.
 pub fn exact_error_sum(problem: &ModalModel, factors: Vec<f64>) -> f64 {
     let state = ModalState::at(problem, factors, UpdateRule::Eigensolution).unwrap();
-    state.errors.sum()
+    state.errors().sum()
 }
 
 /// Factors with one of them multiplied.
@@ -26,10 +26,10 @@ pub fn with_one(factors: &[f64], parameter: usize, by: f64) -> Vec<f64> {
 /// What first order leaves out of the change of the error sum by a 0.1 % step of a parameter: second-order terms of the
 /// ratio of coupling to separation of any two modes.
 fn first_order_remainder(problem: &ModalModel, state: &ModalState, parameter: usize) -> f64 {
-    let g = &state.generalized_shapes;
-    let size = DERIVATIVE_STEP * state.factors[parameter];
-    let beta = size * g.tr_mul(&(problem.shares[parameter].matrix() * g));
-    let k = &state.modes.omega_squared;
+    let g = state.generalized_shapes();
+    let size = DERIVATIVE_STEP * state.factors()[parameter];
+    let beta = size * g.tr_mul(&(problem.shares()[parameter].matrix() * g));
+    let k = state.modes().omega_squared();
     let mut ratio = size;
     for i in 0..k.len() {
         for j in (0..k.len()).filter(|&j| j != i) {
@@ -67,11 +67,11 @@ proptest! {
         let found = by_definition(&problem, &state).unwrap();
         prop_assert_eq!(found.len(), count);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let factors = with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP);
             let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
-            prop_assume!(ahead.pairing == state.pairing);
-            let exact = ahead.errors.sum() - state.errors.sum();
+            prop_assume!(ahead.pairing() == state.pairing());
+            let exact = ahead.errors().sum() - state.errors().sum();
             let bound = first_order_remainder(&problem, &state, e);
             prop_assert!((change - exact).abs() <= bound, "{e}: {change:e} {exact:e} {bound:e}");
         }
@@ -114,17 +114,17 @@ proptest! {
         let sum: f64 = found.iter().sum();
         let ratios: Vec<f64> = (0..count)
             .map(|j| {
-                let i = state.pairing.analysis_mode[j];
-                (state.modes.omega_squared[i] / problem.test.omega_squared[j]).sqrt()
+                let i = state.pairing().analysis_mode()[j];
+                (state.modes().omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
             })
             .collect();
-        let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors.frequency;
+        let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors().frequency;
         let mut bound = 0.0;
         for e in 0..count {
-            let ahead = exact_error_sum(&problem, with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
-            let behind = exact_error_sum(&problem, with_one(&state.factors, e, 1.0 - DERIVATIVE_STEP));
+            let ahead = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP));
+            let behind = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 - DERIVATIVE_STEP));
             // A kink within the step, where another component becomes the largest, costs a whole second difference.
-            bound += (ahead - 2.0 * state.errors.sum() + behind).abs()
+            bound += (ahead - 2.0 * state.errors().sum() + behind).abs()
                 + first_order_remainder(&problem, &state, e);
         }
         let expected = slope * DERIVATIVE_STEP;
@@ -142,11 +142,11 @@ proptest! {
         let found = by_definition(&problem, &state).unwrap();
         prop_assert_eq!(found.len(), 15);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let factors = with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP);
             let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
-            prop_assume!(ahead.pairing == state.pairing);
-            let exact = ahead.errors.sum() - state.errors.sum();
+            prop_assume!(ahead.pairing() == state.pairing());
+            let exact = ahead.errors().sum() - state.errors().sum();
             let bound = first_order_remainder(&problem, &state, e);
             prop_assert!((change - exact).abs() <= bound, "{e}: {change:e} {exact:e} {bound:e}");
         }
@@ -162,8 +162,8 @@ fn derivatives_of_the_box_are_central_differences() {
         let h = DERIVATIVE_STEP / 10.0;
         let central: Vec<f64> = (0..15)
             .map(|e| {
-                let ahead = exact_error_sum(&problem, with_one(&state.factors, e, 1.0 + h));
-                let behind = exact_error_sum(&problem, with_one(&state.factors, e, 1.0 - h));
+                let ahead = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 + h));
+                let behind = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 - h));
                 (ahead - behind) / (2.0 * h)
             })
             .collect();

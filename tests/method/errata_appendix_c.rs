@@ -31,10 +31,10 @@ impl Changed {
     fn new() -> Self {
         let problem = first_problem(2);
         let mut beta = DMatrix::zeros(MODES, MODES);
-        for (e, share) in problem.shares.iter().enumerate() {
+        for (e, share) in problem.shares().iter().enumerate() {
             beta += if e % 2 == 0 { 0.1 } else { -0.1 } * share.matrix();
         }
-        let k = problem.exact.modes.omega_squared.clone();
+        let k = problem.exact().modes.omega_squared().clone();
         let Perturbed { roots, shapes } = exact(&k, &beta).expect("solved");
         Self {
             k,
@@ -260,13 +260,13 @@ fn generalized_matrices_obey_g_equals_k_lambda() {
     let problem = first_problem(1);
     let model = Case::new(1).expect("a case").model().expect("a model");
     let dynamic = model.matrices(&[1.0; 15]).expect("held");
-    let v = &problem.exact.modes.shapes;
+    let v = problem.exact().modes.shapes();
     let (k, g) = (
         v.tr_mul(&(&dynamic.stiffness * v)),
         v.tr_mul(&(&dynamic.mass * v)),
     );
     for i in 0..MODES {
-        let lambda = 1.0 / problem.exact.modes.omega_squared[i];
+        let lambda = 1.0 / problem.exact().modes.omega_squared()[i];
         assert_relative_eq!(
             g[(i, i)],
             k[(i, i)] * lambda,

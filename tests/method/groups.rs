@@ -170,7 +170,8 @@ fn the_size_of_a_group_is_the_mean_of_its_members() {
     let sizes = with_parameters(&case, parameters)
         .analyze(&[2.0, 3.0, 1.0], &case.test_modes().unwrap(), None)
         .unwrap()
-        .sizes;
+        .sizes()
+        .to_vec();
     for (found, expected) in sizes.iter().zip(expected) {
         assert!(
             (found / expected - 1.0).abs() <= ROUND_OFF,

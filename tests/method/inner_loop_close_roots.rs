@@ -29,7 +29,7 @@ fn repeated_roots_that_nothing_couples_are_corrected_by_either_rule() {
         };
         let corrected = run(&problem, &[1.0], &[None], &settings).unwrap();
         assert_eq!(corrected.stop, Stop::Tolerance);
-        assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
+        assert!((corrected.last.factors()[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
     }
 }
 
@@ -65,7 +65,7 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     }
     let exact = at(8.0, UpdateRule::Eigensolution).unwrap();
     // The roots of 107, 7; 7, 108.
-    for (found, side) in exact.modes.omega_squared.iter().zip([-1.0, 1.0]) {
+    for (found, side) in exact.modes().omega_squared().iter().zip([-1.0, 1.0]) {
         assert!((found / (107.5 + side * 49.25_f64.sqrt()) - 1.0).abs() < ROUND_OFF);
     }
     // In the loop such a step is halved; when none settles, the first is an error.

@@ -182,7 +182,7 @@ fn mass_derivatives_are_central_differences() {
             let mut factors = vec![1.0; 24];
             factors[e] += change;
             let state = ModalState::at(&problem, factors, UpdateRule::Eigensolution);
-            state.expect("solved").errors.sum()
+            state.expect("solved").errors().sum()
         };
         let h = DERIVATIVE_STEP;
         let (below, here, above) = (e_s(-h), e_s(0.0), e_s(h));
@@ -201,15 +201,15 @@ fn mass_derivatives_are_central_differences() {
 
 /// Squared circular frequencies at some factors by first order.
 fn first_order_state(problem: &ModalModel, factors: &[f64]) -> DVector<f64> {
-    let count = problem.exact.modes.len();
+    let count = problem.exact().modes.len();
     let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
-    for (share, factor) in problem.shares.iter().zip(factors) {
+    for (share, factor) in problem.shares().iter().zip(factors) {
         match share {
             Share::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
             Share::Mass(matrix) => alpha += (factor - 1.0) * matrix,
         }
     }
-    let change = ModalChange::of_vibrations(&problem.exact.modes.omega_squared, beta, alpha);
+    let change = ModalChange::of_vibrations(problem.exact().modes.omega_squared(), beta, alpha);
     first_order(&change).expect("apart").roots.map(f64::recip)
 }
 
@@ -230,7 +230,7 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
             let first = first_order_state(&problem, &factors);
             let exact =
                 ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
-            let pairs = first.iter().zip(exact.modes.omega_squared.iter());
+            let pairs = first.iter().zip(exact.modes().omega_squared().iter());
             (
                 size,
                 pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max),
@@ -255,21 +255,21 @@ fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     let ours = ModalState::at(&problem, factors.clone(), UpdateRule::default()).expect("solved");
     let exact = ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
     for (a, b) in ours
-        .modes
-        .omega_squared
+        .modes()
+        .omega_squared()
         .iter()
-        .zip(exact.modes.omega_squared.iter())
+        .zip(exact.modes().omega_squared().iter())
     {
         assert_relative_eq!(*a, *b, max_relative = 1e2 * MATRIX_ROUND_OFF);
     }
     assert_relative_eq!(
-        ours.modes.shapes,
-        exact.modes.shapes,
-        epsilon = 1e4 * MATRIX_ROUND_OFF * exact.modes.shapes.amax()
+        ours.modes().shapes(),
+        exact.modes().shapes(),
+        epsilon = 1e4 * MATRIX_ROUND_OFF * exact.modes().shapes().amax()
     );
     assert_relative_eq!(
-        ours.errors.sum(),
-        exact.errors.sum(),
+        ours.errors().sum(),
+        exact.errors().sum(),
         max_relative = 1e4 * MATRIX_ROUND_OFF
     );
 }
@@ -297,7 +297,7 @@ fn gages_twice_as_thick_double_every_squared_frequency() {
         model
             .modes(&[factor; 39])
             .expect("solved")
-            .omega_squared
+            .omega_squared()
             .clone()
     });
     assert_relative_eq!(thick, 2.0 * first, max_relative = 1e2 * MATRIX_ROUND_OFF);

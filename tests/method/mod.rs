@@ -74,6 +74,7 @@ pub mod inner_loop_stops;
 
 pub mod mass_correlation;
 pub mod no_panic;
+pub mod metamorphic;
 pub mod outer_loop;
 pub mod outer_loop_bad_input;
 pub mod outer_loop_stops;

@@ -37,11 +37,7 @@ const NOT_CALLED: [&str; 21] = [
     "ElementKind::corner_count",
     "FactorizationPlan::factor_entries",
     "FactorizationPlan::factor_operations",
-    "FiniteElementModel::element_matrices",
     "FiniteElementModel::load_distribution",
-    "FiniteElementModel::mass",
-    "FiniteElementModel::parameters",
-    "FiniteElementModel::structure",
     "LoadDistribution::columns",
     "LoadDistribution::rows",
     "ModeSet::is_empty",
@@ -49,6 +45,10 @@ const NOT_CALLED: [&str; 21] = [
     "Parameter::element",
     "Parameter::group",
     "Parameter::of",
+    "ScaledStructure::element_matrices",
+    "ScaledStructure::mass",
+    "ScaledStructure::parameters",
+    "ScaledStructure::structure",
     "Share::map",
     "Share::matrix",
     "StepRule::name",
@@ -63,17 +63,29 @@ fn entries(matrix: &DMatrix<f64>) -> Vec<f64> {
 
 fn modes(found: &ModeSet) -> Vec<f64> {
     found
-        .omega_squared
+        .omega_squared()
         .iter()
-        .chain(found.shapes.iter())
+        .chain(found.shapes().iter())
         .copied()
         .collect()
+}
+
+fn is_name(text: &str) -> bool {
+    text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
 /// The public functions of a source file: by the type of the `impl` they stand in, or by the file's module.
 fn public_functions(module: &str, source: &str) -> Vec<String> {
     let (mut owner, mut found) = (module.to_owned(), Vec::new());
-    for line in source.lines() {
+    let mut lines = source.lines().peekable();
+    while let Some(line) = lines.next() {
+        // One that hands out a field does nothing that could go wrong.
+        let next = lines
+            .peek()
+            .map_or("", |next| next.trim().trim_start_matches('&'));
+        if line.contains("(&self) ->") && next.strip_prefix("self.").is_some_and(is_name) {
+            continue;
+        }
         if let Some(of) = line.strip_prefix("impl").filter(|of| !of.ends_with("{}")) {
             // Without the parameters of the block itself.
             let of = of
@@ -115,7 +127,11 @@ fn uncalled<'a>(functions: &'a [String], entries: &str, excused: &[&str]) -> Vec
 #[test]
 fn every_public_function_of_the_method_is_called() {
     let mut functions = Vec::new();
-    for file in files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/method")) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = files_below(&source.join("method"));
+    files.extend(files_below(&source.join("sparse/factorization")));
+    files.push(source.join("sparse/load_distribution.rs"));
+    for file in files {
         let stem = |path: &Path| {
             path.file_stem()
                 .expect("a name")

@@ -110,7 +110,7 @@ proptest! {
             prop_assert_eq!(check.modes.len(), truth.len());
             prop_assert_eq!(check.frequencies_hz.len(), truth.len());
             let all = check.modes.frequencies_hz();
-            for (frequency, &i) in check.frequencies_hz.iter().zip(&check.pairing.analysis_mode) {
+            for (frequency, &i) in check.frequencies_hz.iter().zip(check.pairing.analysis_mode()) {
                 prop_assert_eq!(*frequency, all[i]);
             }
         }
@@ -124,7 +124,7 @@ proptest! {
         let inner = InnerSettings { update, accumulation, ..InnerSettings::default() };
         let settings = Settings { inner, least_passes: 3, ..Settings::default() };
         for pass in correlate_chain(&chain, &truth, &settings).passes {
-            let difference = pass.check.errors.sum() - pass.inner.last.errors.sum();
+            let difference = pass.check.errors.sum() - pass.inner.last.errors().sum();
             prop_assert!(difference.abs() <= CONVERGED_STATE, "{difference:e}");
         }
     }
@@ -138,7 +138,7 @@ proptest! {
         let best = found.best_factors;
         prop_assert_eq!(best.len(), truth.len());
         let test = chain.modes(&truth);
-        let sum = |factors: &[f64]| chain.model(factors).analyze(&test, None).unwrap().exact.errors.sum();
+        let sum = |factors: &[f64]| chain.model(factors).analyze(&test, None).unwrap().exact().errors.sum();
         let lowest = sum(&best);
         prop_assert_eq!(found.verdict.error_sum, lowest);
         // Of those within tolerance, if there are any.

@@ -33,9 +33,12 @@ fn no_test_modes_too_many_or_nan_are_refused() {
 
 #[test]
 fn shapes_and_mass_must_fit() {
-    let modes = |dof: usize, count: usize| ModeSet {
-        omega_squared: DVector::from_element(count, 1.0),
-        shapes: DMatrix::from_element(dof, count, 1.0),
+    let modes = |dof: usize, count: usize| {
+        ModeSet::new(
+            DVector::from_element(count, 1.0),
+            DMatrix::from_element(dof, count, 1.0),
+        )
+        .expect("modes")
     };
     let identity = |size: usize| DMatrix::<f64>::identity(size, size);
     for (analysis, test, mass, expected) in [

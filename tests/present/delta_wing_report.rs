@@ -1,7 +1,7 @@
 //! The delta wing's report: tables, goldens, and the command from outside.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF};
+use crate::common::tolerances::ROUND_OFF;
 use approx::assert_relative_eq;
 use assert_cmd::Command;
 use corfem::method::inner_loop::Stop;
@@ -45,11 +45,7 @@ fn wing_as_tables() {
             ("delta_wing_passes", 3, 4),
         ]
     );
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
+    let numbers = Numbers::BY_UNIT;
     let rounded = Numbers::AS_WRITTEN;
     assert_golden("delta_wing", &csv(&tables), numbers);
     assert_golden("delta_wing_text", &text(&tables), rounded);

@@ -68,7 +68,7 @@ fn histograms_of_few_samples() {
         words(&drawn).iter().any(|word| word == "20")
             && !words(&drawn).iter().any(|word| word == "20.0")
     );
-    assert_golden("drawing_histogram", &drawn, Numbers::AS_WRITTEN);
+    assert_golden("drawing_histogram", &drawn, Numbers::DRAWN);
 }
 
 fn factor(name: &str, value: f64) -> Factor {
@@ -134,18 +134,18 @@ fn factors_with_bounds_deviations_and_remarks() {
         &figure(rows.clone(), None)
             .draw("factors", "Factors")
             .expect("drawn"),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
     let drawn = figure(rows[..6].to_vec(), range(0.6, 1.4))
         .draw("factors", "Factors")
         .expect("drawn");
-    assert_golden("drawing_factors_limited", &drawn, Numbers::AS_WRITTEN);
+    assert_golden("drawing_factors_limited", &drawn, Numbers::DRAWN);
     let alike =
         figure(vec![factor("one", 1.0), factor("other", 1.004)], None).draw("factors", "Factors");
     assert_golden(
         "drawing_factors_alike",
         &alike.expect("drawn"),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
 }
 
@@ -189,7 +189,7 @@ fn histories_with_long_and_short_passes() {
     ];
     let draw =
         |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).expect("drawn");
-    assert_golden("drawing_errors", &draw(&passes), Numbers::AS_WRITTEN);
+    assert_golden("drawing_errors", &draw(&passes), Numbers::DRAWN);
     let said = words(&draw(&passes));
     for name in ["pass 1 (tolerance 12.0 %)", "pass 2", "3", "pass 4"] {
         assert!(said.iter().any(|word| word == name), "{name}: {said:?}");
@@ -199,11 +199,11 @@ fn histories_with_long_and_short_passes() {
         pass(0, 4, [200.0, 1e-3], Some(1e-12), true),
         pass(4, 2, [1e-3, 1e-12], Some(1e-6), true),
     ];
-    assert_golden("drawing_errors_far", &draw(&far), Numbers::AS_WRITTEN);
+    assert_golden("drawing_errors_far", &draw(&far), Numbers::DRAWN);
     assert_golden(
         "drawing_errors_short",
         &draw(&[pass(0, 1, [0.2, 0.1], None, true)]),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
     assert!(draw(&[]).contains("SRSS error"));
 }
@@ -253,7 +253,7 @@ fn matrices_with_cells_too_small_for_their_numbers() {
         map("An odd one", (3, 3), (1.0, 1), wave),
     ];
     let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."]).expect("drawn");
-    assert_golden("drawing_matrices", &drawn, Numbers::AS_WRITTEN);
+    assert_golden("drawing_matrices", &drawn, Numbers::DRAWN);
 }
 
 #[test]
@@ -293,5 +293,5 @@ fn two_series_of_small_bars_side_by_side() {
         ["0.000", "0.010", "0.020", "0.030"],
         "as many decimals as they need"
     );
-    assert_golden("drawing_bars", &drawn, Numbers::AS_WRITTEN);
+    assert_golden("drawing_bars", &drawn, Numbers::DRAWN);
 }

@@ -79,7 +79,7 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
         (12, at(2.0, 0.0, 0.0)),
         (13, at(1.5, 0.5, 0.0)),
     ];
-    assert_golden("drawing_structure", &drawn(&subject), Numbers::AS_WRITTEN);
+    assert_golden("drawing_structure", &drawn(&subject), Numbers::DRAWN);
     // A line has less than 96 letters: beside a name of 82 there is no room for the words before it.
     let unknown = |long: usize| {
         let sensors = vec![
@@ -102,7 +102,7 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
     assert_golden(
         "drawing_structure_full",
         &drawn(&with_sensors(many, vec![panel(2.0, 1.0)])),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
 }
 
@@ -255,7 +255,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     assert_golden(
         "drawing_modes_in_plane",
         &in_plane.draw("modes", "Modes").expect("drawn"),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
     let in_depth = modes(frame(deep, lines()), |row| {
         at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin())
@@ -263,7 +263,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     assert_golden(
         "drawing_modes_in_depth",
         &in_depth.draw("modes", "Modes").expect("drawn"),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
     // Out of a plane that is flat but for round-off no depth is exaggerated.
     let bent = [
@@ -279,14 +279,14 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
         });
         modes.draw("modes", "Modes").expect("drawn")
     });
-    assert!(Numbers::AS_WRITTEN.agree(&bent, &even));
+    assert!(Numbers::DRAWN.agree(&bent, &even));
     let marks = modes(frame(deep, Vec::new()), |row| {
         at(0.0, 0.0, (row as f64).sin())
     });
     assert_golden(
         "drawing_modes_as_marks",
         &marks.draw("modes", "Modes").expect("drawn"),
-        Numbers::AS_WRITTEN,
+        Numbers::DRAWN,
     );
 }
 

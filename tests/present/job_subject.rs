@@ -294,7 +294,7 @@ fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
         .and_then(|first| Derivatives::of(&first))
         .expect("taken");
     const STEP: f64 = 1e-5;
-    let hertz = |factor: f64| Ok::<_, Error>(model(factor)?.exact.modes.frequencies_hz());
+    let hertz = |factor: f64| Ok::<_, Error>(model(factor)?.exact().modes.frequencies_hz());
     let (more, less) = (
         hertz(1.0 + STEP).expect("solved"),
         hertz(1.0 - STEP).expect("solved"),

@@ -1,7 +1,6 @@
 //! The comparison of matrices and elements as tables, number by number.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE};
 use crate::studies::matrix_comparison::compared;
 use corfem::cases::Case;
 use corfem::present::render::{csv, text};
@@ -10,11 +9,7 @@ use corfem::studies::matrix_comparison::compare_matrices;
 
 #[test]
 fn comparison_as_numbers() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
+    let numbers = Numbers::BY_UNIT;
     let rounded = Numbers::AS_WRITTEN;
     for case in 1..=3 {
         let tables = matrix_tables(&Case::new(case).unwrap(), &compared(case));

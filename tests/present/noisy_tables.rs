@@ -1,7 +1,7 @@
 //! Noisy test modes as tables, number by number.
 
 use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_PERCENT, GOLDEN_RELATIVE, ROUND_OFF};
+use crate::common::tolerances::ROUND_OFF;
 use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
 use crate::studies::noisy_modes::study;
 use corfem::cases::Case;
@@ -11,11 +11,7 @@ use corfem::weighted::noise::Noise;
 
 #[test]
 fn noisy_modes_as_numbers() {
-    let numbers = Numbers {
-        relative: GOLDEN_RELATIVE,
-        absolute: GOLDEN_ABSOLUTE_PERCENT,
-        last_digit: false,
-    };
+    let numbers = Numbers::BY_UNIT;
     let tables = noisy_tables(study());
     let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
     assert_eq!(names, ["noisy_gages", "noisy_course", "noisy_truth"]);

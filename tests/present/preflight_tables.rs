@@ -35,6 +35,8 @@ fn rates_as_numbers() {
             relative: 0.0,
             absolute: GOLDEN_COUNT,
             last_digit: false,
+            whole: true,
+            ..Numbers::AS_WRITTEN
         },
     );
 }

@@ -1,11 +1,13 @@
 //! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
 
+use crate::common::alter;
 use crate::common::drawings::{size, written};
 use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::pairing::Pairing;
 use corfem::present::figures::{Figure, subject_figures};
 use corfem::present::json;
 use corfem::present::page::subject_page;
@@ -286,15 +288,13 @@ fn pairs_are_marked_by_the_usual_limits_of_cross_orthogonality() {
     let mut subject = chain("rod", &[1.0, 1.0, 1.0, 1.0], along);
     assert_eq!(marks(&subject), ["good"; 3]);
     let (first, second) = (
-        subject.test.shapes.column(0).clone_owned(),
-        subject.test.shapes.column(1).clone_owned(),
+        subject.test.shapes().column(0).clone_owned(),
+        subject.test.shapes().column(1).clone_owned(),
     );
     // A mode turned by an angle toward the next has its cosine as cross-orthogonality, and its sine as another.
     for (sine, mark) in [(0.04_f64, "good"), (0.09, "acceptable"), (0.2, "poor")] {
-        subject
-            .test
-            .shapes
-            .set_column(0, &((1.0 - sine * sine).sqrt() * &first + sine * &second));
+        let turned = (1.0 - sine * sine).sqrt() * &first + sine * &second;
+        alter(&mut subject.test, |_, shapes| shapes.set_column(0, &turned));
         assert_eq!(marks(&subject)[0], mark, "{sine}");
     }
     subject.mass = None;
@@ -360,22 +360,20 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });
     let places: Vec<usize> = (0..14).map(|mode| mode % 3).collect();
-    subject.test = ModeSet {
-        omega_squared: subject.test.omega_squared.select_rows(&places),
-        shapes: subject.test.shapes.select_columns(&places),
-    };
+    subject.test = ModeSet::new(
+        subject.test.omega_squared().select_rows(&places),
+        subject.test.shapes().select_columns(&places),
+    )
+    .expect("modes");
     for check in [&mut subject.initial]
         .into_iter()
         .chain(subject.stages.iter_mut().map(|stage| &mut stage.check))
     {
-        check.pairing.analysis_mode = places
+        let pairs = places
             .iter()
-            .map(|&mode| check.pairing.analysis_mode[mode])
-            .collect();
-        check.pairing.sign = places
-            .iter()
-            .map(|&mode| check.pairing.sign[mode])
-            .collect();
+            .map(|&mode| check.pairing.analysis_mode()[mode]);
+        let signs = places.iter().map(|&mode| check.pairing.sign()[mode]);
+        check.pairing = Pairing::new(pairs.collect(), signs.collect()).expect("a sign each");
         check.frequencies_hz = places
             .iter()
             .map(|&mode| check.frequencies_hz[mode])

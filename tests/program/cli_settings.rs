@@ -19,11 +19,7 @@ fn every_setting_reaches_the_loops() {
     assert_eq!(plain["inner"]["accumulation"], "sum");
     for (arguments, key, value) in [
         (["--rule", "matrix"], "step", json!("matrix")),
-        (
-            ["--rule", "steepest_descent"],
-            "step",
-            json!("steepest_descent"),
-        ),
+        (["--rule", "relative"], "step", json!("relative")),
         (
             ["--accumulation", "product"],
             "accumulation",

@@ -99,11 +99,14 @@ fn history_is_three_passes_to_the_tolerances() {
             (1, Stop::Tolerance)
         ]
     );
-    assert!(passes[0].inner.last.errors.sum() < 0.01);
-    assert!(passes[1].inner.last.errors.sum() < settings().later_inner_tolerance);
+    assert!(passes[0].inner.last.errors().sum() < 0.01);
+    assert!(passes[1].inner.last.errors().sum() < settings().later_inner_tolerance);
     let last = &passes[2].check;
     assert!(last.errors.sum() < 0.005);
-    assert_eq!(last.pairing.analysis_mode, TEST_MODES.map(|mode| mode - 1));
+    assert_eq!(
+        last.pairing.analysis_mode(),
+        TEST_MODES.map(|mode| mode - 1)
+    );
     assert_eq!(run.correlation.best_factors, passes[2].factors);
     let initial = &run.correlation.initial.errors;
     assert_eq!(
@@ -121,8 +124,8 @@ fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
     let mut all = vec![0.0; 10];
     for (share, found) in dynamic.shares.iter().zip(&run.shares) {
         let of_mode = |mode: usize| {
-            let shape = test.shapes.column(mode);
-            shape.dot(&(share.matrix() * shape)) / test.omega_squared[mode]
+            let shape = test.shapes().column(mode);
+            shape.dot(&(share.matrix() * shape)) / test.omega_squared()[mode]
         };
         let largest = (0..10).map(of_mode).fold(0.0, f64::max);
         assert_relative_eq!(*found, largest, max_relative = MATRIX_ROUND_OFF);

@@ -70,12 +70,12 @@ fn a_small_wing_is_planted_and_found() {
         .model
         .analyze(&known.truth, &known.test, Some(10))
         .expect("it runs");
-    assert!(at_truth.exact.errors.sum() < crate::common::tolerances::ROUND_OFF_FLOOR);
+    assert!(at_truth.exact().errors.sum() < crate::common::tolerances::ROUND_OFF_FLOOR);
     let start = known
         .model
         .analyze(&[1.0; 15], &known.test, Some(10))
         .expect("it runs");
-    assert!(start.exact.errors.sum() > 0.1);
+    assert!(start.exact().errors.sum() > 0.1);
     let too_few = Wing {
         measured: [3, 3],
         ..wing

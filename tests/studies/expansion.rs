@@ -12,7 +12,7 @@ const SENSORS: [usize; 4] = [1, 3, 4, 7];
 
 fn modes() -> DMatrix<f64> {
     uniform_held_modes(8, 1000.0, 0.01)
-        .shapes
+        .shapes()
         .columns(0, 3)
         .into_owned()
 }

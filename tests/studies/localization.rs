@@ -18,13 +18,10 @@ fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
         // With fewer than nine modes the error sum has a scale.
         let lowest: Vec<usize> = (0..modes).collect();
         let (omega_squared, shapes) = (
-            known.test.omega_squared.select_rows(&lowest),
-            known.test.shapes.select_columns(&lowest),
+            known.test.omega_squared().select_rows(&lowest),
+            known.test.shapes().select_columns(&lowest),
         );
-        let test = ModeSet {
-            omega_squared,
-            shapes,
-        };
+        let test = ModeSet::new(omega_squared, shapes).expect("modes");
         let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
         let settings = InnerSettings {
             iterations: 1,

@@ -64,11 +64,11 @@ proptest! {
 #[test]
 fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     let modes = uniform_held_modes(6, 1000.0, 0.01);
-    let mut test = modes.shapes.columns(0, 4).into_owned();
+    let mut test = modes.shapes().columns(0, 4).into_owned();
     // Two cables exchanged.
     test.swap_rows(0, 3);
     let pairs = [Some(0), Some(1), Some(2), Some(3)];
-    let comac = coordinate_assurance(&modes.shapes, &test, &pairs).expect("pairs");
+    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).expect("pairs");
     let mut order: Vec<usize> = (0..6).collect();
     order.sort_by(|a, b| comac[*a].total_cmp(&comac[*b]));
     order.truncate(2);

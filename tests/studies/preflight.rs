@@ -1,5 +1,6 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
+use crate::common::alter;
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::rates::spring_chain;
@@ -40,10 +41,11 @@ pub fn findings(specimen: &Specimen) -> Vec<Finding> {
 
 pub fn with_shapes(specimen: &Specimen, shapes: DMatrix<f64>) -> Specimen {
     Specimen {
-        test: ModeSet {
-            shapes,
-            ..specimen.test.clone()
-        },
+        test: specimen
+            .test
+            .clone()
+            .with_shapes(shapes)
+            .expect("shapes that fit"),
         ..specimen.clone()
     }
 }
@@ -63,7 +65,7 @@ pub fn agreement(model: &DynamicModel, test: &ModeSet) -> f64 {
     let cross = cross_orthogonality(&analysis, &test, &model.mass).unwrap();
     let pairing = pair_modes(&cross).unwrap();
     let pairs = pairing
-        .analysis_mode
+        .analysis_mode()
         .iter()
         .enumerate()
         .map(|(test, &mode)| cross[(mode, test)].abs());
@@ -138,7 +140,7 @@ fn every_factor_is_named_and_a_models_error_is_none() {
     for specimen in [case(2), case(3), wing(), chain()] {
         let with_factor = |factor: f64| {
             let mut wrong = specimen.clone();
-            wrong.test.omega_squared *= factor * factor;
+            alter(&mut wrong.test, |squares, _| *squares *= factor * factor);
             findings(&wrong)
         };
         for known in FACTORS {
@@ -195,8 +197,8 @@ fn factors_are_what_they_are_called() {
 fn every_reversed_sensor_is_named_with_its_numbers() {
     for specimen in [case(2), case(3), wing(), chain()] {
         let right = agreement(&specimen.model, &specimen.test);
-        for sensor in 0..specimen.test.shapes.nrows() {
-            let mut shapes = specimen.test.shapes.clone();
+        for sensor in 0..specimen.test.shapes().nrows() {
+            let mut shapes = specimen.test.shapes().clone();
             shapes.row_mut(sensor).neg_mut();
             let wrong = with_shapes(&specimen, shapes);
             let found = mended(&wrong);
@@ -216,7 +218,7 @@ fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
         case.model().unwrap(),
         ModeSet::from(case.test_modes().unwrap()),
     );
-    test.shapes.row_mut(6).neg_mut();
+    alter(&mut test, |_, shapes| shapes.row_mut(6).neg_mut());
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
     let run = correlate(
         analyze,
@@ -249,7 +251,7 @@ fn a_reversed_sensor_costs_a_right_model_two_of_all_its_modes() {
         ..chain()
     };
     for sensor in 0..count {
-        let mut shapes = right.test.shapes.clone();
+        let mut shapes = right.test.shapes().clone();
         shapes.row_mut(sensor).neg_mut();
         let found = mended(&with_shapes(&right, shapes));
         assert_eq!(found.change, Change::Reversed(sensor));
@@ -262,9 +264,9 @@ fn a_reversed_sensor_costs_a_right_model_two_of_all_its_modes() {
 #[test]
 fn every_two_sensors_exchanged_are_named() {
     for specimen in [case(2), case(3), chain()] {
-        for b in 0..specimen.test.shapes.nrows() {
+        for b in 0..specimen.test.shapes().nrows() {
             for a in 0..b {
-                let mut shapes = specimen.test.shapes.clone();
+                let mut shapes = specimen.test.shapes().clone();
                 shapes.swap_rows(a, b);
                 assert_eq!(
                     mended(&with_shapes(&specimen, shapes)).change,
@@ -277,7 +279,7 @@ fn every_two_sensors_exchanged_are_named() {
     }
     let wing = wing();
     for [a, b] in [[0, 18], [3, 10], [1, 2]] {
-        let mut shapes = wing.test.shapes.clone();
+        let mut shapes = wing.test.shapes().clone();
         shapes.swap_rows(a, b);
         assert_eq!(
             mended(&with_shapes(&wing, shapes)).change,
@@ -364,18 +366,18 @@ fn sensors_and_columns_are_told_apart_by_the_masses_alone() {
 #[test]
 fn points_in_another_order_and_transposed_shapes_are_named() {
     for specimen in [case(2), case(3), wing(), chain()] {
-        let (points, modes) = specimen.test.shapes.shape();
+        let (points, modes) = specimen.test.shapes().shape();
         let order: Vec<usize> = (0..points).map(|place| (place + 1) % points).collect();
         let found = mended(&with_shapes(
             &specimen,
-            specimen.test.shapes.select_rows(&order),
+            specimen.test.shapes().select_rows(&order),
         ));
         let back: Vec<usize> = (0..points)
             .map(|place| (place + points - 1) % points)
             .collect();
         assert_eq!(found.change, Change::Reordered(back), "{}", specimen.name);
         if points == modes {
-            let found = mended(&with_shapes(&specimen, specimen.test.shapes.transpose()));
+            let found = mended(&with_shapes(&specimen, specimen.test.shapes().transpose()));
             assert_eq!(found.change, Change::Transposed, "{}", specimen.name);
         }
     }

@@ -1,5 +1,6 @@
 //! The pre-flight: what it says of frequencies, of modes, of settings and of two mistakes at once.
 
+use crate::common::alter;
 use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{case, chain, findings, wing, with_shapes};
@@ -16,7 +17,9 @@ fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
     for specimen in [case(2), wing()] {
         for first in 0..specimen.test.len() - 1 {
             let mut wrong = specimen.clone();
-            wrong.test.omega_squared.swap_rows(first, first + 1);
+            alter(&mut wrong.test, |squares, _| {
+                squares.swap_rows(first, first + 1)
+            });
             match findings(&wrong)[..] {
                 [
                     Finding::FrequenciesExchanged(FrequenciesExchanged {
@@ -38,8 +41,10 @@ fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
 fn a_mode_measured_twice_and_dependent_modes_are_told() {
     for specimen in [case(2), case(3), wing(), chain()] {
         let mut wrong = specimen.clone();
-        let copy = specimen.test.shapes.column(1).into_owned();
-        wrong.test.shapes.set_column(4, &(-3.0 * copy));
+        let copy = specimen.test.shapes().column(1).into_owned();
+        alter(&mut wrong.test, |_, shapes| {
+            shapes.set_column(4, &(-3.0 * copy))
+        });
         let same = |wrong: &Specimen| match findings(wrong)[..] {
             [
                 Finding::NearlySame {
@@ -56,7 +61,9 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
         };
         let (ratio, words) = same(&wrong);
         assert!(ratio > 1.1 && !words.contains("twice"));
-        wrong.test.omega_squared[4] = specimen.test.omega_squared[1];
+        alter(&mut wrong.test, |squares, _| {
+            squares[4] = specimen.test.omega_squared()[1];
+        });
         assert!(
             words
                 .starts_with("Test modes 2 and 5 are nearly the same shape, modal assurance 1.000"),
@@ -68,8 +75,10 @@ fn a_mode_measured_twice_and_dependent_modes_are_told() {
             "{words}"
         );
         // A shape between two others.
-        let unit = |mode: usize| specimen.test.shapes.column(mode).normalize();
-        wrong.test.shapes.set_column(4, &(unit(1) + unit(3)));
+        let unit = |mode: usize| specimen.test.shapes().column(mode).normalize();
+        alter(&mut wrong.test, |_, shapes| {
+            shapes.set_column(4, &(unit(1) + unit(3)))
+        });
         let modes = specimen.test.len();
         let is_told = |finding: &Finding| match finding {
             Finding::TooManyModes {
@@ -90,7 +99,7 @@ fn more_modes_than_points_are_told_and_nothing_else() {
     let points = [0, 2, 4, 6];
     let [stiffness, mass] = [&right.model.stiffness, &right.model.mass]
         .map(|matrix| matrix.select_rows(&points).select_columns(&points));
-    let mut few = with_shapes(&right, right.test.shapes.select_rows(&points));
+    let mut few = with_shapes(&right, right.test.shapes().select_rows(&points));
     few.model = DynamicModel {
         stiffness,
         mass,
@@ -119,8 +128,10 @@ fn more_modes_than_points_are_told_and_nothing_else() {
 #[test]
 fn two_mistakes_at_once_are_both_named() {
     let mut wrong = case(2);
-    wrong.test.omega_squared *= FACTORS[0].factor.powi(2);
-    wrong.test.shapes.row_mut(3).neg_mut();
+    alter(&mut wrong.test, |squares, _| {
+        *squares *= FACTORS[0].factor.powi(2)
+    });
+    alter(&mut wrong.test, |_, shapes| shapes.row_mut(3).neg_mut());
     let found = findings(&wrong);
     assert!(
         matches!(&found[..], [Finding::CommonFactor(factor), Finding::Mended(mended)]
@@ -206,9 +217,11 @@ fn a_test_that_does_not_fit_the_model_is_an_error() {
 #[test]
 fn findings_are_said_with_places_from_one() {
     let mut wrong = case(2);
-    wrong.test.shapes.row_mut(3).neg_mut();
-    wrong.test.omega_squared.swap_rows(0, 1);
-    wrong.test.omega_squared *= FACTORS[0].factor.powi(2);
+    alter(&mut wrong.test, |_, shapes| shapes.row_mut(3).neg_mut());
+    alter(&mut wrong.test, |squares, _| squares.swap_rows(0, 1));
+    alter(&mut wrong.test, |squares, _| {
+        *squares *= FACTORS[0].factor.powi(2)
+    });
     wrong.settings.shape_tolerance = 4.0;
     wrong.ranges[2] = Some(Range {
         lower: 55.0,

@@ -1,5 +1,6 @@
 //! The pre-flight: points in another order in shapes of any scale, ratios of frequencies, and what is too little to be named.
 
+use crate::common::alter;
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::plant::mass_follows;
@@ -15,12 +16,12 @@ use nalgebra::DMatrix;
 #[test]
 fn points_in_another_order_are_named_whatever_the_scales_of_the_shapes() {
     for specimen in [case(2), case(3), wing(), chain()] {
-        let (points, modes) = specimen.test.shapes.shape();
+        let (points, modes) = specimen.test.shapes().shape();
         let order: Vec<usize> = (0..points).map(|place| (place + 3) % points).collect();
         let back: Vec<usize> = (0..points)
             .map(|place| (place + points - 3) % points)
             .collect();
-        let mut shapes = specimen.test.shapes.select_rows(&order);
+        let mut shapes = specimen.test.shapes().select_rows(&order);
         (0..modes).for_each(|mode| {
             shapes
                 .column_mut(mode)
@@ -73,16 +74,14 @@ fn a_mistake_that_costs_less_than_two_thousandths_is_not_named() {
     };
     // In the lowest mode the mass at the wall all but rests.
     let lowest = uniform_held_modes(count, stiffness, mass);
-    let test = ModeSet {
-        omega_squared: lowest.omega_squared.rows(0, 1).into_owned(),
-        shapes: lowest.shapes.columns(0, 1).into_owned(),
-    };
+    let shape = lowest.shapes().columns(0, 1).into_owned();
+    let test = ModeSet::new(lowest.omega_squared().rows(0, 1).into_owned(), shape).expect("a mode");
     let right = Specimen {
         model,
         test,
         ..chain()
     };
-    let mut shapes = right.test.shapes.clone();
+    let mut shapes = right.test.shapes().clone();
     shapes.row_mut(0).neg_mut();
     let wrong = with_shapes(&right, shapes);
     let [before, after] =
@@ -95,7 +94,7 @@ fn a_mistake_that_costs_less_than_two_thousandths_is_not_named() {
 fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
     for specimen in [case(2), case(3), wing(), chain()] {
         let mut wrong = specimen.clone();
-        wrong.test.omega_squared *= 9.0;
+        alter(&mut wrong.test, |squares, _| *squares *= 9.0);
         let [
             Finding::CommonFactor(CommonFactor {
                 median, deviation, ..
@@ -113,7 +112,7 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
         )
         .unwrap();
         let (test, all) = (wrong.test.frequencies_hz(), analysis.frequencies_hz());
-        let pairs = pair_modes(&cross).unwrap().analysis_mode;
+        let pairs = pair_modes(&cross).unwrap().analysis_mode().to_vec();
         let mut ratios: Vec<f64> = test
             .iter()
             .zip(pairs)
@@ -139,12 +138,10 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
 fn ratios_that_scatter_have_no_common_factor() {
     for mut wrong in [case(2), chain()] {
         // By two and eight in turn: the factor between them is beyond what a first model is wrong by.
-        wrong
-            .test
-            .omega_squared
-            .iter_mut()
-            .enumerate()
-            .for_each(|(mode, value)| *value *= [4.0, 64.0][mode % 2]);
+        alter(&mut wrong.test, |squares, _| {
+            let both = squares.iter_mut().zip([4.0, 64.0].into_iter().cycle());
+            both.for_each(|(value, factor)| *value *= factor);
+        });
         let found = findings(&wrong);
         assert!(
             !found
@@ -170,8 +167,8 @@ fn masses_follow_the_columns_of_t_where_they_are_made_with_them() {
 fn masses_and_springs_of_the_chain_fall_by_equal_steps_from_the_wall() {
     let chain = chain();
     // The stiffness that has the test's modes: M V Ω² Vᵗ M.
-    let momenta = &chain.model.mass * chain.test.scaled_with(&chain.model.mass).unwrap().shapes;
-    let right = &momenta * DMatrix::from_diagonal(&chain.test.omega_squared) * momenta.transpose();
+    let momenta = &chain.model.mass * chain.test.scaled_with(&chain.model.mass).unwrap().shapes();
+    let right = &momenta * DMatrix::from_diagonal(chain.test.omega_squared()) * momenta.transpose();
     let first = right[(0, 0)] + right[(0, 1)];
     for place in 0..8 {
         assert!((chain.model.mass[(place, place)] - (1.0 - 0.06 * place as f64)).abs() < ROUND_OFF);

@@ -62,6 +62,7 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
         relative: GOLDEN_RELATIVE,
         absolute: GOLDEN_COVERAGE,
         last_digit: false,
+        ..Numbers::AS_WRITTEN
     };
     assert_golden("coverage", &csv(&coverage_tables(&all)), numbers);
     for of in [&all[0], &all[2], &all[3]] {
@@ -153,6 +154,8 @@ fn a_panel_too_thin_is_the_first_suspect_in_noise() {
         relative: 0.0,
         absolute: GOLDEN_COUNT,
         last_digit: false,
+        whole: true,
+        ..Numbers::AS_WRITTEN
     };
     assert_golden(
         "localization",

@@ -30,10 +30,9 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let model = shear_building(&[1.0e5; 10], 1.0, range);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = ModeSet {
-        shapes: sensors.times(&whole.shapes).expect("fits"),
-        ..whole
-    };
+    let test = whole
+        .with_shapes(sensors.times(whole.shapes()).expect("fits"))
+        .expect("shapes that fit");
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
     let found =
         correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
@@ -81,28 +80,29 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let model = shear_building(&[1.0e5; 10], 1.0, None);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = ModeSet {
-        shapes: sensors.times(&whole.shapes).expect("fits"),
-        ..whole
-    };
+    let test = whole
+        .with_shapes(sensors.times(whole.shapes()).expect("fits"))
+        .expect("shapes that fit");
     let scales = [3.0, -0.2, 1.0e3, -1.0, 0.01];
-    let shapes = &test.shapes * DMatrix::from_diagonal(&scales.to_vec().into());
-    let other = ModeSet {
-        shapes,
-        omega_squared: test.omega_squared.clone(),
-    };
+    let shapes = test.shapes() * DMatrix::from_diagonal(&scales.to_vec().into());
+    let other = ModeSet::new(test.omega_squared().clone(), shapes).expect("modes");
     let [first, other] = [&test, &other].map(|test| {
         model
             .analyze(&[1.0; 10], &sensors, (test, pair_modes), 10)
             .expect("an analysis")
     });
     for (j, scale) in scales.iter().enumerate() {
-        let shape = first.test.shapes.column(j);
-        let pairing = &first.exact.pairing;
-        let mode = pairing.sign[j] * first.exact.modes.shapes.column(pairing.analysis_mode[j]);
+        let shape = first.test().shapes().column(j);
+        let pairing = &first.exact().pairing;
+        let mode = pairing.sign()[j]
+            * first
+                .exact()
+                .modes
+                .shapes()
+                .column(pairing.analysis_mode()[j]);
         assert!((&mode - shape).dot(&shape).abs() < ROUND_OFF * shape.norm_squared());
         assert!(
-            (other.test.shapes.column(j) - scale.signum() * shape).norm()
+            (other.test().shapes().column(j) - scale.signum() * shape).norm()
                 < ROUND_OFF * shape.norm()
         );
     }
@@ -124,14 +124,14 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         .analyze_condensed(&factors, &sensors, &test, None)
         .expect("an analysis");
     for (a, b) in found
-        .exact
+        .exact()
         .frequencies_hz
         .iter()
-        .zip(&expected.exact.frequencies_hz)
+        .zip(&expected.exact().frequencies_hz)
     {
         assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
     }
-    for (a, b) in found.shares.iter().zip(&expected.shares) {
+    for (a, b) in found.shares().iter().zip(expected.shares()) {
         assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
     // The same box with its elements' stiffness as matrices.
@@ -169,9 +169,9 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         .analyze_condensed(&factors, &sensors, &test, None);
     for (a, b) in of_matrices
         .expect("an analysis")
-        .shares
+        .shares()
         .iter()
-        .zip(&found.shares)
+        .zip(found.shares())
     {
         assert!((a.matrix() - b.matrix()).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
@@ -179,16 +179,20 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let at_sensors = whole
         .analyze(&factors, &sensors, (&test, pair_modes), 9)
         .expect("an analysis");
-    let assurance = modal_assurance(&at_sensors.exact.modes.shapes, &expected.exact.modes.shapes)
-        .expect("shapes");
-    for (mode, hz) in expected.exact.frequencies_hz.iter().enumerate() {
-        assert!((at_sensors.exact.frequencies_hz[mode] / hz - 1.0).abs() < SAME_ANALYSIS);
+    let assurance = modal_assurance(
+        at_sensors.exact().modes.shapes(),
+        expected.exact().modes.shapes(),
+    )
+    .expect("shapes");
+    for (mode, hz) in expected.exact().frequencies_hz.iter().enumerate() {
+        assert!((at_sensors.exact().frequencies_hz[mode] / hz - 1.0).abs() < SAME_ANALYSIS);
         assert!(assurance[(mode, mode)] > 1.0 - SAME_ANALYSIS);
     }
     assert!(
-        (at_sensors.exact.errors.sum() / expected.exact.errors.sum() - 1.0).abs() < SAME_ANALYSIS
+        (at_sensors.exact().errors.sum() / expected.exact().errors.sum() - 1.0).abs()
+            < SAME_ANALYSIS
     );
-    for (a, b) in at_sensors.shares.iter().zip(&expected.shares) {
+    for (a, b) in at_sensors.shares().iter().zip(expected.shares()) {
         let magnitude = |share: &Share| share.matrix().abs();
         assert!((magnitude(a) - magnitude(b)).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
@@ -298,10 +302,9 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
     let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
     assert!(rigid_body.ncols() >= 6);
     assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
-    let test = ModeSet {
-        shapes: sensors.times(&vibrations.shapes).expect("fits"),
-        ..vibrations
-    };
+    let test = vibrations
+        .with_shapes(sensors.times(vibrations.shapes()).expect("fits"))
+        .expect("shapes that fit");
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 20);
     let weights = equal_weights(
         Noise {

@@ -11,7 +11,7 @@ pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
 pub use parameters::{Parameter, Range, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
     check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list,
 };
@@ -102,6 +102,7 @@ impl FiniteElementModel {
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
         let (free, dynamic) = (structure.free_dof().len(), load_distribution.ncols());
+        at_least_one("dynamic degrees of freedom", dynamic)?;
         check_shape("load distribution", &load_distribution, free, dynamic)?;
         check_finite("load distribution", &load_distribution)?;
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;

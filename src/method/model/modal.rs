@@ -5,7 +5,7 @@
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
 use crate::method::error::{Error, at_least_one, setting};
-use crate::method::error_sum::{Errors, ModeWeight, check_error_sum, errors, weighted_errors};
+use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
@@ -113,25 +113,61 @@ pub type Pair = fn(&DMatrix<f64>) -> Result<Pairing, Error>;
 #[derive(Debug, Clone)]
 pub struct ModalModel {
     /// The exact modes and how far they are from the test.
-    pub exact: Check,
+    pub(crate) exact: Check,
     /// The test modes, scaled to unit generalized mass with the model's mass.
-    pub test: ModeSet,
+    pub(crate) test: ModeSet,
     /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
-    pub cross: DMatrix<f64>,
+    pub(crate) cross: DMatrix<f64>,
     /// The rule that pairs them.
-    pub pair: Pair,
+    pub(crate) pair: Pair,
     /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
-    pub weights: Vec<ModeWeight>,
+    pub(crate) weights: Vec<ModeWeight>,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
-    pub shares: Vec<Share>,
+    pub(crate) shares: Vec<Share>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
-    pub test_shares: Vec<DMatrix<f64>>,
+    pub(crate) test_shares: Vec<DMatrix<f64>>,
     /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
-    pub sizes: Vec<f64>,
+    pub(crate) sizes: Vec<f64>,
 }
 
 impl ModalModel {
+    /// The exact modes and how far they are from the test.
+    pub fn exact(&self) -> &Check {
+        &self.exact
+    }
+
+    /// The test modes, scaled to unit generalized mass with the model's mass.
+    pub fn test(&self) -> &ModeSet {
+        &self.test
+    }
+
+    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
+    pub fn cross(&self) -> &DMatrix<f64> {
+        &self.cross
+    }
+
+    /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
+    pub fn weights(&self) -> &[ModeWeight] {
+        &self.weights
+    }
+
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    pub fn shares(&self) -> &[Share] {
+        &self.shares
+    }
+
+    /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
+    /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
+    pub fn test_shares(&self) -> &[DMatrix<f64>] {
+        &self.test_shares
+    }
+
+    /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
+    pub fn sizes(&self) -> &[f64] {
+        &self.sizes
+    }
+
     /// Solves for the lowest `analysis_modes` modes (all when none are named), compares them with the test modes, and takes
     /// every parameter's share through both sets of shapes.
     ///
@@ -267,33 +303,5 @@ impl ModalModel {
     /// How far paired modes are from the test modes, with the weights.
     pub(crate) fn errors_of(&self, modes: &ModeSet, pairing: &Pairing) -> Result<Errors, Error> {
         weighted_errors(modes, pairing, &self.test, &self.weights)
-    }
-
-    /// Refuses a model whose parts do not fit together.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        let (count, test_count) = (self.exact.modes.len(), self.test.len());
-        check_error_sum(self.exact.errors.sum())?;
-        self.exact.pairing.check(&self.exact.modes, test_count)?;
-        check_shape(
-            "test mode shapes",
-            &self.test.shapes,
-            self.exact.modes.shapes.nrows(),
-            test_count,
-        )?;
-        check_shape("cross-orthogonality", &self.cross, count, test_count)?;
-        check_length(
-            "shares on the test shapes",
-            self.test_shares.len(),
-            self.shares.len(),
-        )?;
-        check_length("parameter sizes", self.sizes.len(), self.shares.len())?;
-        check_length("weights", self.weights.len(), test_count)?;
-        let of = |matrix, size| check_shape("parameter share", matrix, size, size);
-        self.shares
-            .iter()
-            .try_for_each(|share| of(share.matrix(), count))?;
-        self.test_shares
-            .iter()
-            .try_for_each(|share| of(share, test_count))
     }
 }

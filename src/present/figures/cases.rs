@@ -116,7 +116,7 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
 /// Those of [`run_by_reading`] and of the published tables.
 pub fn reading_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
     let mut charts: Vec<Bars> = Vec::new();
-    for reading in [StepRule::Matrix, StepRule::Own, StepRule::Relative] {
+    for reading in [StepRule::Norm, StepRule::Diagonal, StepRule::Relative] {
         for (row, column) in columns_of(&run_by_reading(&result.case, reading)?)?
             .iter()
             .enumerate()

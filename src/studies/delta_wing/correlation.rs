@@ -93,7 +93,7 @@ pub fn settings() -> Settings {
         inner: InnerSettings {
             tolerance: 0.01,
             iterations: 100,
-            step: StepRule::Own,
+            step: StepRule::Diagonal,
             accumulation: Accumulation::Product,
             measure: ErrorMeasure::Sum,
             update: UpdateRule::Eigensolution,

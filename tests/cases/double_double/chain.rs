@@ -262,15 +262,14 @@ impl Chain<'_> {
                 entries.map(|entry| entry * entry).sum::<Dd>().sqrt()
             };
             let stiffness = match self.settings.inner.step {
-                StepRule::Matrix => {
+                StepRule::Norm => {
                     state.share_factors[e] * norm(&mut share.iter().flatten().copied())
                 }
-                StepRule::Own => {
+                StepRule::Diagonal => {
                     state.share_factors[e] * norm(&mut (0..share.len()).map(|i| share[i][i]))
                 }
                 StepRule::Relative => Dd::ONE,
                 StepRule::Gage => factors[e] * model.gages[e] / number(REFERENCE_GAGE),
-                other => panic!("no case is run by {other:?}"),
             };
             Dd::ONE - relaxation * here * change / (step * stiffness)
         };

@@ -114,10 +114,10 @@ fn compared(case: &Case) -> (CaseResult, History) {
             .iter()
             .map(|iteration| iteration.errors.sum())
             .collect();
-        let modes = &pass.check.pairing.analysis_mode;
+        let modes = pass.check.pairing.analysis_mode();
         let squares: Vec<f64> = modes
             .iter()
-            .map(|&mode| pass.check.modes.omega_squared[mode])
+            .map(|&mode| pass.check.modes.omega_squared()[mode])
             .collect();
         let errors = [pass.check.errors.frequency, pass.check.errors.shape];
         let what = format!("Case {}, {:?}", case.number, case.settings.inner.step);

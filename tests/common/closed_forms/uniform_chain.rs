@@ -1,7 +1,7 @@
 //! The uniform chain with both ends held, whose modes are written down.
 
 use super::analytical::{ChainEnds, chain_eigenvalues};
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::{ModeSet, apply_sign_rule};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
@@ -19,19 +19,7 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> ModeS
         let angle = ((i + 1) * (j + 1)) as f64 * PI / span;
         (2.0 / (span * mass)).sqrt() * angle.sin()
     });
-    for mut shape in shapes.column_iter_mut() {
-        let largest = (1.0 - 1e-6) * shape.amax();
-        if shape
-            .iter()
-            .find(|x| x.abs() >= largest)
-            .is_some_and(|x| *x < 0.0)
-        {
-            shape.neg_mut();
-        }
-    }
+    apply_sign_rule(&mut shapes);
     let omega_squared = chain_eigenvalues(ChainEnds::FixedFixed, mass_count, stiffness, mass);
-    ModeSet {
-        omega_squared: DVector::from_vec(omega_squared),
-        shapes,
-    }
+    ModeSet::new(DVector::from_vec(omega_squared), shapes).expect("modes")
 }

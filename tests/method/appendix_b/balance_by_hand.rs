@@ -286,8 +286,4 @@ fn bad_input_is_refused() {
             ..
         }
     ));
-    assert!(matches!(
-        outcome(&modes(&[], DMatrix::zeros(3, 0)), &free, &mass, &rigid_body),
-        Error::Empty { what: "test modes" }
-    ));
 }

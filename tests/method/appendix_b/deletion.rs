@@ -71,7 +71,7 @@ fn a_low_wrong_mode_is_told_by_its_many_overlaps() {
     let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [1, 2, 3]);
     assert_eq!(found.reports[0].verdict, ModeVerdict::NotOrthogonal);
-    assert_eq!(found.modes.shapes.shape(), (4, 3));
+    assert_eq!(found.modes.shapes().shape(), (4, 3));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The report on test modes, and the deletion of deviant ones.
 
 use super::relative_difference;
+use crate::common::alter;
 use crate::common::measured::{free_beam, held_chain, mixture, noise};
 use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
 use approx::assert_relative_eq;
@@ -14,10 +15,11 @@ use proptest::prelude::*;
 
 /// The modes without one of them.
 fn without(all: &ModeSet, mode: usize) -> ModeSet {
-    ModeSet {
-        omega_squared: all.omega_squared.clone().remove_row(mode),
-        shapes: all.shapes.clone().remove_column(mode),
-    }
+    ModeSet::new(
+        all.omega_squared().clone().remove_row(mode),
+        all.shapes().clone().remove_column(mode),
+    )
+    .expect("modes")
 }
 
 proptest! {
@@ -30,13 +32,13 @@ proptest! {
         let found = examine(&exact, &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(&found.kept, &vec![0, 1, 2, 3, 4]);
         prop_assert_eq!(found.reports.len(), 5);
-        prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
+        prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
         for (mode, report) in found.reports.iter().enumerate() {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
             prop_assert_eq!(report.balance, None);
             let movement = report.movement.unwrap();
             prop_assert!(movement.shape <= ORTHOGONAL_INPUT && movement.frequency.abs() <= ORTHOGONAL_INPUT);
-            assert_relative_eq!(found.modes.omega_squared[mode], exact.omega_squared[mode], max_relative = ORTHOGONAL_INPUT);
+            assert_relative_eq!(found.modes.omega_squared()[mode], exact.omega_squared()[mode], max_relative = ORTHOGONAL_INPUT);
         }
     }
 
@@ -47,9 +49,9 @@ proptest! {
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let found = examine(&exact, &beam.mass, supports, &MovementLimits::default()).unwrap();
-        let spread = exact.omega_squared.max() / exact.omega_squared.min();
+        let spread = exact.omega_squared().max() / exact.omega_squared().min();
         prop_assert_eq!(found.kept, (0..exact.len()).collect::<Vec<_>>());
-        prop_assert!(relative_difference(&exact.shapes, &found.modes.shapes) <= EXACT_MODE_RESIDUAL * spread);
+        prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread);
         for report in &found.reports {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
             prop_assert!(report.balance.unwrap() <= EXACT_MODE_RESIDUAL * spread);
@@ -70,8 +72,8 @@ proptest! {
             prop_assert_eq!(report.verdict, if other == mode { ModeVerdict::NotOrthogonal } else { ModeVerdict::Kept });
         }
         let expected = without(&exact, mode);
-        prop_assert!(relative_difference(&expected.shapes, &found.modes.shapes) <= ORTHOGONAL_INPUT);
-        for (found, expected) in found.modes.omega_squared.iter().zip(expected.omega_squared.iter()) {
+        prop_assert!(relative_difference(expected.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
+        for (found, expected) in found.modes.omega_squared().iter().zip(expected.omega_squared().iter()) {
             assert_relative_eq!(*found, *expected, max_relative = ORTHOGONAL_INPUT);
         }
         let moved = orthogonalize(&wrong.spoil(&exact), &mass).unwrap().movement;
@@ -84,9 +86,9 @@ proptest! {
     fn a_reversed_accelerometer_is_found_by_balancing(beam in free_beam(), pick in any::<prop::sample::Index>()) {
         let exact = beam.elastic_modes(2);
         let mode = pick.index(exact.len());
-        let energy = beam.mass.diagonal().component_mul(&exact.shapes.column(mode).map(|v| v * v));
+        let energy = beam.mass.diagonal().component_mul(&exact.shapes().column(mode).map(|v| v * v));
         let mut raw = exact.clone();
-        raw.shapes[(energy.imax(), mode)] *= -1.0;
+        alter(&mut raw, |_, shapes| shapes[(energy.imax(), mode)] *= -1.0);
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let found = examine(&raw, &beam.mass, supports, &MovementLimits::default()).unwrap();
@@ -95,9 +97,9 @@ proptest! {
         let report = found.reports[mode];
         prop_assert_eq!((report.verdict, report.movement), (ModeVerdict::Unbalanced, None));
         prop_assert!(report.balance.unwrap() >= 0.18);
-        let spread = exact.omega_squared.max() / exact.omega_squared.min();
+        let spread = exact.omega_squared().max() / exact.omega_squared().min();
         prop_assert!(
-            relative_difference(&without(&exact, mode).shapes, &found.modes.shapes) <= EXACT_MODE_RESIDUAL * spread
+            relative_difference(without(&exact, mode).shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread
         );
     }
 
@@ -112,18 +114,18 @@ proptest! {
     ) {
         let mut raw = beam.elastic_modes(2);
         // Small enough that balancing, at most the noise's mass norm of 0.02 √8, deletes none.
-        raw.shapes += 0.02 * noise;
+        alter(&mut raw, |_, shapes| *shapes += 0.02 * noise);
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let limits = MovementLimits::default();
         let found = examine(&raw, &beam.mass, supports, &limits).unwrap();
         let count = found.kept.len();
-        prop_assert_eq!(found.modes.shapes.shape(), (beam.dofs.len(), count));
+        prop_assert_eq!(found.modes.shapes().shape(), (beam.dofs.len(), count));
         prop_assert_eq!(found.modes.len(), count);
-        let overlap = generalized_mass(&found.modes.shapes, &beam.mass).unwrap() - DMatrix::identity(count, count);
+        let overlap = generalized_mass(found.modes.shapes(), &beam.mass).unwrap() - DMatrix::identity(count, count);
         prop_assert!(overlap.amax() <= ORTHOGONAL_INPUT);
-        for (place, omega_squared) in found.modes.omega_squared.iter().enumerate() {
-            let shape = found.modes.shapes.column(place);
+        for (place, omega_squared) in found.modes.omega_squared().iter().enumerate() {
+            let shape = found.modes.shapes().column(place);
             let impedance = *omega_squared * &beam.mass - &beam.stiffness;
             let parts = impedance.abs() * shape.abs();
             for arm in rigid_body.column_iter() {
@@ -146,12 +148,9 @@ proptest! {
     #[test]
     fn deletion_leaves_no_trace((stiffness, mass) in held_chain(7), noise in noise(7, 5)) {
         let mut raw = ModeSet::from(solve(&stiffness, &mass, 5).unwrap());
-        raw.shapes += 0.1 * noise;
+        alter(&mut raw, |_, shapes| *shapes += 0.1 * noise);
         let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
-        let chosen = ModeSet {
-            omega_squared: DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared[mode])),
-            shapes: raw.shapes.select_columns(&found.kept),
-        };
+        let chosen = ModeSet::new(DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared()[mode])), raw.shapes().select_columns(&found.kept)).expect("modes");
         let again = examine(&chosen, &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(again.modes, found.modes);
         prop_assert_eq!(again.kept, (0..found.kept.len()).collect::<Vec<_>>());

@@ -5,7 +5,8 @@ use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{generalized_mass, orthogonalize};
 use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix};
+use corfem::method::modes::ModeSet;
+use nalgebra::{DMatrix, DVector, dmatrix};
 use std::f64::consts::PI;
 
 #[test]
@@ -44,11 +45,15 @@ fn one_mode_is_only_scaled() {
     let mass = dmatrix![4.0, 0.0; 0.0, 1.0];
     let found = orthogonalize(&modes(&[9.0], dmatrix![-1.0; 0.0]), &mass).unwrap();
     assert_relative_eq!(
-        found.modes.shapes,
+        *found.modes.shapes(),
         dmatrix![-0.5; 0.0],
         max_relative = ROUND_OFF
     );
-    assert_relative_eq!(found.modes.omega_squared[0], 9.0, max_relative = ROUND_OFF);
+    assert_relative_eq!(
+        found.modes.omega_squared()[0],
+        9.0,
+        max_relative = ROUND_OFF
+    );
 }
 
 #[test]
@@ -120,7 +125,9 @@ fn bad_input_is_refused() {
     let mass = DMatrix::<f64>::identity(3, 3);
     let shapes = DMatrix::identity(3, 2);
     let refused = |omega: &[f64], shapes: &DMatrix<f64>, mass: &DMatrix<f64>| {
-        orthogonalize(&modes(omega, shapes.clone()), mass).unwrap_err()
+        ModeSet::new(DVector::from_column_slice(omega), shapes.clone())
+            .and_then(|raw| orthogonalize(&raw, mass))
+            .unwrap_err()
     };
     assert!(matches!(
         refused(&[], &DMatrix::zeros(3, 0), &mass),
@@ -161,7 +168,7 @@ fn bad_input_is_refused() {
     still.column_mut(1).fill(0.0);
     match refused(&[1.0, 2.0], &still, &mass) {
         Error::NotPositive {
-            what: "generalized mass",
+            what: "largest component",
             owner,
             value,
         } => {

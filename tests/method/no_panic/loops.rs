@@ -16,18 +16,18 @@ use corfem::method::verdict::{Outcome, Verdict};
 
 pub const LOOPS: &[Entry] = &[
     ("ModalState::at", |d| {
-        let model = d.bent_chain()?;
-        let count = d.about(model.shares.len());
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let count = d.about(model.shares().len());
         let rule = if d.below(2) == 0 {
             UpdateRule::Recursive1
         } else {
             UpdateRule::Eigensolution
         };
-        ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors.sum()])
+        ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors().sum()])
     }),
     ("inner_loop::run", |d| {
-        let model = d.bent_chain()?;
-        let count = d.about(model.shares.len());
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let count = d.about(model.shares().len());
         let base = if d.below(2) == 0 {
             vec![1.0; count]
         } else {
@@ -57,7 +57,7 @@ pub const LOOPS: &[Entry] = &[
             };
         }
         run(&model, &base, &ranges, &settings)
-            .map(|run| [vec![run.last.errors.sum()], run.factors].concat())
+            .map(|run| [vec![run.last.errors().sum()], run.factors].concat())
     }),
     ("outer_loop::correlate", |d| {
         let settings = Settings {
@@ -66,8 +66,8 @@ pub const LOOPS: &[Entry] = &[
         };
         // Half of the models are right ones, so that calls come past the analysis.
         let found = if d.below(2) == 0 {
-            let model = d.bent_chain()?;
-            let ranges = vec![None; d.about(model.shares.len())];
+            let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+            let ranges = vec![None; d.about(model.shares().len())];
             correlate(
                 |_: &[f64]| Ok::<_, Error>(model.clone()),
                 &ranges,
@@ -77,7 +77,7 @@ pub const LOOPS: &[Entry] = &[
         } else {
             let model = d.dynamic();
             let (test, ranges) = (
-                d.modes(model.mass.nrows()),
+                d.modes(model.mass.nrows())?,
                 vec![None; d.about(model.shares.len())],
             );
             correlate(
@@ -122,7 +122,7 @@ pub const LOOPS: &[Entry] = &[
         ])
     }),
     ("error_sum::mode_errors", |d| {
-        let (analysis, pairing, test) = d.compared();
+        let (analysis, pairing, test) = d.compared()?;
         let found = mode_errors(&analysis, &pairing, &test)?;
         Ok(found
             .iter()
@@ -130,12 +130,12 @@ pub const LOOPS: &[Entry] = &[
             .collect())
     }),
     ("error_sum::errors", |d| {
-        let (analysis, pairing, test) = d.compared();
+        let (analysis, pairing, test) = d.compared()?;
         errors(&analysis, &pairing, &test).map(|found| vec![found.frequency, found.shape])
     }),
     ("ModalModel::weighted", |d| {
-        let model = d.bent_chain()?;
-        let count = d.about(model.test.len());
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let count = d.about(model.test().len());
         let weights: Vec<ModeWeight> = (0..count)
             .map(|_| ModeWeight {
                 frequency: d.number().abs(),
@@ -144,24 +144,24 @@ pub const LOOPS: &[Entry] = &[
             .collect();
         model
             .weighted(&weights)
-            .map(|model| vec![model.exact.errors.sum()])
+            .map(|model| vec![model.exact().errors.sum()])
     }),
     ("ModalState::start", |d| {
         // It copies the model; what is done with it refuses one that is not whole.
-        let model = d.bent_chain()?;
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
         ModalState::start(&model);
         Ok(Vec::new())
     }),
     ("derivatives::by_definition", |d| {
-        let model = d.bent_chain()?;
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
         by_definition(&model, &d.state(&model))
     }),
     ("derivatives::gradient", |d| {
-        let model = d.bent_chain()?;
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
         gradient(&model, &d.state(&model))
     }),
     ("derivatives::error_changes", |d| {
-        let model = d.bent_chain()?;
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
         let rule = if d.below(2) == 0 {
             DerivativeRule::Definition
         } else {
@@ -170,21 +170,16 @@ pub const LOOPS: &[Entry] = &[
         error_changes(&model, &d.state(&model), rule)
     }),
     ("step::stiffness_changes", |d| {
-        let model = d.bent_chain()?;
-        let counts = [(); 3].map(|()| d.about(model.shares.len()));
-        let [shares, sizes, changes] = counts.map(|count| d.list(count));
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let [shares, sizes] = [(); 2].map(|()| (0..d.size()).map(|_| d.unit()).collect::<Vec<_>>());
         let rules = [
-            StepRule::Matrix,
-            StepRule::Own,
+            StepRule::Norm,
+            StepRule::Diagonal,
             StepRule::Relative,
             StepRule::Gage,
-            StepRule::Sum,
         ];
-        let rule = rules
-            .get(d.below(6))
-            .copied()
-            .unwrap_or(StepRule::SteepestDescent);
-        stiffness_changes(&model, &shares, &sizes, &changes, rule)
+        let rule = rules.get(d.below(4)).copied().unwrap_or(StepRule::Relative);
+        Ok(stiffness_changes(&model, &shares, &sizes, rule))
     }),
     ("Accumulation::next_share_factor", |d| {
         for accumulation in [Accumulation::Sum, Accumulation::Product] {

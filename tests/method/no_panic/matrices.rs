@@ -47,9 +47,9 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("ModeSet::scaled_with", |d| {
         let size = d.size();
-        d.modes(size)
+        d.modes(size)?
             .scaled_with(&d.symmetric(size))
-            .map(|found| entries(&found.shapes))
+            .map(|found| entries(found.shapes()))
     }),
     ("modes::apply_sign_rule", |d| {
         apply_sign_rule(&mut d.symmetric(3));
@@ -57,7 +57,7 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("pairing::cross_orthogonality", |d| {
         let size = d.size();
-        let (one, other, mass) = (d.modes(size), d.modes(size), d.symmetric(size));
+        let (one, other, mass) = (d.modes(size)?, d.modes(size)?, d.symmetric(size));
         cross_orthogonality(&one, &other, &mass).map(|_| Vec::new())
     }),
     ("pairing::modal_assurance", |d| {
@@ -67,19 +67,19 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("pairing::pair_modes", |d| {
         let (rows, columns) = (d.size(), d.size());
-        pair_modes(&d.matrix(rows, columns)).map(|found| found.sign)
+        pair_modes(&d.matrix(rows, columns)).map(|found| found.sign().to_vec())
     }),
     ("orthogonalize::generalized_mass", |d| {
         let size = d.size();
-        generalized_mass(&d.modes(size).shapes, &d.symmetric(size)).map(|found| entries(&found))
+        generalized_mass(d.modes(size)?.shapes(), &d.symmetric(size)).map(|found| entries(&found))
     }),
     ("orthogonalize::orthogonalize", |d| {
         let size = d.size();
-        orthogonalize(&d.modes(size), &d.symmetric(size)).map(|found| modes(&found.modes))
+        orthogonalize(&d.modes(size)?, &d.symmetric(size)).map(|found| modes(&found.modes))
     }),
     ("balance::balance", |d| {
         let (size, rigid) = (d.size(), d.size());
-        let (set, mut stiffness, mass) = (d.modes(size), d.symmetric(size), d.symmetric(size));
+        let (set, mut stiffness, mass) = (d.modes(size)?, d.symmetric(size), d.symmetric(size));
         let mut motions = d.matrix(size, rigid);
         if d.below(2) == 0 {
             // A free structure and its motion, so that some calls are answered.
@@ -102,7 +102,7 @@ pub const MATRICES: &[Entry] = &[
         } else {
             limits
         };
-        examine(&d.modes(size), &d.symmetric(size), Supports::Held, &limits)
+        examine(&d.modes(size)?, &d.symmetric(size), Supports::Held, &limits)
             .map(|found| modes(&found.modes))
     }),
     ("balance::rigid_body_vectors", |d| {
@@ -145,20 +145,20 @@ pub const MATRICES: &[Entry] = &[
         let (size, count) = (d.size(), d.size());
         let frequencies = d.list(count);
         // Modes that were measured have frequencies; of others the square roots are what they are.
-        d.modes(size).frequencies_hz();
+        d.modes(size)?.frequencies_hz();
         ModeSet::from_measured(&frequencies, &d.matrix(size, count))
             .map(|found| found.frequencies_hz())
     }),
     ("Modes::lowest", |d| {
         let count = d.size();
         let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        model.exact.modes.lowest(count).map(|found| modes(&found))
+        model.exact().modes.lowest(count).map(|found| modes(&found))
     }),
     ("pairing::paired", |d| {
         let (size, count) = (d.size(), d.size());
-        let analysis = d.modes(size);
-        let pairing = d.pairing(count, analysis.len());
-        paired(&analysis, &pairing).map(|found| entries(&found.shapes))
+        let analysis = d.modes(size)?;
+        let pairing = d.pairing(count, analysis.len())?;
+        paired(&analysis, &pairing).map(|found| entries(found.shapes()))
     }),
     ("Motion::displacement", |d| {
         let motions = [

@@ -7,7 +7,7 @@ use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::panel::mean_plane;
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
 use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
-use corfem::method::model::{FiniteElementModel, Range};
+use corfem::method::model::{FiniteElementModel, Range, ScaledStructure};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::sparse::LargeModel;
 use corfem::sparse::WholeModel;
@@ -63,11 +63,11 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("DynamicModel::analyze", |d| {
         let (model, count) = (d.dynamic(), d.size());
-        let test = d.modes(model.mass.nrows());
+        let test = d.modes(model.mass.nrows())?;
         let count = Some(count).filter(|count| *count > 0);
         model
             .analyze(&test, count)
-            .map(|found| vec![found.exact.errors.sum()])
+            .map(|found| vec![found.exact().errors.sum()])
     }),
     ("Range::contains", |d| {
         Range {
@@ -199,6 +199,11 @@ pub const STRUCTURES: &[Entry] = &[
         let found = appendix_a::condense(&structural, &load_distribution)?;
         Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
     }),
+    ("ScaledStructure::new", |d| {
+        let (structure, size) = (d.structure()?, d.size());
+        let mass = d.symmetric(size);
+        ScaledStructure::new(structure, mass, d.parameters()).map(|_| Vec::new())
+    }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
         let load_distribution = d.load_distribution(structure.free_dof().len());
@@ -235,7 +240,7 @@ pub const STRUCTURES: &[Entry] = &[
             .condense(&factors)
             .map(|found| entries(&found.stiffness))
     }),
-    ("FiniteElementModel::factor_ranges", |d| {
+    ("ScaledStructure::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;
         let ranges = model
             .factor_ranges()
@@ -247,15 +252,15 @@ pub const STRUCTURES: &[Entry] = &[
             .take(2 * ranges.len())
             .collect())
     }),
-    ("FiniteElementModel::sizes", |d| {
+    ("ScaledStructure::sizes", |d| {
         let (model, factors) = d.finite_element()?;
         model.sizes(&factors)
     }),
-    ("FiniteElementModel::mass_sizes", |d| {
+    ("ScaledStructure::mass_sizes", |d| {
         let (model, factors) = d.finite_element()?;
         model.mass_sizes(&factors)
     }),
-    ("FiniteElementModel::point_masses", |d| {
+    ("ScaledStructure::point_masses", |d| {
         let (model, factors) = d.finite_element()?;
         model.point_masses(&factors).map(|found| entries(&found))
     }),
@@ -272,11 +277,11 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("FiniteElementModel::analyze", |d| {
         let (model, factors) = d.finite_element()?;
-        let test = d.modes(model.mass().nrows());
+        let test = d.modes(model.mass().nrows())?;
         let test = model.modes(&factors).map_or(test, |found| found.into());
         model
             .analyze(&factors, &test, None)
-            .map(|found| vec![found.exact.errors.sum()])
+            .map(|found| vec![found.exact().errors.sum()])
     }),
     ("FiniteElementModel::matrices", |d| {
         let (model, factors) = d.finite_element()?;
