@@ -1,9 +1,8 @@
 //! What a wing of any size costs: the table, the sentences and the figure of `paper/cost.md` are made from `paper/costs.csv`, where
-//! the benches store what they measure. `CORFEM_DOCUMENTS=write cargo test costs` writes the table anew.
+//! the benches store what they measure.
 
 use crate::common::log_log_slope;
 use crate::common::tolerances::ROUND_OFF;
-use crate::ledgers::documents::with_block;
 use crate::present::figures::figures;
 use corfem::present::figures::growth::{exponent, measured};
 use std::fs;
@@ -13,8 +12,6 @@ const ANALYSIS: &str = "analysis with all shares";
 const CONDENSED: &str = "condensed model: these two and $K_D$";
 const FACTOR: &str = "assembly and factorization";
 const SHAPES: &str = "shapes of the structure: 10 solutions";
-const MARKER: &str =
-    "measured: paper/costs.csv, November 2026, two x86-64 cores of a virtual machine";
 
 /// A stage with its unit, and the DOF and costs of the wings on which it was measured.
 struct Row {
@@ -192,29 +189,14 @@ fn bounds() -> String {
     .concat()
 }
 
-fn table() -> String {
+/// The tables of `paper/cost.md`.
+pub fn table() -> String {
     let blocks = [
         growth("stage, ms", "ms", false),
         growth("most memory held, MB", "MB", true),
         bounds(),
     ];
     blocks.join("\n").trim_end().to_owned()
-}
-
-#[test]
-fn the_table_of_costs_is_what_was_stored() {
-    let file = document();
-    let document = fs::read_to_string(&file).expect("it reads");
-    let (now, count) = with_block(&document, MARKER, &table());
-    assert_eq!(count, 1);
-    if std::env::var("CORFEM_DOCUMENTS").is_ok_and(|value| value == "write") {
-        fs::write(&file, now).expect("it can be written");
-    } else {
-        assert!(
-            now == document,
-            "CORFEM_DOCUMENTS=write writes the table anew"
-        );
-    }
 }
 
 #[test]

@@ -126,29 +126,3 @@ pub fn filled(template: &str, goldens: &Goldens) -> Result<String, String> {
     out.push_str(rest);
     Ok(out)
 }
-
-#[test]
-fn places_are_filled_in() {
-    let csv = "table,row,column,unit,computed,published\nt,a,c,,-3.004,2.9\nt,b,c,,4,\n";
-    let golden = csv::Reader::from_reader(csv.as_bytes()).into_deserialize();
-    let golden = golden.map(|row| row.expect("a row")).collect();
-    let goldens = BTreeMap::from([("t".to_owned(), golden)]);
-    let text = |place: &str| filled(place, &goldens);
-    assert_eq!(text("x {t|a|c|1} y").as_deref(), Ok("x -3.0 y"));
-    assert_eq!(text("{t|t|a|c|both2}").as_deref(), Ok("-3.00 (2.90)"));
-    assert_eq!(text("{t|a|c|published1}").as_deref(), Ok("2.9"));
-    assert_eq!(text("{t|*|c|to0}").as_deref(), Ok("-3 to 4"));
-    assert_eq!(text("{t|a|c|to0}").as_deref(), Ok("-3"));
-    assert_eq!(text("{t|*|c|max1}").as_deref(), Ok("4.0"));
-    assert_eq!(text("{t|*|c|rms2}").as_deref(), Ok("3.54"));
-    for wrong in [
-        "{t|*|c|1}",
-        "{t|d|c|1}",
-        "{u|a|c|1}",
-        "{t|a|c|x}",
-        "{t|b|c|both1}",
-        "{t|a",
-    ] {
-        assert!(text(wrong).is_err(), "{wrong}");
-    }
-}

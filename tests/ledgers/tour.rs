@@ -1,10 +1,5 @@
-//! The tour in `paper/tour`: its figures are what the program computes, and every number in its sentences stands in its code.
-//!
-//! Its code itself is compiled and run with the documentation tests. `CORFEM_DOCUMENTS=write cargo test tour` writes its figures anew.
+//! The tour in `paper/tour`: every number in its sentences stands in its code, which the documentation tests compile and run.
 
-use crate::common::golden::Numbers;
-use crate::ledgers::documents::with_block;
-use crate::ledgers::tour_figures::figures;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,29 +24,6 @@ fn chapters() -> BTreeMap<String, (PathBuf, String)> {
         (name[..2].to_owned(), (path, text))
     };
     files.map(chapter).collect()
-}
-
-#[test]
-fn figures_in_the_tour_are_what_the_program_computes() {
-    // Places to a tenth of a pixel: another machine's last digit may round them the other way.
-    let places = Numbers::DRAWN;
-    let figures = figures();
-    for (number, (path, text)) in chapters() {
-        let svg = figures
-            .get(&*number)
-            .unwrap_or_else(|| panic!("chapter {number} has no figure"));
-        let (now, count) = with_block(&text, &format!("computed: figure_{number}"), svg);
-        assert_eq!(count, 1, "chapter {number}");
-        if std::env::var("CORFEM_DOCUMENTS").is_ok_and(|value| value == "write") {
-            fs::write(path, now).expect("it can be written");
-        } else {
-            let is_same = places.agree(&text, &now);
-            assert!(
-                is_same,
-                "the figure of chapter {number} is another; CORFEM_DOCUMENTS=write writes it anew"
-            );
-        }
-    }
 }
 
 /// Numbers with a decimal point in a text, without their signs.

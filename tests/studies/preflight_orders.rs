@@ -74,11 +74,8 @@ fn a_mistake_that_costs_less_than_two_thousandths_is_not_named() {
     };
     // In the lowest mode the mass at the wall all but rests.
     let lowest = uniform_held_modes(count, stiffness, mass);
-    let test = ModeSet::new(
-        lowest.omega_squared().rows(0, 1).into_owned(),
-        lowest.shapes().columns(0, 1).into_owned(),
-    )
-    .expect("modes");
+    let shape = lowest.shapes().columns(0, 1).into_owned();
+    let test = ModeSet::new(lowest.omega_squared().rows(0, 1).into_owned(), shape).expect("a mode");
     let right = Specimen {
         model,
         test,
