@@ -536,7 +536,7 @@ impl Problem {
 }
 
 /// A case of the paper's wing torque box, from the crate.
-pub fn torque_box(case: &corfem::cases::Case) -> Problem {
+pub fn torque_box(case: &corfem::torque_box::Case) -> Problem {
     let model = case.model().expect("the box is sound");
     let modes = case.test_modes().expect("the box has modes");
     let element = |of: &corfem::method::assembly::ElementMatrix| Element {
@@ -586,9 +586,9 @@ pub fn torque_box(case: &corfem::cases::Case) -> Problem {
 
 #[allow(dead_code)]
 fn main() -> Result<(), Error> {
-    for number in corfem::cases::CASES {
+    for number in corfem::torque_box::CASES {
         println!("Case {number}");
-        let case = corfem::cases::Case::new(number).expect("a case of the paper");
+        let case = corfem::torque_box::Case::new(number).expect("a case of the paper");
         for (pass, gages, errors) in torque_box(&case).correlate(9)? {
             let reached = pass.error_sums.last().map_or(f64::NAN, |sum| 100.0 * sum);
             println!(

@@ -25,7 +25,7 @@
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
 //! - [`chain`]: chains of masses and springs, for examples.
-//! - [`cases`]: the paper's wing torque box, its four cases, its tables.
+//! - [`torque_box`]: the paper's wing torque box, its four cases, its tables.
 //! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, a pre-flight
 //!   that names mistakes in model and test before the first step, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
@@ -68,9 +68,10 @@ pub mod method;
 pub mod sparse;
 pub mod weighted;
 pub mod chain;
-pub mod cases;
+pub mod torque_box;
 pub mod studies;
 pub mod files;
+pub mod job;
 #[cfg(feature = "program")]
 pub mod present;
 pub mod tour;

@@ -5,11 +5,11 @@ mod problem;
 mod rivals;
 mod summary;
 
-use corfem::cases::run_case;
 use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::run;
 use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE};
+use corfem::torque_box::run_case;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
 use problem::{NINE, PassSetting, Setting, passes};
@@ -100,8 +100,8 @@ fn cases(criterion: &mut Criterion, passes: &[PassSetting]) {
             });
         });
     }
-    for number in corfem::cases::CASES {
-        let case = corfem::cases::Case::new(number).expect("a case");
+    for number in corfem::torque_box::CASES {
+        let case = corfem::torque_box::Case::new(number).expect("a case");
         group.bench_function(format!("case {number} whole"), |bencher| {
             bencher.iter(|| run_case(black_box(&case), |_, _| {}).expect("it runs"));
         });

@@ -1,11 +1,11 @@
 //! What is timed: the paper's nine-mode problem, and the passes of its cases.
 
-use corfem::cases::{CASES, Case, run_case};
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::model::{FiniteElementModel, ModalModel, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
+use corfem::torque_box::{CASES, Case, run_case};
 use nalgebra::{DMatrix, DVector};
 
 /// Modes, and dynamic degrees of freedom, of the paper's box.

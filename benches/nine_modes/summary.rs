@@ -82,7 +82,7 @@ pub fn print(folder: &Path, passes: &[PassSetting]) {
             time("analysis"),
         );
     }
-    for case in corfem::cases::CASES {
+    for case in corfem::torque_box::CASES {
         let label = format!("case {case} whole");
         println!(
             "{label:<14}{:>26}",

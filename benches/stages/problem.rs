@@ -1,6 +1,5 @@
 //! Every stage of a pass, ready to be done again: of the paper's box, and of the wing of 1,458 structural DOF.
 
-use corfem::cases::Case;
 use corfem::method::assembly::element_matrices;
 use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::{InnerSettings, run};
@@ -11,6 +10,7 @@ use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::known::planted;
 use corfem::studies::wing::Wing;
+use corfem::torque_box::Case;
 use std::hint::black_box;
 use std::sync::Arc;
 

@@ -2,7 +2,6 @@
 
 pub mod deck;
 pub mod error;
-pub mod job;
 pub mod matrices;
 pub mod nastran95;
 pub mod test_data;

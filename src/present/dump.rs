@@ -2,13 +2,13 @@
 
 use super::PresentError;
 use super::json::{document, iteration, rows};
-use crate::cases::{Case, run_case};
 use crate::files::matrices::write_matrix_market;
 use crate::method::inner_loop::Iteration;
 use crate::method::modes::solve;
 use crate::method::outer_loop::Pass;
 use crate::method::structure::{DIRECTIONS, StructuralDof};
 use crate::sparse::SparseMatrix;
+use crate::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 use std::iter::once;

@@ -13,9 +13,9 @@ pub mod table;
 pub mod verdict;
 pub mod tables;
 
-use crate::cases::error::CaseError;
 use crate::files::error::FileError;
 use crate::method::error::Error;
+use crate::torque_box::error::CaseError;
 
 /// An error of tables, figures, pages and the files they are written to. The message above a variant is the documentation of its
 /// fields.

@@ -5,12 +5,12 @@ use super::output::{OutputArguments, reconstruction, say};
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
-use corfem::cases::fit::fit;
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{CASES, Case, CaseResult, Grouping, run_case_with};
 use corfem::method::error::Error;
 use corfem::present::table::counted;
 use corfem::present::{PresentError, json, tables};
+use corfem::torque_box::fit::fit;
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case_with};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

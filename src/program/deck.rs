@@ -3,13 +3,13 @@
 use super::output::{OutputArguments, reconstruction, say};
 use super::place::put;
 use clap::Args;
-use corfem::cases::torque_box::dynamic_points;
-use corfem::cases::{Case, run_case};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
+use corfem::torque_box::wing_box::dynamic_points;
+use corfem::torque_box::{Case, run_case};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 

@@ -6,7 +6,7 @@ use super::place::put;
 use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
-use corfem::files::job::{Method, Prepared, TEMPLATE, TEST_TEMPLATE, run};
+use corfem::job::{Method, Prepared, TEMPLATE, TEST_TEMPLATE, run};
 use corfem::present::page::subject_page;
 use corfem::present::subject::Subject;
 use corfem::present::tables::deck::not_read;

@@ -2,11 +2,11 @@
 
 use super::place::put;
 use clap::{Args, ValueEnum};
-use corfem::cases::torque_box::Reconstruction;
 use corfem::files::error::FileError;
 use corfem::files::escaped;
 use corfem::present::table::Table;
 use corfem::present::{PresentError, render};
+use corfem::torque_box::wing_box::Reconstruction;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

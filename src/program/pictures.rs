@@ -4,10 +4,6 @@ use super::folder::put_all;
 use super::output::say as tell;
 use super::place::put;
 use clap::Args;
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs};
-use corfem::cases::fit::fit;
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{CASES, Case, run_case};
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
 use corfem::present::figures::{case_figures, comparison_figures, subject_figures};
@@ -15,6 +11,10 @@ use corfem::present::page::{Contents, page};
 use corfem::present::subject::Subject;
 use corfem::present::table::counted;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs};
+use corfem::torque_box::fit::fit;
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{CASES, Case, run_case};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

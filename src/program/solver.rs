@@ -2,10 +2,10 @@
 
 use super::signals;
 use clap::{Args, ValueEnum};
-use corfem::cases::BUILT_IN;
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::FiniteElementModel;
 use corfem::present::PresentError;
+use corfem::torque_box::BUILT_IN;
 use std::path::PathBuf;
 use std::time::Duration;
 

@@ -5,16 +5,16 @@ use super::progress::during;
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
-use corfem::cases::readings::{READINGS, all_columns, detection};
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{CASES, Case};
+use corfem::job::preflight::preflight_of;
 use corfem::present::{PresentError, json, tables};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{correlate_wing_with, first_model, settings};
 use corfem::studies::known::Known;
 use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
-use corfem::studies::preflight::preflight_of;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
+use corfem::torque_box::readings::{READINGS, all_columns, detection};
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{CASES, Case};
 use serde_json::json;
 
 #[derive(Debug, Args)]

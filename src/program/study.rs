@@ -6,7 +6,7 @@ use super::settings::named;
 use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
-use corfem::files::job::{Samples, Study, Vary};
+use corfem::job::{Samples, Study, Vary};
 use corfem::present::figures::histogram;
 use corfem::present::tables::job::study_table;
 use corfem::present::{PresentError, json, render};

@@ -222,7 +222,7 @@ impl LargeCondensation {
 /// For `transposed_shapes` $= B$ it is their share of $K_D$, $\sum_e s_e B K_e B^t$ (A.9); the shares sum to $K_D$ exactly. For
 /// $V_S = B^t V$ it is that share seen through dynamic shapes $V$. An element deforms in few ways, a rod and a shear panel in one: by
 /// Cholesky steps with pivots, $K_e = \sum_r a_r a_r^t/p_r$ and $V_e^t K_e V_e = \sum_r (V_e^t a_r)(V_e^t a_r)^t/p_r$.
-pub fn sum_of_stiffness<'a>(
+pub(crate) fn sum_of_stiffness<'a>(
     transposed_shapes: &DMatrix<f64>,
     members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
 ) -> DMatrix<f64> {
@@ -305,7 +305,7 @@ fn take_deformation(
 }
 
 /// Their generalized mass in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
-pub fn sum_of_mass<'a>(
+pub(crate) fn sum_of_mass<'a>(
     transposed_shapes: &DMatrix<f64>,
     members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
 ) -> DMatrix<f64> {

@@ -20,7 +20,8 @@ mod whole_model;
 
 pub use checks::check_solution;
 pub(crate) use checks::{add_squares, start_vector};
-pub use condensation::{LargeCondensation, LargeModel, sum_of_mass, sum_of_stiffness};
+pub(crate) use condensation::sum_of_stiffness;
+pub use condensation::{LargeCondensation, LargeModel};
 pub use condensation_error::{CondensationError, LARGEST_CONDENSATION_ERROR};
 pub use factor::Factor;
 pub use lowest_modes::{FINITE, MOST_DENSE_ROWS, lowest_modes};

@@ -1,8 +1,5 @@
 //! Structures with wrong gages whose true factors are known.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::cases::torque_box::TEST_GAGE;
 use crate::method::error::Error;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Settings, correlate};
@@ -10,6 +7,9 @@ use crate::sparse::LargeModel;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
 use crate::studies::wing::Wing;
+use crate::torque_box::Case;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::wing_box::TEST_GAGE;
 
 /// Modes of the wing's test and analysis.
 pub const WING_MODES: usize = 10;

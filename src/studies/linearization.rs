@@ -3,7 +3,6 @@
 //! The paper's section 6 calls Van de Vooren's formulae more accurate than a Taylor series type linearization. All of them know the
 //! same: the modes before the step and $\beta = V^t \Delta K V$, whose entries are the exact derivatives of $K_D$.
 
-use crate::cases::error::CaseError;
 use crate::method::appendix_c::{Perturbed, first_order, recursive_1};
 use crate::method::error::Error;
 use crate::method::error_sum::{Errors, errors};
@@ -13,6 +12,7 @@ use crate::method::modes::{ModeSet, solve};
 use crate::method::pairing::{cross_orthogonality, pair_modes};
 use crate::sparse::LargeModel;
 use crate::studies::known::Known;
+use crate::torque_box::error::CaseError;
 use nalgebra::{DMatrix, DVector};
 
 /// What predicts modes, in the order of [`Prediction::errors`].

@@ -3,9 +3,6 @@
 //! Both corrections are given the lowest test modes alone, and then predict all modes of the box, as tested and after a design change
 //! that is no part of the test: thicker covers. The truth is the box with the right gages.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::cases::torque_box::{COVERS, PANEL_COUNT, TEST_GAGE};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
 use crate::method::modes::{ModeSet, Modes, solve};
@@ -15,6 +12,9 @@ use crate::method::step::StepRule;
 use crate::studies::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm,
 };
+use crate::torque_box::Case;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::wing_box::{COVERS, PANEL_COUNT, TEST_GAGE};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 

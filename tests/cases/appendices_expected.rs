@@ -6,8 +6,6 @@ use crate::common::tolerances::{
     EXPECTED_FREQUENCY, EXPECTED_GRADIENT, EXPECTED_HISTORY, MATRIX_ROUND_OFF,
 };
 use approx::assert_relative_eq;
-use corfem::cases::Case;
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::method::appendix_b::{balance, orthogonalize};
 use corfem::method::appendix_c::Perturbed;
 use corfem::method::appendix_c::eigensolution;
@@ -18,6 +16,8 @@ use corfem::method::derivatives::gradient;
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
+use corfem::torque_box::Case;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use nalgebra::{Complex, DMatrix, DVector};
 use toml::{Table, Value};
 

@@ -2,12 +2,14 @@
 
 use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY, ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::cases::fit::fit;
-use corfem::cases::readings::{READINGS, detection, run_by_reading};
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{ANOMALY_RATIO, CASES, Case, CaseResult, anomaly, published_passes, run_case};
 use corfem::method::step::StepRule;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
+use corfem::torque_box::fit::fit;
+use corfem::torque_box::readings::{READINGS, detection, run_by_reading};
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{
+    ANOMALY_RATIO, CASES, Case, CaseResult, anomaly, published_passes, run_case,
+};
 use toml::Table;
 
 fn expected(reading: StepRule) -> Table {

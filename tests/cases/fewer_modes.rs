@@ -2,19 +2,19 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ROUND_OFF};
-use corfem::cases::error::CaseError;
-use corfem::cases::fewer_modes::{
-    Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
-};
-use corfem::cases::published::PublishedTable;
-use corfem::cases::torque_box::TEST_GAGE;
-use corfem::cases::{Case, run_case};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
 use corfem::method::step::Accumulation;
 use corfem::method::structure::ElementKind;
 use corfem::present::render::{csv, text};
 use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::fewer_modes::{
+    Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
+};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::TEST_GAGE;
+use corfem::torque_box::{Case, run_case};
 
 fn case_2() -> Case {
     Case::new(2).expect("a case")

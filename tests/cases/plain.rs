@@ -4,12 +4,12 @@
 mod program;
 
 use crate::common::tolerances::SAME_CORRELATION;
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::cases::{CASES, Case};
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::correlate;
 use corfem::method::step::StepRule;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
+use corfem::torque_box::{CASES, Case};
 
 fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usize, usize)) {
     let test: ModeSet = case
@@ -31,10 +31,8 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
         let inner = &expected.inner;
         assert_eq!(pass.error_sums.len(), inner.iterations.len(), "{what}");
         for (found, expected) in pass.error_sums.iter().zip(&inner.iterations) {
-            assert!(
-                (found - expected.errors.sum()).abs() <= SAME_CORRELATION,
-                "{what}"
-            );
+            let apart = (found - expected.errors.sum()).abs();
+            assert!(apart <= SAME_CORRELATION, "{what}: {apart:e}");
         }
         for (found, expected) in pass.unlimited.iter().zip(&inner.first_unlimited_factors) {
             // A change of one: a factor itself may be anything, zero too.

@@ -2,17 +2,17 @@
 
 use crate::common::golden::Numbers;
 use crate::common::tolerances::ROUND_OFF;
-use corfem::cases::fewer_modes::PUBLISHED_CASE;
-use corfem::cases::published::PublishedTable;
-use corfem::cases::readings::{
-    READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
-};
-use corfem::cases::torque_box::{Reconstruction, TEST_GAGE};
-use corfem::cases::{CASES, Case, run_case};
 use corfem::method::modes::solve;
 use corfem::method::step::StepRule;
 use corfem::present::render::csv;
 use corfem::present::tables::readings::readings_tables;
+use corfem::torque_box::fewer_modes::PUBLISHED_CASE;
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::readings::{
+    READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
+};
+use corfem::torque_box::wing_box::{Reconstruction, TEST_GAGE};
+use corfem::torque_box::{CASES, Case, run_case};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

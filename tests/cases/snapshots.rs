@@ -2,13 +2,13 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
-use corfem::cases::fit::fit;
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{CASES, Case, Grouping, run_case};
 use corfem::present::render::{csv, markdown, text};
 use corfem::present::table::Table;
 use corfem::present::tables::cases::all_tables;
 use corfem::present::tables::published::root_error_table;
+use corfem::torque_box::fit::fit;
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{CASES, Case, Grouping, run_case};
 
 fn tables() -> Vec<Table> {
     let results: Vec<_> = CASES

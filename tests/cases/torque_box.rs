@@ -3,11 +3,11 @@
 use crate::common::nastran95::boxes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::reconstruction;
-use corfem::cases::Case;
-use corfem::cases::torque_box::{
+use corfem::method::structure::ElementKind;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{
     PANEL_COUNT, Reconstruction, TEST_GAGE, load_distribution, rod_ends, structure,
 };
-use corfem::method::structure::ElementKind;
 use nalgebra::{DVector, Matrix4, Vector3, Vector4};
 use proptest::prelude::*;
 use std::collections::BTreeSet;

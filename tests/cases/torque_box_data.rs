@@ -1,10 +1,10 @@
 //! The box's data: the file it comes from, its masses, and data that cannot be a box.
 
 use crate::common::tolerances::ROUND_OFF;
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
-use corfem::cases::torque_box::{Reconstruction, dynamic_points, load_distribution, structure};
 use corfem::method::error::Error;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::{Reconstruction, dynamic_points, load_distribution, structure};
 use nalgebra::{DMatrix, DVector};
 
 const TEXT: &str = include_str!("../../paper/reconstruction.toml");

@@ -5,12 +5,12 @@ use crate::common::nastran95::{StoredBox, StoredBoxes, boxes, snap_factor};
 use crate::common::tolerances::{
     NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF,
 };
-use corfem::cases::Case;
-use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::method::appendix_a::condense;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::modes;
 use corfem::method::structure::Structure;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 use nalgebra::DMatrix;
 
 fn sizes(structure: &Structure) -> Vec<f64> {

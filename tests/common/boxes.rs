@@ -1,8 +1,8 @@
 //! The torque box as the loops see it, and boxes like it with other gages.
 
-use corfem::cases::Case;
-use corfem::cases::torque_box::PANEL_COUNT;
 use corfem::method::model::ModalModel;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::PANEL_COUNT;
 use proptest::prelude::*;
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.

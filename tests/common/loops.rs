@@ -7,7 +7,7 @@ use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerRun, InnerSettings};
 use corfem::method::model::{ModalModel, Range};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::state::UpdateRule;
 use corfem::method::step::{Accumulation, StepRule};
 use proptest::prelude::*;
 

@@ -1,6 +1,6 @@
 //! The stored answers of the outer loop through NASTRAN-95.
 
-use corfem::cases::CASES;
+use corfem::torque_box::CASES;
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]

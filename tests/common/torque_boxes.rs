@@ -1,10 +1,10 @@
 //! The paper's torque box as a subject of properties.
 
-use corfem::cases::Case;
-use corfem::cases::torque_box::{Reconstruction, load_distribution, structure};
 use corfem::method::assembly::dense_stiffness;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;

@@ -2,11 +2,11 @@
 
 use super::{PERCENT, noise_words};
 use crate::common::measured::equal_weights;
-use corfem::cases::error::CaseError;
 use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
 use corfem::sparse::LargeModel;
 use corfem::studies::known::Known;
+use corfem::torque_box::error::CaseError;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::{Noise, with_noise};
 use std::ops::RangeInclusive;

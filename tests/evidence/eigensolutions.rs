@@ -1,7 +1,5 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::outer_loop::{Settings, correlate};
@@ -9,6 +7,8 @@ use corfem::present::table::{Cell, Table};
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::known::{Known, WING_MODES, planted};
 use corfem::studies::wing::Wing;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
 
 /// Error sums to be reached, fractions.
 pub const ERRORS: [f64; 2] = [0.05, 0.025];

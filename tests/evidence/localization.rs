@@ -2,13 +2,13 @@
 
 use super::noise_words;
 use crate::common::measured::equal_weights;
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
-use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::studies::localization::{by_factor, by_single_fit};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::weighted::noise::{Noise, with_noise};
 use std::ops::RangeInclusive;
 

@@ -2,10 +2,6 @@
 //! What is wrong with the gages each time says what its steps are worth.
 
 use super::{PERCENT, RMS_PERCENT, noise_words};
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
-use corfem::cases::fit::rms;
-use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use corfem::method::appendix_b::{
     Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports,
     balance, examine, rigid_body_vectors,
@@ -17,6 +13,10 @@ use corfem::method::outer_loop::correlate;
 use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
 use corfem::present::table::{Cell, Digits, Table, numbers};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::fit::rms;
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;

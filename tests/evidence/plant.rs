@@ -2,9 +2,9 @@
 
 use super::specimen::Specimen;
 use crate::common::alter;
+use corfem::job::preflight::{Change, FACTORS, Finding, Mended};
 use corfem::method::error::Error;
 use corfem::sparse::random::split_mix_64;
-use corfem::studies::preflight::{Change, FACTORS, Finding, Mended};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::DMatrix;
 

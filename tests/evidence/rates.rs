@@ -3,15 +3,15 @@
 use super::noise_words;
 use super::plant::{MISTAKES, Mistake, Naming, plant};
 use super::specimen::Specimen;
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
 use corfem::chain::spring_stiffness;
+use corfem::job::preflight::Finding;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::Settings;
 use corfem::present::table::{Cell, Table};
-use corfem::studies::preflight::Finding;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use std::ops::RangeInclusive;

@@ -2,13 +2,13 @@
 
 use super::RMS_PERCENT;
 use crate::common::measured::equal_weights;
-use corfem::cases::error::CaseError;
-use corfem::cases::fit::rms;
-use corfem::cases::{Case, run_case};
 use corfem::present::table::{Cell, Table, percents};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::correlate_wing;
 use corfem::studies::known::Known;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::fit::rms;
+use corfem::torque_box::{Case, run_case};
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::residuals::DEVIATIONS;
 

@@ -1,7 +1,6 @@
 //! Structures before their correlation.
 
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
+use corfem::job::preflight::{Finding, preflight};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::modes::ModeSet;
@@ -9,7 +8,8 @@ use corfem::method::outer_loop::Settings;
 use corfem::sparse::LargeModel;
 use corfem::studies::delta_wing::correlation;
 use corfem::studies::known::Known;
-use corfem::studies::preflight::{Finding, preflight};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
 
 /// A structure before its correlation, without mistakes.
 #[derive(Debug, Clone)]

@@ -2,13 +2,13 @@
 
 use crate::common::decks::{bulk_data, restyled, style};
 use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
-use corfem::cases::torque_box::dynamic_points;
-use corfem::cases::{CASES, Case};
 use corfem::files::deck::bulk_data as written;
 use corfem::files::deck::number::nearest_in_field;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::method::assembly::element_matrices;
 use corfem::sparse::LargeModel;
+use corfem::torque_box::wing_box::dynamic_points;
+use corfem::torque_box::{CASES, Case};
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 

@@ -3,11 +3,11 @@
 
 use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
 use crate::method::mass_parameters::DENSITY;
-use corfem::cases::Case;
 use corfem::files::deck::{self, BulkData, bulk_data};
 use corfem::method::model::{FiniteElementModel, Parameter, Scaled};
 use corfem::method::modes::solve;
 use corfem::method::structure::Structure;
+use corfem::torque_box::Case;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 

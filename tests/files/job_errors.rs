@@ -2,7 +2,7 @@
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::files::job::{Prepared, run};
+use corfem::job::{Prepared, run};
 use std::path::PathBuf;
 use tempfile::TempDir;
 

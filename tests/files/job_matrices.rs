@@ -2,7 +2,7 @@
 
 use super::job_errors::{placed, said, with};
 use crate::common::jobs::{Files, building, rods};
-use corfem::files::job::Prepared;
+use corfem::job::Prepared;
 
 #[test]
 fn rows_of_matrices_are_a_table_of_grids_and_directions() {

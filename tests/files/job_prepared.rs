@@ -7,9 +7,9 @@ use crate::common::jobs::{Files, building, rods};
 use crate::common::test_files::write_csv;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::whole_models::shear_building;
-use corfem::files::job::Prepared;
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
+use corfem::job::Prepared;
 use nalgebra::{DMatrix, dmatrix};
 
 /// A job that has no mistake, ready to run.

@@ -5,7 +5,7 @@ use super::job_prepared::prepared;
 use crate::common::jobs::{Files, rods};
 use crate::common::tolerances::{PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
-use corfem::files::job::{Finished, History, Study, Vary, run};
+use corfem::job::{Finished, History, Study, Vary, run};
 use corfem::method::verdict::Outcome;
 use corfem::weighted::residuals::residuals;
 use std::cell::Cell;

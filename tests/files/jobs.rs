@@ -8,7 +8,7 @@ use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
 };
-use corfem::files::job::{ComparedModes, Finished, History, Prepared, run};
+use corfem::job::{ComparedModes, Finished, History, Prepared, run};
 use corfem::method::pairing::Pairing;
 use corfem::method::pairing::paired;
 use corfem::present::render;

@@ -4,12 +4,12 @@
 
 use crate::common::fake_solver::{fake, output5, solver};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::cases::Case;
 use corfem::files::deck::BulkData;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::Matrices;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Share};
+use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use tempfile::TempDir;
 

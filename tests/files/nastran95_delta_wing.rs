@@ -5,7 +5,6 @@
 
 use crate::common::outer_loop::{assert_near, stored_wing};
 use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
-use corfem::cases::BUILT_IN;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::NAME;
 use corfem::method::error::Error;
@@ -16,6 +15,7 @@ use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{
     GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
 };
+use corfem::torque_box::BUILT_IN;
 use std::sync::LazyLock;
 
 static RUN: LazyLock<WingCorrelation> =

@@ -5,15 +5,15 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
 use crate::files::nastran95_analysis::disordered;
-use corfem::cases::error::CaseError;
-use corfem::cases::fit::fit;
-use corfem::cases::{Case, CaseResult, run_case, run_case_with};
 use corfem::files::deck::BulkData;
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::tables::cases::all_tables;
 use corfem::present::{json, render};
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::fit::fit;
+use corfem::torque_box::{Case, CaseResult, run_case, run_case_with};
 use nalgebra::DMatrix;
 
 #[test]

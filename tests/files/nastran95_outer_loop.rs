@@ -8,12 +8,12 @@ use crate::common::tolerances::{
     NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
     NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
 };
-use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::cases::{CASES, Case, published_passes, run_case};
 use corfem::method::elements::panel::mean_plane;
 use corfem::method::elements::shear::energy_coefficient;
 use corfem::method::modes::solve;
 use corfem::method::structure::{ElementKind, Material};
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
+use corfem::torque_box::{CASES, Case, published_passes, run_case};
 use nalgebra::Vector3;
 
 /// Energy of a unit shear panel where NASTRAN-95 takes sides 1-2 and 3-4, or 1-4 and 2-3, for parallel, over what it is.

@@ -5,8 +5,6 @@ use crate::common::tolerances::{
     NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
     NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
 };
-use corfem::cases::torque_box::{PANEL_COUNT, dynamic_points};
-use corfem::cases::{Case, run_case_with};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::{DynamicModel, FiniteElementModel};
@@ -17,6 +15,8 @@ use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::{
     correlate_wing_with, first_model, settings, test_modes,
 };
+use corfem::torque_box::wing_box::{PANEL_COUNT, dynamic_points};
+use corfem::torque_box::{Case, run_case_with};
 use nalgebra::DMatrix;
 use std::io::Write;
 

@@ -6,14 +6,14 @@
 
 use crate::common::draws::Draws;
 use crate::common::test_files::{write_csv, write_universal};
-use corfem::cases::published::PublishedTable;
-use corfem::cases::torque_box::Reconstruction;
 use corfem::files::deck::{modes, read as read_deck, rewrite};
-use corfem::files::job::{Job, Prepared};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
 use corfem::files::test_data::read as read_test;
+use corfem::job::{Job, Prepared};
 use corfem::studies::delta_wing::DeltaWing;
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::Reconstruction;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.

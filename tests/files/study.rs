@@ -3,7 +3,7 @@
 use crate::common::jobs::{Files, STORIES, building, rods};
 use crate::common::tolerances::STANDARD_ERRORS;
 use corfem::files::error::FileError;
-use corfem::files::job::{Samples, Study, Vary};
+use corfem::job::{Samples, Study, Vary};
 use proptest::prelude::*;
 use std::fs;
 use std::io::Write;
@@ -207,7 +207,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
-    let found = corfem::files::job::run(&study.prepared, |_| {}, || true).expect("it runs");
+    let found = corfem::job::run(&study.prepared, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
     let summary = place
         .read(&study, text.as_bytes())

@@ -2,7 +2,7 @@
 
 use super::job_errors::{placed, with};
 use crate::common::jobs::{building, rods};
-use corfem::files::job::{Study, Vary};
+use corfem::job::{Study, Vary};
 
 /// The digest FNV-1a of 64 bits (RFC 9923) of bytes, from this first state.
 fn fnv_1a(bytes: &[u8], first: u64) -> u64 {
@@ -88,7 +88,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
             format!("1,cap,{within},0.5,3,1.0,1.0,{:016x}\n", study.identity),
         )
         .expect("written");
-        corfem::files::job::Samples::read(&samples, &study)
+        corfem::job::Samples::read(&samples, &study)
     };
     assert!(read("true").is_ok() && read("false").is_ok());
     let error = read("yes").expect_err("neither").to_string();

@@ -2,7 +2,6 @@
 
 use crate::common::sketch::{Mark, Series, Sketch};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
-use corfem::cases::table_1::TwoMasses;
 use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error_sum::{ErrorMeasure, Errors};
@@ -11,6 +10,7 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::torque_box::table_1::TwoMasses;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 

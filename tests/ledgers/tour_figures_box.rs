@@ -2,14 +2,14 @@
 
 use crate::common::measured::equal_weights;
 use crate::common::sketch::{Mark, Series, Sketch};
-use corfem::cases::published::PublishedTable;
-use corfem::cases::torque_box::TEST_GAGE;
-use corfem::cases::{Case, run_case};
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
 use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::TEST_GAGE;
+use corfem::torque_box::{Case, run_case};
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::jacobian;

@@ -3,8 +3,6 @@
 use crate::common::appendix_c::{exact, recursive_2};
 use crate::common::boxes::{first_problem, problem_of};
 use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY, STATED_ERROR_SUM};
-use corfem::cases::Case;
-use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, recursive_1};
 use corfem::method::error::Error;
 use corfem::method::error_sum::errors;
@@ -14,6 +12,8 @@ use corfem::method::modes::ModeSet;
 use corfem::method::pairing::pair_modes;
 use corfem::method::state::UpdateRule;
 use corfem::method::step::StepRule;
+use corfem::torque_box::Case;
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::DMatrix;
 
 /// A case's first pass with other rules.

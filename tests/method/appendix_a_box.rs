@@ -4,12 +4,12 @@ use crate::common::matrices::relative_distance;
 use crate::common::structures::{condition, sizes_of};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
-use corfem::cases::Case;
-use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_a::condense;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes;
+use corfem::torque_box::Case;
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

@@ -4,8 +4,8 @@
 use crate::common::appendix_c::{ascending, exact};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::cases::table_1::{Formula, TwoMasses, formulae, problems};
 use corfem::method::error::Error;
+use corfem::torque_box::table_1::{Formula, TwoMasses, formulae, problems};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

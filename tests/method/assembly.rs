@@ -6,12 +6,12 @@ use crate::common::structures::{
     as_element, condition, dense, factorized, grid, rod, sizes_of, spring_chain, unit_material,
 };
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::cases::Case;
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

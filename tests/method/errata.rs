@@ -8,14 +8,14 @@ use crate::common::tolerances::{
     EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SRSS, ROUND_OFF, WRONG_FORM,
 };
 use approx::assert_relative_eq;
-use corfem::cases::Case;
-use corfem::cases::published::PublishedTable;
 use corfem::method::appendix_a::{Condensed, condense};
 use corfem::method::appendix_b::{generalized_mass, orthogonalize};
 use corfem::method::derivatives::by_definition;
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::torque_box::Case;
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use std::f64::consts::PI;
 

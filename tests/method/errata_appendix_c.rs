@@ -11,10 +11,10 @@ use crate::common::tolerances::{
     WRONG_FORM,
 };
 use approx::assert_relative_eq;
-use corfem::cases::Case;
 use corfem::method::appendix_c::general::complex_modes::solve;
 use corfem::method::appendix_c::general::{ModalChange, complex_modes::LeftRightModes};
 use corfem::method::appendix_c::{Perturbed, eigensolution, first_order};
+use corfem::torque_box::Case;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 
 const MODES: usize = 9;

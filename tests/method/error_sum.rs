@@ -4,11 +4,11 @@ use crate::common::alter;
 use crate::common::pairings::rearrangement;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
-use corfem::cases::published::PublishedTable;
 use corfem::method::error::Error;
 use corfem::method::error_sum::{Errors, errors};
 use corfem::method::modes::ModeSet;
 use corfem::method::pairing::{Pairing, cross_orthogonality, pair_modes};
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 

@@ -10,7 +10,6 @@ use crate::common::tolerances::{
 use crate::common::vibrations::{Chain, chain_and_truth};
 use crate::method::derivatives::{assert_near, exact_error_sum, with_one};
 use crate::method::mass_parameters::both;
-use corfem::cases::Case;
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::derivatives::{
     DERIVATIVE_STEP, DerivativeRule, by_definition, error_changes, gradient,
@@ -21,6 +20,7 @@ use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
+use corfem::torque_box::Case;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

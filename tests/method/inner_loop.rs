@@ -6,12 +6,12 @@ use crate::common::loops::{
     Given, assert_error_sum_only_falls, assert_limits_hold, chain_problem, given,
 };
 use crate::common::vibrations::chain_and_truth;
-use corfem::cases::Case;
-use corfem::cases::torque_box::Panel;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
 use corfem::method::model::{ModalModel, Range};
 use corfem::method::state::ModalState;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::Panel;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

@@ -4,7 +4,6 @@ use crate::common::boxes::{first_problem, problem_of};
 use crate::common::loops::{assert_error_sum_only_falls, assert_limits_hold, chain_problem};
 use crate::common::tolerances::{FIRST_FACTOR, ROUND_OFF};
 use crate::common::vibrations::Chain;
-use corfem::cases::Case;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
@@ -12,6 +11,7 @@ use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{Limit, StepRule};
+use corfem::torque_box::Case;
 use nalgebra::dmatrix;
 
 /// The loop on one spring as the paper's sums have it.

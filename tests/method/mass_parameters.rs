@@ -3,7 +3,6 @@
 use crate::common::log_log_slope;
 use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::cases::Case;
 use corfem::method::appendix_a::condense;
 use corfem::method::appendix_c::general::{ModalChange, first_order};
 use corfem::method::assembly::dense_stiffness;
@@ -15,6 +14,7 @@ use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, Scaled, S
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::structure::Structure;
+use corfem::torque_box::Case;
 use nalgebra::{DMatrix, DVector};
 
 /// Aluminum, lbf·s²/in⁴.

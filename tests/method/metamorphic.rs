@@ -4,11 +4,11 @@
 //! pass and end at the same factors and the same error sum.
 
 use crate::common::tolerances::SAME_CORRELATION;
-use corfem::cases::{CASES, Case};
 use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Correlation, correlate};
 use corfem::method::structure::{Element, ElementKind, Grid, Structure};
+use corfem::torque_box::{CASES, Case};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 
 /// What a correlation is given.

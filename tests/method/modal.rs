@@ -4,12 +4,12 @@ use crate::common::alter;
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::cases::Case;
 use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, ModalModel, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{MOST_ORDERS, ModalState, ROOT_TOLERANCE, UpdateRule};
+use corfem::torque_box::Case;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

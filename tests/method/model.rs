@@ -4,8 +4,8 @@ use crate::common::matrices::relative_distance;
 use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
-use corfem::cases::Case;
 use corfem::method::model::{Parameter, Range, Scaled};
+use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

@@ -1,11 +1,11 @@
 //! What cannot be a model, a parameter or a factor: each refusal names who is at fault.
 
 use crate::common::structures::{chain_model as chain, group, spring_chain, unit_material};
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Structure};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
 use nalgebra::DMatrix;
 
 fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, Error> {

@@ -4,10 +4,10 @@ use crate::common::alter;
 use crate::common::loops::{chain_problem, correlate_chain};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::Chain;
-use corfem::cases::Case;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
+use corfem::torque_box::Case;
 
 #[test]
 fn a_model_that_is_right_needs_no_pass() {

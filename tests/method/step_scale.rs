@@ -3,13 +3,13 @@
 use crate::common::boxes::first_problem;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
-use corfem::cases::Case;
 use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::step::StepRule;
+use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 
 /// A chain whose springs are one parameter, with a test of 1.1 times its stiffness: the first step over Newton's.

@@ -3,12 +3,12 @@
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
-use corfem::cases::{Case, run_case};
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
 use corfem::method::model::Range;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::verdict::{Outcome, Verdict};
 use corfem::present::verdict::verdict_in_words;
+use corfem::torque_box::{Case, run_case};
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 

@@ -2,8 +2,6 @@
 
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
-use corfem::cases::{CASES, Case, CaseResult, run_case};
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
 use corfem::present::figures::mode_shapes::Modes;
@@ -16,6 +14,8 @@ use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_t
 use corfem::studies::matrix_comparison::{
     MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
 };
+use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::torque_box::{CASES, Case, CaseResult, run_case};
 use std::sync::OnceLock;
 
 /// The four cases, run once for all tests of figures.

@@ -2,11 +2,11 @@
 
 use crate::common::drawings::words;
 use crate::present::figures::results;
-use corfem::cases::Case;
 use corfem::present::figures::cover_gages::draw;
 use corfem::present::figures::error_history::{self, PassHistory, error_history};
 use corfem::present::figures::factors::{Factor, Factors};
 use corfem::present::subject::Subject;
+use corfem::torque_box::Case;
 
 #[test]
 fn thin_gages_are_written_with_the_decimals_they_need() {

@@ -3,11 +3,11 @@
 use crate::common::drawings::{words, written};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::present::figures::results;
-use corfem::cases::Case;
-use corfem::cases::published::PublishedTable;
 use corfem::present::figures::box_elements::Layer;
 use corfem::present::figures::cover_gages::draw;
 use corfem::present::subject::Subject;
+use corfem::torque_box::Case;
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::DVector;
 
 #[test]

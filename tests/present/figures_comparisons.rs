@@ -3,13 +3,13 @@
 use crate::common::tolerances::ROUND_OFF;
 use crate::present::figures::{comparison, fewer_modes_runs};
 use approx::assert_relative_eq;
-use corfem::cases::Case;
-use corfem::cases::fewer_modes::FewerModesRun;
 use corfem::present::figures::comparisons::{predictions, stiffness_changes, truncation};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::fewer_modes::truncation_tables;
 use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::{MatrixComparison, USUAL_CASE, USUAL_TEST_MODES};
+use corfem::torque_box::Case;
+use corfem::torque_box::fewer_modes::FewerModesRun;
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {
     tables

@@ -3,7 +3,7 @@
 
 use crate::common::drawings::{words, written};
 use crate::common::golden::{Numbers, assert_golden};
-use corfem::files::job::{Spread, Summary};
+use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::Range;
 use corfem::present::figures::bars::{BarFigure, Bars, Series};

@@ -7,7 +7,7 @@ use crate::files::job_prepared::prepared;
 use crate::present::figures::{results, wings};
 use crate::present::figures_made_up::summary;
 use approx::assert_relative_eq;
-use corfem::files::job::{Study, Summary, Vary, run};
+use corfem::job::{Study, Summary, Vary, run};
 use corfem::method::error::Error;
 use corfem::method::model::Range;
 use corfem::present::render::text;

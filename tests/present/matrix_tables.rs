@@ -2,10 +2,10 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::studies::matrix_comparison::compared;
-use corfem::cases::Case;
 use corfem::present::render::{csv, text};
 use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::compare_matrices;
+use corfem::torque_box::Case;
 
 #[test]
 fn comparison_as_numbers() {

@@ -4,9 +4,9 @@ use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::ROUND_OFF;
 use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
 use crate::studies::noisy_modes::study;
-use corfem::cases::Case;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
+use corfem::torque_box::Case;
 use corfem::weighted::noise::Noise;
 
 #[test]

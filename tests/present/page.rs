@@ -1,10 +1,6 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
 use crate::present::figures::{comparison, fewer_modes_runs, figures, results, wings};
-use corfem::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::cases::fit::{Fit, fit};
-use corfem::cases::torque_box::Reconstruction;
-use corfem::cases::{Case, CaseResult};
 use corfem::present::figures::Figure;
 use corfem::present::page::{Contents, page};
 use corfem::present::table::{Cell, Table};
@@ -12,6 +8,10 @@ use corfem::present::tables::cases::{all_tables, frequency_table, summary};
 use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::present::tables::matrices::matrix_tables;
 use corfem::studies::matrix_comparison::USUAL_CASE;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
+use corfem::torque_box::fit::{Fit, fit};
+use corfem::torque_box::wing_box::Reconstruction;
+use corfem::torque_box::{Case, CaseResult};
 
 const COMMAND: &str = "corfem report --out <somewhere>";
 
@@ -169,9 +169,9 @@ fn summary_repeats_the_first_and_last_errors() {
 
 #[test]
 fn summary_says_so_when_a_case_does_not_converge() {
-    let mut case = corfem::cases::Case::new(1).expect("a case");
+    let mut case = corfem::torque_box::Case::new(1).expect("a case");
     case.settings.inner.iterations = 1;
-    let result = corfem::cases::run_case(&case, |_, _| {}).expect("it runs");
+    let result = corfem::torque_box::run_case(&case, |_, _| {}).expect("it runs");
     let table = summary(std::slice::from_ref(&result)).expect("it reads");
     assert_eq!(
         table.rows[0].cells[5],

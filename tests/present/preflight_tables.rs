@@ -4,11 +4,11 @@ use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::GOLDEN_COUNT;
 use crate::evidence::rates::rate_tables;
 use crate::studies::preflight_rates::study;
+use corfem::job::preflight::Finding;
 use corfem::present::json;
 use corfem::present::render::csv;
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::preflight::findings_table;
-use corfem::studies::preflight::Finding;
 
 #[test]
 fn rates_as_numbers() {

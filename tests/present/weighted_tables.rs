@@ -7,7 +7,7 @@ use crate::evidence::coverage::{Coverage, Held, all_coverages, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::places::{filled, goldens};
-use corfem::files::job::Prepared;
+use corfem::job::Prepared;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};

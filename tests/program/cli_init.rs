@@ -2,7 +2,7 @@
 
 use crate::program::cli::{corfem, text};
 use crate::program::cli_jobs::{folder_of, words};
-use corfem::files::job::{Job, Prepared, read};
+use corfem::job::{Job, Prepared, read};
 use std::fs;
 
 #[test]

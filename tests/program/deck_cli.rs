@@ -2,8 +2,8 @@
 
 use crate::common::tolerances::DECK_ROUNDING;
 use assert_cmd::Command;
-use corfem::cases::{Case, run_case};
 use corfem::sparse::LargeModel;
+use corfem::torque_box::{Case, run_case};
 use serde_json::Value;
 
 fn corfem(arguments: &[&str]) -> std::process::Output {

@@ -1,9 +1,9 @@
 //! The pairing with the largest total, beside all pairings there are.
 
 use crate::common::tolerances::ROUND_OFF;
+use corfem::job::assignment::pair_optimally;
 use corfem::method::error::Error;
 use corfem::method::pairing::pair_modes;
-use corfem::studies::assignment::pair_optimally;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

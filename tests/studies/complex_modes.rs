@@ -1,8 +1,8 @@
 //! Real shapes in place of complex ones, and modal phase collinearity.
 
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::files::test_data::complex_modes::realize;
 use corfem::method::error::Error;
-use corfem::studies::complex_modes::realize;
 use nalgebra::{Complex, DMatrix, dmatrix};
 use proptest::prelude::*;
 

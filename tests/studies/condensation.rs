@@ -4,6 +4,7 @@ use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
 use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
+use corfem::job::preflight::coarse_condensation;
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
@@ -12,7 +13,6 @@ use corfem::sparse::LargeModel;
 use corfem::sparse::{
     FINITE, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel, WholeParameter, WholeShare,
 };
-use corfem::studies::preflight::coarse_condensation;
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 

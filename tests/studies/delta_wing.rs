@@ -16,10 +16,10 @@
 
 use crate::common::tolerances::ROUND_OFF;
 use approx::assert_relative_eq;
-use corfem::cases::error::CaseError;
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::studies::delta_wing::DeltaWing;
+use corfem::torque_box::error::CaseError;
 use nalgebra::Vector3;
 
 const DATA: &str = include_str!("../../paper/delta_wing.toml");

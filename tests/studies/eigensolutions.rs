@@ -1,10 +1,10 @@
 //! Full eigensolutions by perturbation and by re-analysis, counted.
 
 use crate::evidence::eigensolutions::{Counted, count_all, counted};
-use corfem::cases::{Case, run_case};
 use corfem::method::error::Error;
 use corfem::studies::known::{Known, planted};
 use corfem::studies::wing::Wing;
+use corfem::torque_box::{Case, run_case};
 
 fn case(number: usize, error: f64) -> Counted {
     let settings = Case::new(number).expect("a case").settings;

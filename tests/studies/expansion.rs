@@ -2,8 +2,8 @@
 
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
+use corfem::job::expansion::{expand, mass_by_modes};
 use corfem::method::error::Error;
-use corfem::studies::expansion::{expand, mass_by_modes};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 

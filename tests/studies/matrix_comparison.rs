@@ -3,9 +3,6 @@
 use crate::common::tolerances::{
     CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE,
 };
-use corfem::cases::Case;
-use corfem::cases::error::CaseError;
-use corfem::cases::torque_box::COVERS;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
@@ -13,6 +10,9 @@ use corfem::studies::matrix_comparison::{
     COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
 };
 use corfem::studies::matrix_correction::baruch_stiffness;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::COVERS;
 
 pub const TEST_MODES: usize = USUAL_TEST_MODES;
 

@@ -2,8 +2,8 @@
 
 use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use crate::studies::matrix_comparison::{TEST_MODES, by_name, compared, gages, model};
-use corfem::cases::Case;
 use corfem::studies::matrix_correction::{baruch_stiffness, weighted_norm};
+use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 
 #[test]

@@ -2,8 +2,8 @@
 
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::job::metrics::coordinate_assurance;
 use corfem::method::error::Error;
-use corfem::studies::metrics::coordinate_assurance;
 use nalgebra::{DMatrix, DVector, dmatrix};
 use proptest::prelude::*;
 

@@ -5,8 +5,6 @@ use crate::common::tolerances::{
     STANDARD_ERRORS,
 };
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
-use corfem::cases::torque_box::dynamic_points;
-use corfem::cases::{Case, run_case};
 use corfem::method::appendix_b::{
     LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, generalized_mass, orthogonalize,
 };
@@ -14,6 +12,8 @@ use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::method::step::StepRule;
 use corfem::sparse::random::split_mix_64;
+use corfem::torque_box::wing_box::dynamic_points;
+use corfem::torque_box::{Case, run_case};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

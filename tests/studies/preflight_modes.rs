@@ -4,13 +4,13 @@ use crate::common::alter;
 use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{case, chain, findings, wing, with_shapes};
+use corfem::job::preflight::{
+    Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
+};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::outer_loop::Settings;
 use corfem::sparse::CondensationError;
-use corfem::studies::preflight::{
-    Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
-};
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {

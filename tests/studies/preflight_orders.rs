@@ -7,10 +7,10 @@ use crate::evidence::plant::mass_follows;
 use crate::evidence::specimen::Specimen;
 use crate::studies::preflight::{agreement, case, chain, findings, mended, wing, with_shapes};
 use corfem::chain::spring_stiffness;
+use corfem::job::preflight::{Change, CommonFactor, Finding, LEAST_GAIN, LEAST_SHARE};
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
-use corfem::studies::preflight::{Change, CommonFactor, Finding, LEAST_GAIN, LEAST_SHARE};
 use nalgebra::DMatrix;
 
 #[test]

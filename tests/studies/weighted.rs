@@ -7,13 +7,13 @@ use crate::common::tolerances::{
     CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
 };
 use crate::evidence::rules::compare_all;
-use corfem::cases::Case;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::studies::known::Known;
+use corfem::torque_box::Case;
 use corfem::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };

@@ -3,7 +3,6 @@
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
-use corfem::cases::Case;
 use corfem::method::assembly::ElementMatrix;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
@@ -17,6 +16,7 @@ use corfem::sparse::free_modes::{CountedModes, counted_modes};
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use corfem::studies::delta_wing::DeltaWing;
 use corfem::studies::delta_wing::correlation::GROUPS;
+use corfem::torque_box::Case;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};

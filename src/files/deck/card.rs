@@ -12,7 +12,7 @@ pub(super) const LARGEST_LABEL: usize = 99_999_999;
 
 /// A field as it was read: its text without blanks at either end, and its line, from one.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::files) struct Field {
+pub(crate) struct Field {
     pub text: String,
     pub line: usize,
 }
@@ -20,7 +20,7 @@ pub(in crate::files) struct Field {
 /// A card as it was read, its continuations joined to it. Where a function refuses what a field says, its error is a
 /// [`FileError::DeckField`] about that field.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::files) struct Card {
+pub(crate) struct Card {
     pub file: Arc<str>,
     /// The line of its name, from one.
     pub line: usize,
@@ -32,14 +32,14 @@ pub(in crate::files) struct Card {
 
 /// What a card says, and where its entry begins: in field 2, or in field 6 for the second of two on a card.
 #[derive(Debug)]
-pub(in crate::files) struct Kept<T> {
+pub(crate) struct Kept<T> {
     pub value: T,
     pub card: Card,
     pub start: usize,
 }
 
 /// What the cards of one kind say, by number.
-pub(in crate::files) type Numbered<T> = BTreeMap<usize, Kept<T>>;
+pub(crate) type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
     /// A field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.

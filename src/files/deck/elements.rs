@@ -40,7 +40,7 @@ pub(super) struct Holder<'a> {
 
 /// The cards that an element refers to: its property's number, none for a CONROD, and its material's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::files) struct Membership {
+pub(crate) struct Membership {
     pub property: Option<usize>,
     pub material: usize,
 }

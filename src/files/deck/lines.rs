@@ -31,7 +31,7 @@ pub(super) struct Line {
 }
 
 /// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
-pub(in crate::files) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let latin_1 = || {
         bytes
@@ -234,7 +234,7 @@ fn expand_tabs(text: &str) -> Vec<char> {
 }
 
 /// The bulk data cards of a text whatever they are, in the order of the file.
-pub(in crate::files) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
+pub(crate) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
     join(&file.into(), sections(file, text)?.1)
 }
 

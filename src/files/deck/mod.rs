@@ -29,8 +29,9 @@ mod rewrite;
 mod write;
 
 pub(super) use card::Card;
-pub(in crate::files) use elements::Membership;
-pub(super) use lines::{cards, decoded};
+pub(crate) use elements::Membership;
+pub(super) use lines::cards;
+pub(crate) use lines::decoded;
 
 pub use model::{BulkData, PointMass, Tie};
 pub use modes::modes;

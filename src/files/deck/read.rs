@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 pub struct Deck {
     /// The model.
     pub model: BulkData,
-    pub(in crate::files) members: Members,
+    pub(crate) members: Members,
     /// Cards that are not part of it, by name in the order of the file.
     pub unread: Vec<Unread>,
 }

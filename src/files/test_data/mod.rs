@@ -2,6 +2,7 @@
 //!
 //! [`read`] knows two formats: `universal`, the Universal File of test systems, and `csv`, a table that a spreadsheet writes.
 
+pub mod complex_modes;
 mod csv;
 mod universal;
 mod universal_axes;

@@ -16,7 +16,7 @@
 use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
 use super::{Sensor, TestData, default_name, real};
 use crate::files::error::FileError;
-use crate::studies::complex_modes::realize;
+use crate::files::test_data::complex_modes::realize;
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;

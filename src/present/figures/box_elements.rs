@@ -2,9 +2,9 @@
 
 use super::canvas::*;
 use super::view::{DEPTH_DRAWN, View};
-use crate::cases::Case;
 use crate::method::structure::{Element, ElementKind};
 use crate::present::tables::kind_letter;
+use crate::torque_box::Case;
 use nalgebra::Vector3;
 
 /// One of the three layers the box is taken apart into.

@@ -5,13 +5,13 @@ use super::factors::Factors;
 use super::structure::draw_structure;
 use super::subject::subject_figures;
 use super::{Figure, box_elements, cover_gages};
-use crate::cases::readings::{columns_of, run_by_reading};
-use crate::cases::{CASES, Case, CaseResult};
 use crate::method::step::StepRule;
 use crate::present::PresentError;
 use crate::present::subject::Subject;
 use crate::present::tables::kind_letter;
 use crate::present::tables::unlimited::unlimited_factors;
+use crate::torque_box::readings::{columns_of, run_by_reading};
+use crate::torque_box::{CASES, Case, CaseResult};
 
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///

@@ -3,11 +3,11 @@
 use super::bars::{BarFigure, Bars, Series};
 use super::matrices::{HeatMap, draw_by_twos};
 use super::{Figure, growth, linearization, numbers};
-use crate::cases::fewer_modes::FewerModesRun;
 use crate::present::PresentError;
 use crate::present::tables::fewer_modes::COSTS;
 use crate::studies::linearization::{Exact, both_structures};
 use crate::studies::matrix_comparison::{COVER_DOUBLER, MatrixComparison, Prediction, TRUTH};
+use crate::torque_box::fewer_modes::FewerModesRun;
 use nalgebra::DMatrix;
 
 /// Figures of what is compared with the cases: steps by other formulae, fewer modes, then corrections of matrices.

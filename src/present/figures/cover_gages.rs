@@ -3,9 +3,9 @@
 use super::box_elements::{Layer, center};
 use super::canvas::*;
 use super::view::View;
-use crate::cases::Case;
-use crate::cases::torque_box::{Panel, TEST_GAGE};
 use crate::present::tables::kind_letter;
+use crate::torque_box::Case;
+use crate::torque_box::wing_box::{Panel, TEST_GAGE};
 use nalgebra::Vector3;
 
 /// Height of one configuration's row and above the rows, px.

@@ -1,7 +1,7 @@
 //! Factors over many runs as histograms, one a parameter.
 
 use super::canvas::*;
-use crate::files::job::{Spread, Summary};
+use crate::job::{Spread, Summary};
 
 /// Histograms side by side.
 const ACROSS: usize = 3;

@@ -14,12 +14,12 @@ use super::tables::cases::{
 };
 use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, matrices, paper_tables, preflight};
-use crate::cases::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
-use crate::cases::fit::Fit;
-use crate::cases::{Case, CaseResult};
+use crate::job::preflight::preflight_of;
 use crate::present::PresentError;
 use crate::studies::matrix_comparison::MatrixComparison;
-use crate::studies::preflight::preflight_of;
+use crate::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
+use crate::torque_box::fit::Fit;
+use crate::torque_box::{Case, CaseResult};
 use html::{escaped, figure, figures, prose, section, section_of, table};
 use story::story;
 

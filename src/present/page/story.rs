@@ -2,8 +2,8 @@
 
 use super::html::{escaped, figure, figures, prose};
 use super::{Contents, Part, named};
-use crate::cases::CaseResult;
 use crate::present::verdict::verdict_in_words;
+use crate::torque_box::CaseResult;
 
 /// A part for every section of the words whose case or wing there is.
 pub(super) fn story(contents: &Contents) -> Vec<Part> {

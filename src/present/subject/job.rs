@@ -1,10 +1,10 @@
 //! The user's own structure as a subject of the report.
 
 use super::{Derivatives, SensorPoint, Stage, Subject};
-use crate::files::job::{Finished, History, PlacedSensor, Prepared};
+use crate::job::expansion::expand;
+use crate::job::{Finished, History, PlacedSensor, Prepared};
 use crate::method::model::ModalModel;
 use crate::present::PresentError;
-use crate::studies::expansion::expand;
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use nalgebra::{DMatrix, DVectorView, Vector3};
 

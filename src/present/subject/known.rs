@@ -1,14 +1,14 @@
 //! The paper's cases and two wings as subjects.
 
 use super::{Derivatives, SensorPoint, Subject};
-use crate::cases::CaseResult;
-use crate::cases::torque_box::dynamic_points;
 use crate::present::PresentError;
 use crate::studies::delta_wing::DeltaWing;
 use crate::studies::delta_wing::correlation::{
     GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
 };
 use crate::studies::known::recovered;
+use crate::torque_box::CaseResult;
+use crate::torque_box::wing_box::dynamic_points;
 use nalgebra::Vector3;
 
 /// Grids of the box's root, rear and front.

@@ -159,7 +159,7 @@ impl Subject {
         Self {
             name: name.to_owned(),
             title: name.to_owned(),
-            solver: crate::cases::BUILT_IN.to_owned(),
+            solver: crate::torque_box::BUILT_IN.to_owned(),
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,

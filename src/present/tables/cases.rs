@@ -5,11 +5,6 @@ use super::stages::{self, Stage};
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
-use crate::cases::fit::Fit;
-use crate::cases::published::PublishedTable;
-use crate::cases::readings::{READINGS, columns_of, detection, run_by_reading};
-use crate::cases::torque_box::gage_rms;
-use crate::cases::{BUILT_IN, CASES, CaseResult, Grouping};
 use crate::method::error_sum::Errors;
 use crate::method::model::Check;
 use crate::method::step::{Accumulation, StepRule};
@@ -17,6 +12,11 @@ use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::present::verdict::verdict_in_words;
+use crate::torque_box::fit::Fit;
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::readings::{READINGS, columns_of, detection, run_by_reading};
+use crate::torque_box::wing_box::gage_rms;
+use crate::torque_box::{BUILT_IN, CASES, CaseResult, Grouping};
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
 fn published(

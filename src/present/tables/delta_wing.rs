@@ -2,7 +2,6 @@
 
 use super::subject::{history_table, paired_table};
 use super::{PERCENT, RMS_PERCENT};
-use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
 use crate::present::subject::Subject;
 use crate::present::table::{Digits, Table, numbers, percents};
@@ -10,6 +9,7 @@ use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCor
 use crate::studies::delta_wing::{
     DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
 };
+use crate::torque_box::published::PublishedTable;
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);

@@ -2,11 +2,11 @@
 
 use super::stages::{self, Stage};
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
-use crate::cases::Case;
-use crate::cases::fewer_modes::{Agreement, FewerModesRun};
-use crate::cases::published::PublishedTable;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
+use crate::torque_box::Case;
+use crate::torque_box::fewer_modes::{Agreement, FewerModesRun};
+use crate::torque_box::published::PublishedTable;
 use std::collections::BTreeSet;
 
 /// The paper's frequencies with fewer modes are those of five test modes.

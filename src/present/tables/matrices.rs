@@ -1,11 +1,11 @@
 //! Why elements and not matrices, as tables.
 
 use super::{HERTZ, PERCENT, RMS_PERCENT, kind_letter, rms};
-use crate::cases::Case;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::studies::matrix_comparison::{
     COVER_DOUBLER, ElementFactor, MatrixComparison, Prediction, TRUTH,
 };
+use crate::torque_box::Case;
 
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.
 pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {

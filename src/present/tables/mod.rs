@@ -14,9 +14,9 @@ pub mod subject;
 pub mod unlimited;
 
 use super::table::Digits;
-use crate::cases::fit::rms;
-use crate::cases::published::PublishedTable;
 use crate::method::structure::ElementKind;
+use crate::torque_box::fit::rms;
+use crate::torque_box::published::PublishedTable;
 
 const HERTZ: Digits = Digits::Significant(4);
 const INCHES: Digits = Digits::Fixed(5);

@@ -1,7 +1,7 @@
 //! The pre-flight as a table.
 
+use crate::job::preflight::Finding;
 use crate::present::table::{Cell, Table};
-use crate::studies::preflight::Finding;
 
 /// What is found before the first step, structure by structure.
 pub fn findings_table(found: &[(String, Vec<Finding>)]) -> Table {

@@ -1,13 +1,13 @@
 //! What each reading of the step makes of the paper's gages, beside the print.
 
 use super::{PERCENT, RMS_PERCENT};
-use crate::cases::published::PublishedTable;
-use crate::cases::readings::{Detection, READINGS, ReadingColumn};
-use crate::cases::torque_box::PANEL_COUNT;
-use crate::cases::{ANOMALY_RATIO, CASES, published_reading};
 use crate::method::step::StepRule;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers};
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::readings::{Detection, READINGS, ReadingColumn};
+use crate::torque_box::wing_box::PANEL_COUNT;
+use crate::torque_box::{ANOMALY_RATIO, CASES, published_reading};
 
 /// A quantity of a column of gages: its label, its heading where it stands across, its digits and its value.
 type Quantity = (

@@ -1,9 +1,9 @@
 //! Values beside their targets, from the first model to the last: frequencies or gages, pass by pass.
 
 use super::{HERTZ, INCHES, PERCENT, in_words, kind_letter, remarks};
-use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{PANEL_COUNT, Panel, TEST_GAGE};
 use crate::present::table::{Cell, Digits, Table};
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::wing_box::{PANEL_COUNT, Panel, TEST_GAGE};
 
 /// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), its values in the order of the
 /// rows, and its errors under these, fractions; those that it has not are left out.

@@ -1,11 +1,11 @@
 //! Tables of any correlation: paired modes, factors, and its history.
 
 use super::{HERTZ, RMS_PERCENT};
-use crate::cases::BUILT_IN;
 use crate::method::error::Error;
 use crate::method::model::{Check, Range};
 use crate::present::subject::{Agreement, Subject};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
+use crate::torque_box::BUILT_IN;
 
 /// Three decimals, of criteria between zero and one and of factors.
 const THREE: Digits = Digits::Fixed(3);

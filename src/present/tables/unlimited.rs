@@ -1,8 +1,8 @@
 //! What the first iteration of a case asks of its parameters before any limit, which gives a modeling error away.
 
-use crate::cases::{CaseResult, Grouping};
 use crate::present::figures::factors::Factor;
 use crate::present::table::{Cell, Digits, Table};
+use crate::torque_box::{CaseResult, Grouping};
 
 /// What stands out so far that a modeling error must be looked for ([`CaseResult::anomaly`]).
 pub const ANOMALY: &str = "anomaly";

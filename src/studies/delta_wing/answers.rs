@@ -1,13 +1,13 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::{DeltaWing, STATIONS, upper_grid};
-use crate::cases::error::CaseError;
-use crate::cases::published::PublishedTable;
 use crate::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
 use crate::method::error::Error;
 use crate::method::structure::Structure;
 use crate::sparse::factorization::FactorizedStiffness;
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
+use crate::torque_box::error::CaseError;
+use crate::torque_box::published::PublishedTable;
 use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.

@@ -13,7 +13,6 @@
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 use super::DeltaWing;
-use crate::cases::BUILT_IN;
 use crate::method::error::Error;
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
@@ -24,6 +23,7 @@ use crate::method::state::UpdateRule;
 use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::{Element, Material, Structure};
 use crate::sparse::load_distribution::LoadDistribution;
+use crate::torque_box::BUILT_IN;
 use nalgebra::DMatrix;
 
 /// Elements that are scaled together.

@@ -20,10 +20,10 @@ pub mod correlation;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use crate::cases::error::{CaseError, read_toml};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use crate::torque_box::error::{CaseError, read_toml};
 use nalgebra::Vector3;
 use serde::Deserialize;
 

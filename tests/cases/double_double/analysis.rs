@@ -6,9 +6,9 @@ use crate::common::double_double::Dd;
 use crate::common::double_double_matrices::{
     Rows, eigen, inverse, product, rows, solve, transposed_product,
 };
-use corfem::cases::Case;
-use corfem::cases::torque_box::{PANEL_COUNT, rod_ends};
 use corfem::method::structure::ElementKind;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{PANEL_COUNT, rod_ends};
 
 /// The box of a case: every panel of unit gage, and all rods together.
 pub struct Box {

@@ -5,11 +5,11 @@ use super::elements::number;
 use super::noise::Noise;
 use crate::common::double_double::Dd;
 use crate::common::double_double_matrices::{Rows, product, rows, transposed_product};
-use corfem::cases::Case;
-use corfem::cases::torque_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::method::inner_loop::Stop;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::{LEAST_SHARE, REFERENCE_GAGE, StepRule};
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 
 /// Relative change of the roots at which Recursive 1 has converged: some hundred units in the last place.
 const SETTLED: f64 = 1e-29;

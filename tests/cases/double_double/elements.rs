@@ -2,8 +2,8 @@
 
 use crate::common::double_double::Dd;
 use crate::common::double_double_matrices::{Rows, rows};
-use corfem::cases::torque_box::Reconstruction;
 use corfem::method::structure::ElementKind;
+use corfem::torque_box::wing_box::Reconstruction;
 
 pub type Point = [Dd; 3];
 

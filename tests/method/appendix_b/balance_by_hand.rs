@@ -155,7 +155,7 @@ fn a_suspension_at_the_limit_is_allowed() {
 
 #[test]
 fn the_wing_box_on_its_root_is_refused() {
-    let case = corfem::cases::Case::new(1).unwrap();
+    let case = corfem::torque_box::Case::new(1).unwrap();
     let model = case.model().unwrap();
     let dynamic = model.matrices(&[1.0; 15]).unwrap();
     let outcome = balance(

@@ -180,7 +180,7 @@ fn limits_out_of_range_are_refused() {
 
 #[test]
 fn the_wing_box_s_own_test_modes_are_kept() {
-    let case = corfem::cases::Case::new(2).unwrap();
+    let case = corfem::torque_box::Case::new(2).unwrap();
     let raw = case.test_modes().unwrap();
     let found = examine(
         &raw,

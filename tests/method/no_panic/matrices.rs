@@ -121,7 +121,7 @@ pub const MATRICES: &[Entry] = &[
     ("linear_algebra::check_length", |d| {
         check_length("list", d.size(), d.size()).map(|()| Vec::new())
     }),
-    ("linear_algebra::check_solution", |d| {
+    ("checks::check_solution", |d| {
         let size = d.size();
         let (matrix, inverse, probe) = (d.matrix(size, size), d.matrix(size, size), d.vector(size));
         let other = d.vector(d.0 as usize % 3);

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 /// $$ c_p = \frac{(\sum_l |v_{pl} w_{pl}|)^2}{\sum_l v_{pl}^2 \sum_l w_{pl}^2} $$
 ///
 /// for shapes of unit length, so that scale and sign of none matter. `pairs` has the analysis mode of every test mode,
-/// or none, as [`pair_optimally`](crate::studies::assignment::pair_optimally) gives it. A DOF that does not move on
+/// or none, as [`pair_optimally`](crate::job::assignment::pair_optimally) gives it. A DOF that does not move on
 /// either side has 1, one that moves on one side only has 0. A low value names a sensor at fault or a place where the
 /// model is wrong, or one that moves little. Source: Lieven and Ewins, *Proc. 6th International Modal Analysis
 /// Conference* (1988), 690.

@@ -4,11 +4,11 @@
 //! (upper, then lower). Rib 1-4 is the tip, 5-8 outboard, 9-12 inboard, 13-16 the root, which is fixed.
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
-use crate::cases::error::{CaseError, read_toml};
-use crate::cases::fit::rms;
 use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use crate::torque_box::error::{CaseError, read_toml};
+use crate::torque_box::fit::rms;
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -7,15 +7,10 @@ pub mod published;
 pub mod readings;
 mod run;
 pub mod table_1;
-pub mod torque_box;
+pub mod wing_box;
 
 pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, CaseResult, anomaly, run_case, run_case_with};
 
-use crate::cases::error::CaseError;
-use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{
-    COVERS, PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
-};
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
@@ -24,6 +19,11 @@ use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
 use crate::method::step::StepRule;
 use crate::method::structure::ElementKind;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::wing_box::{
+    COVERS, PANEL_COUNT, Panel, Reconstruction, TEST_GAGE, load_distribution, structure,
+};
 
 /// Numbers of the paper's cases.
 pub const CASES: [usize; 4] = [1, 2, 3, 4];

@@ -4,9 +4,6 @@
 //! truncated modal basis, and so do its frequencies: a change of stiffness cannot move a shape out of the modes it
 //! started with. The exact check afterwards shows what that costs.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::cases::torque_box::{PANEL_COUNT, gage_rms};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
@@ -15,6 +12,9 @@ use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Settings, correlate};
 use crate::method::pairing::Pairing;
 use crate::method::structure::ElementKind;
+use crate::torque_box::Case;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::wing_box::{PANEL_COUNT, gage_rms};
 use serde::Serialize;
 
 /// The case that the paper runs with fewer modes.

@@ -1,12 +1,12 @@
 //! A case from its first gages to its last exact check.
 
 use super::Case;
-use crate::cases::error::CaseError;
-use crate::cases::torque_box::PANEL_COUNT;
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
+use crate::torque_box::error::CaseError;
+use crate::torque_box::wing_box::PANEL_COUNT;
 use serde::Serialize;
 
 /// How many times the next largest unlimited factor the largest must be to be reported as an anomaly.

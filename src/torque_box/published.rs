@@ -3,7 +3,7 @@
 //! They stand beside the computed numbers in reports and are what tests compare with. Nothing is computed from
 //! them except the definitions of the cases (Table 2).
 
-use crate::cases::error::CaseError;
+use crate::torque_box::error::CaseError;
 use std::collections::HashMap;
 
 macro_rules! tables {

@@ -3,8 +3,12 @@
 //! [`read`] reads the file alone; [`Prepared::new`] reads what it names, puts model and test together, and is what a correlation
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
+pub mod assignment;
+pub mod expansion;
 mod matrices;
+pub mod metrics;
 mod model;
+pub mod preflight;
 mod prepare;
 mod run;
 mod samples;

@@ -1,9 +1,9 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
-use crate::cases::Case;
-use crate::cases::error::CaseError;
-use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{PANEL_COUNT, Reconstruction};
+use crate::torque_box::Case;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
 use serde::Serialize;
 
 /// The published columns: case, table of frequencies, table of gages, column prefixes.

@@ -3,15 +3,15 @@
 //! The paper's sentence about $\Delta k$ does not decide how it is measured. Its printed gages do: every reading is run on the
 //! same box, as many passes as the paper prints, and compared with the print gage by gage.
 
-use crate::cases::error::CaseError;
-use crate::cases::fewer_modes::{PUBLISHED_CASE, published_runs};
-use crate::cases::fit::rms;
-use crate::cases::published::PublishedTable;
-use crate::cases::torque_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
-use crate::cases::{Case, CaseResult, published_passes, run_case};
 use crate::method::outer_loop::{Pass, Settings};
 use crate::method::step::StepRule;
 use crate::method::structure::ElementKind;
+use crate::torque_box::error::CaseError;
+use crate::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
+use crate::torque_box::fit::rms;
+use crate::torque_box::published::PublishedTable;
+use crate::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
+use crate::torque_box::{Case, CaseResult, published_passes, run_case};
 use nalgebra::DVector;
 use serde::Serialize;
 
