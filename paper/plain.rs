@@ -207,7 +207,7 @@ const SMALLEST_SEPARATION: f64 = 1e-9;
 
 /// $p_{ij} = -S_{ij} / (k_{ii} + \beta_{ii} - 1/\gamma_j)$ for the sums $S$ of an order.
 fn shapes_from(k: &Vector, beta: &Matrix, roots: &Vector, sums: &Matrix) -> Result<Matrix, Error> {
-    if let Some(mode) = roots.iter().position(|root| !(*root > 0.0)) {
+    if let Some(mode) = roots.iter().position(|root| *root <= 0.0 || root.is_nan()) {
         return Err(Error::LostRoot(mode));
     }
     let mut shapes = Matrix::identity(k.len(), k.len());

@@ -10,11 +10,10 @@
 //!
 //! The crate is a house of rooms; each imports only from those above it in this list, and [`method`] from none.
 //!
-//! - [`method`]: the paper, in its own order. Read this first, and read it as a text:
+//! - [`method`]: the paper, in its own order: plain functions over dense matrices. Read this first, and read it as a text:
 //!   1. [`structure`](method::structure), [`elements`](method::elements), [`assembly`](method::assembly): the finite element
-//!      model and its stiffness $K_S$; [`factorization`](sparse::factorization): how it is solved with, at any size;
-//!   2. [`load_distribution`](sparse::load_distribution), [`appendix_a`](method::appendix_a): from structural to dynamic degrees of
-//!      freedom (1, 2);
+//!      model and its stiffness $K_S$;
+//!   2. [`appendix_a`](method::appendix_a): from structural to dynamic degrees of freedom (1, 2);
 //!   3. [`modes`](method::modes) (3) and [`appendix_b`](method::appendix_b): exact modes, and measured ones made fit to compare;
 //!   4. [`model`](method::model): what may change, and the modal model that the loops are handed;
 //!   5. [`pairing`](method::pairing) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
@@ -22,13 +21,14 @@
 //!      are put together;
 //!   7. [`derivatives`](method::derivatives) (12), [`step`](method::step) (13), [`inner_loop`](method::inner_loop),
 //!      [`outer_loop`](method::outer_loop).
+//! - [`sparse`]: the same analysis at any size, and modes of whole models, counted.
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
-//! - [`chain`]: chains of masses and springs, for examples.
-//! - [`torque_box`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, a pre-flight
-//!   that names mistakes in model and test before the first step, and measures of correlation.
-//! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
+//! - [`torque_box`]: the paper's wing torque box, its four cases, its tables. [`chain`] has the smallest structures, for examples.
+//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements.
+//! - [`files`]: NASTRAN decks, matrices, tests, and analyses by NASTRAN-95.
+//! - [`job`]: a user's structure, from its files to the corrected model, with a pre-flight that names mistakes in model and test
+//!   before the first step.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
 //!

@@ -2,12 +2,9 @@
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
 use crate::method::derivatives::DERIVATIVE_STEP;
-use crate::method::model::{ModalModel, Range};
+use crate::method::model::{ModalModel, REFERENCE_GAGE, Range};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
-
-/// Gage that [`StepRule::Gage`] measures in, in.
-pub const REFERENCE_GAGE: f64 = 0.01;
 
 /// Least part of the stored stiffness that the changes of an inner loop leave when they add.
 pub const LEAST_SHARE: f64 = 1e-3;

@@ -34,7 +34,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let (names, passes) = (&result.parameter_names, &result.correlation.passes);
     let first = vec![1.0; names.len()];
     let mut matrices = vec![
-        file("T", &model.load_distribution())?,
+        file("T", model.load_distribution())?,
         file("V_G", &result.test.shapes)?,
     ];
     let mut analyses = Vec::new();
@@ -74,7 +74,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         "settings": case.settings,
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
-        "T": rows(&model.load_distribution()),
+        "T": rows(model.load_distribution()),
         "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": rows(&result.test.shapes)},
         "analyses": analyses,
         "passes": passes.iter().map(pass).collect::<Value>(),

@@ -36,7 +36,7 @@ impl WholeModel {
     /// It may hang free. Point masses of parameters are those of the model's own law ([`crate::method::model::ScaledStructure`]).
     ///
     /// # Errors
-    /// Those of [`LargeModel::factor_ranges`] and [`WholeModel::new`].
+    /// Those of [`ScaledStructure::factor_ranges`](crate::method::model::ScaledStructure::factor_ranges) and [`WholeModel::new`].
     pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
         let (elements, structure, t) = (
             model.element_matrices(),

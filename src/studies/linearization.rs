@@ -81,7 +81,7 @@ fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
 /// The predictions of steps from a model's first factors, all one, toward given ones: fractions `steps` of the way.
 ///
 /// # Errors
-/// Those of [`FiniteElementModel::matrices`], [`solve`] and [`pair_modes`]; [`Error::WrongShape`] for a wrong number of factors.
+/// Those of [`LargeModel::matrices`], [`solve`] and [`pair_modes`]; [`Error::WrongShape`] for a wrong number of factors.
 pub fn predictions(
     model: &LargeModel,
     toward: &[f64],

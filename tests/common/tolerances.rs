@@ -60,8 +60,10 @@ pub const GOLDEN_AS_WRITTEN: f64 = 1e-7;
 /// The fast forms beside the plain ones, relative to the norm of a matrix, a frequency or a shape: round-off of a structural
 /// stiffness whose condition is a million at most.
 pub const TWO_PROGRAMS: f64 = 1e-9;
-/// Whole correlations of one problem put in two ways: round-off through dozens of iterations.
+/// Whole correlations of one problem put in two ways, where they end: round-off through dozens of iterations.
 pub const SAME_CORRELATION: f64 = 1e-9;
+/// Error sums and steps on the way there, 6.3e-9 at worst (Case 2 by the norm), which the steps after them bring together again.
+pub const SAME_ON_THE_WAY: f64 = 1e-7;
 /// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest
 /// entry; the product of the conditions times `ROUND_OFF`.
 pub const CORRECTION_ROUND_OFF: f64 = 1e-9;

@@ -3,8 +3,8 @@
 use crate::common::tolerances::{GROUPED_GAGE, ROUND_OFF};
 use crate::common::torque_boxes::with_parameters;
 use corfem::method::error::Error;
+use corfem::method::model::REFERENCE_GAGE;
 use corfem::method::model::{Parameter, Scaled};
-use corfem::method::step::REFERENCE_GAGE;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};

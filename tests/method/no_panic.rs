@@ -77,13 +77,15 @@ fn is_name(text: &str) -> bool {
 /// The public functions of a source file: by the type of the `impl` they stand in, or by the file's module.
 fn public_functions(module: &str, source: &str) -> Vec<String> {
     let (mut owner, mut found) = (module.to_owned(), Vec::new());
-    let mut lines = source.lines().peekable();
-    while let Some(line) = lines.next() {
+    let lines: Vec<&str> = source.lines().collect();
+    for (at, &line) in lines.iter().enumerate() {
         // One that hands out a field does nothing that could go wrong.
-        let next = lines
-            .peek()
-            .map_or("", |next| next.trim().trim_start_matches('&'));
-        if line.contains("(&self) ->") && next.strip_prefix("self.").is_some_and(is_name) {
+        let body = lines
+            .get(at + 1)
+            .map_or("", |body| body.trim().trim_start_matches('&'));
+        let is_all = lines.get(at + 2).is_some_and(|end| end.trim() == "}");
+        let is_field = body.strip_prefix("self.").is_some_and(is_name);
+        if line.contains("(&self) ->") && is_field && is_all {
             continue;
         }
         if let Some(of) = line.strip_prefix("impl").filter(|of| !of.ends_with("{}")) {

@@ -99,7 +99,7 @@ impl BulkData {
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// # Errors
-    /// Those of [`FiniteElementModel::sizes`]; [`Error::WrongShape`] unless there is a point per dynamic DOF;
+    /// Those of [`sizes`](crate::method::model::ScaledStructure::sizes); [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
     pub fn of(
         model: &FiniteElementModel,

@@ -132,7 +132,7 @@ pub fn preflight_of(
 /// The same of a model given by its matrices.
 ///
 /// `model` has the first stiffness (lbf/in) and mass (lbf·s²/in) at the d points, `test` the modes as measured, of any
-/// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::FiniteElementModel::factor_ranges`] gives
+/// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::ScaledStructure::factor_ranges`] gives
 /// them, which itself refuses bounds that exclude the start. With more test modes than points nothing is said of pairs.
 /// Of modes that are nearly the same shape, pairs are made of the first alone.
 ///

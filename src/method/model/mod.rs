@@ -15,11 +15,13 @@ use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
     check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list,
 };
-use crate::method::step::REFERENCE_GAGE;
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
 use parameters::member_rows;
 use std::ops::Deref;
+
+/// Gage in which a change of gage is measured by the step, in.
+pub const REFERENCE_GAGE: f64 = 0.01;
 
 /// A structure, the mass of its dynamic points, and what may change of both.
 ///

@@ -4,12 +4,12 @@
 //! parameter's generalized stiffness or mass. Analysis, scaling of the test modes, pairing and comparison all happen in
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
+use super::REFERENCE_GAGE;
 use crate::method::error::{Error, at_least_one, setting};
 use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
-use crate::method::step::REFERENCE_GAGE;
 use nalgebra::DMatrix;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).

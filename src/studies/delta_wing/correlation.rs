@@ -118,7 +118,7 @@ pub fn measured_grids(structure: &Structure) -> Vec<usize> {
 /// The model with the wrong gages of [`GROUPS`], one parameter a group.
 ///
 /// # Errors
-/// Those of [`DeltaWing::structure`] and [`FiniteElementModel::with_loads`].
+/// Those of [`DeltaWing::structure`] and [`FiniteElementModel::new`].
 pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
     let right = wing.structure()?;
     let elements = right.elements().iter().map(|element| {

@@ -6,8 +6,9 @@ use super::noise::Noise;
 use crate::common::double_double::Dd;
 use crate::common::double_double_matrices::{Rows, product, rows, transposed_product};
 use corfem::method::inner_loop::Stop;
+use corfem::method::model::REFERENCE_GAGE;
 use corfem::method::outer_loop::Settings;
-use corfem::method::step::{LEAST_SHARE, REFERENCE_GAGE, StepRule};
+use corfem::method::step::{LEAST_SHARE, StepRule};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 
