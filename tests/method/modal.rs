@@ -91,7 +91,7 @@ proptest! {
                 continue;
             }
             let state = ModalState::at(&problem, factors.to_vec(), rule).unwrap();
-            prop_assert_eq!(&state.factors(), factors);
+            prop_assert_eq!(state.factors(), factors);
             prop_assert!((state.errors().sum() - expected).abs() <= CONVERGED_STATE, "{rule:?}");
             let v = state.modes().shapes();
             prop_assert_eq!(v.shape(), (count, count));
