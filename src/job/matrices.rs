@@ -165,9 +165,9 @@ fn on_rows(
 }
 
 /// Grid and direction.
-type Label = (usize, usize);
+type LabeledRow = (usize, usize);
 /// Labels and places of a model's rows.
-type Rows = (Vec<Label>, BTreeMap<usize, Vector3<f64>>);
+type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn rows(file: &Path) -> Result<Rows, FileError> {
@@ -202,7 +202,7 @@ fn rows(file: &Path) -> Result<Rows, FileError> {
 }
 
 /// Grid and direction of a row, and its place if it has one.
-fn row(cells: &[String]) -> Option<(Label, Option<Vector3<f64>>)> {
+fn row(cells: &[String]) -> Option<(LabeledRow, Option<Vector3<f64>>)> {
     let [grid, direction, place @ ..] = cells else {
         return None;
     };

@@ -86,7 +86,7 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
             rule.matrix.as_ref().map(|_| "a matrix"),
             "parameters of a deck by elements or masses",
         )?;
-        for Group {
+        for ElementGroup {
             name,
             elements: labels,
             masses,
@@ -183,14 +183,14 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
 }
 
 /// One parameter of a deck, its elements and point masses ascending.
-struct Group {
+struct ElementGroup {
     name: String,
     elements: Vec<usize>,
     masses: Vec<usize>,
 }
 
 /// The parameters that a rule makes of a deck.
-fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, FileError> {
+fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<ElementGroup>, FileError> {
     let ParameterRule {
         name,
         properties,
@@ -223,18 +223,18 @@ fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<Group>, Fi
     job.refuse(none, format!("elements or masses in parameter {name}"))?;
     if !each {
         let [elements, masses] = [elements, masses].map(|labels| labels.into_iter().collect());
-        return Ok(vec![Group {
+        return Ok(vec![ElementGroup {
             name: name.clone(),
             elements,
             masses,
         }]);
     }
-    let of_element = |label| Group {
+    let of_element = |label| ElementGroup {
         name: format!("{name} {label}"),
         elements: vec![label],
         masses: Vec::new(),
     };
-    let of_mass = |label| Group {
+    let of_mass = |label| ElementGroup {
         name: format!("{name} mass {label}"),
         elements: Vec::new(),
         masses: vec![label],

@@ -8,7 +8,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Where a report goes.
-enum Place {
+enum OutputPlace {
     StandardOutput,
     /// What is there and no regular file.
     Through(PathBuf),
@@ -19,9 +19,11 @@ enum Place {
 /// Refuses a path that could not be written, before there is anything to write. Nothing is changed by it.
 pub fn check(path: &Path) -> Result<(), PresentError> {
     let check = || match place(Some(path))? {
-        Place::File(path, None) => probe(path.parent().unwrap_or(&path)),
+        OutputPlace::File(path, None) => probe(path.parent().unwrap_or(&path)),
         // A pipe is not opened yet: that is to wait for its reader.
-        Place::StandardOutput | Place::Through(_) | Place::File(_, Some(_)) => Ok(()),
+        OutputPlace::StandardOutput | OutputPlace::Through(_) | OutputPlace::File(_, Some(_)) => {
+            Ok(())
+        }
     };
     Ok(check().map_err(FileError::of_file(named(Some(path)), "write"))?)
 }
@@ -29,9 +31,9 @@ pub fn check(path: &Path) -> Result<(), PresentError> {
 /// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
 pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
     let write = || match place(path)? {
-        Place::StandardOutput => to(std::io::stdout().lock(), text),
-        Place::Through(path) => to(OpenOptions::new().append(true).open(path)?, text),
-        Place::File(path, old) => {
+        OutputPlace::StandardOutput => to(std::io::stdout().lock(), text),
+        OutputPlace::Through(path) => to(OpenOptions::new().append(true).open(path)?, text),
+        OutputPlace::File(path, old) => {
             let _held = signals::hold();
             replace(&path, old.as_ref(), text)
         }
@@ -77,14 +79,14 @@ pub fn as_old(new: &File, old: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-fn place(path: Option<&Path>) -> io::Result<Place> {
+fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
     let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
-        return Ok(Place::StandardOutput);
+        return Ok(OutputPlace::StandardOutput);
     };
     let found = match std::fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
-        Ok(found) if is_standard_output(&found) => return Ok(Place::StandardOutput),
-        Ok(found) if !found.is_file() => return Ok(Place::Through(path.to_owned())),
+        Ok(found) if is_standard_output(&found) => return Ok(OutputPlace::StandardOutput),
+        Ok(found) if !found.is_file() => return Ok(OutputPlace::Through(path.to_owned())),
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         found => found.ok(),
     };
@@ -92,7 +94,7 @@ fn place(path: Option<&Path>) -> io::Result<Place> {
     while let Ok(target) = std::fs::read_link(&path) {
         if is_descriptor(&path) {
             // A file that is open already is written on, from its end.
-            return Ok(Place::Through(path));
+            return Ok(OutputPlace::Through(path));
         }
         path = path.parent().unwrap_or(Path::new("")).join(target);
     }
@@ -104,7 +106,7 @@ fn place(path: Option<&Path>) -> io::Result<Place> {
     } else {
         None
     };
-    Ok(Place::File(path, old))
+    Ok(OutputPlace::File(path, old))
 }
 
 /// Whether it is a name of one of the program's own open files, such as `/dev/fd/3`.

@@ -15,7 +15,7 @@ use crate::studies::known::Known;
 use crate::torque_box::error::CaseError;
 use nalgebra::{DMatrix, DVector};
 
-/// What predicts modes, in the order of [`Prediction::errors`].
+/// What predicts modes, in the order of [`LinearPrediction::errors`].
 pub const METHODS: [&str; 4] = [
     "first order",
     "Recursive 1, order 4",
@@ -46,7 +46,7 @@ pub enum Exact {
 
 /// How good the predictions of one step are.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Prediction {
+pub struct LinearPrediction {
     /// The step as a fraction of the whole one.
     pub step: f64,
     /// Errors over all modes by each of the [`METHODS`]; none where it fails, because a root is lost or modes come together.
@@ -87,7 +87,7 @@ pub fn predictions(
     toward: &[f64],
     steps: &[f64],
     exact: Exact,
-) -> Result<Vec<Prediction>, Error> {
+) -> Result<Vec<LinearPrediction>, Error> {
     check_length("parameter factors", toward.len(), model.parameters().len())?;
     let DynamicModel {
         stiffness,
@@ -132,7 +132,7 @@ pub fn predictions(
             .chain(linear)
             .map(error)
             .collect::<Result<_, _>>()?;
-        Ok(Prediction { step, errors })
+        Ok(LinearPrediction { step, errors })
     };
     steps.iter().map(of_step).collect()
 }
@@ -141,7 +141,9 @@ pub fn predictions(
 ///
 /// # Errors
 /// Those of the models and of [`predictions`].
-pub fn both_structures(exact: Exact) -> Result<[(&'static str, Vec<Prediction>); 2], CaseError> {
+pub fn both_structures(
+    exact: Exact,
+) -> Result<[(&'static str, Vec<LinearPrediction>); 2], CaseError> {
     let of = |known: Known| predictions(&known.model, &known.truth, &STEPS, exact);
     Ok([
         ("Case 2", of(Known::of_case(2)?)?),

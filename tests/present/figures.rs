@@ -4,7 +4,7 @@ use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, 
 use approx::assert_relative_eq;
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
-use corfem::present::figures::mode_shapes::Modes;
+use corfem::present::figures::mode_shapes::DrawnModes;
 use corfem::present::figures::subject::{derivatives, mode_agreement};
 use corfem::present::figures::{Figure, case_figures, comparison_figures, subject_figures};
 use corfem::present::subject::Subject;
@@ -134,7 +134,9 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
 fn drawn_modes_are_those_of_the_tables() {
     for result in &results()[..3] {
         let subject = Subject::of_case(result).expect("a subject");
-        let modes = Modes::of(&subject).expect("nine points").expect("places");
+        let modes = DrawnModes::of(&subject)
+            .expect("nine points")
+            .expect("places");
         let table = frequency_table(result).expect("it reads");
         let last = format!("Pass {}", result.correlation.passes.len());
         assert_eq!(modes.modes.len(), 9);

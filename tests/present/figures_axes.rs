@@ -4,7 +4,7 @@ use crate::common::drawings::words;
 use crate::present::figures::results;
 use corfem::present::figures::cover_gages::draw;
 use corfem::present::figures::error_history::{self, PassHistory, error_history};
-use corfem::present::figures::factors::{Factor, Factors};
+use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::present::subject::Subject;
 use corfem::torque_box::Case;
 
@@ -64,10 +64,10 @@ fn error_axis_ends_at_the_ticks_around_the_errors() {
 #[test]
 fn factor_axis_leaves_room_for_the_numbers() {
     let limits = results()[3].case.settings.inner.factor_range;
-    let factor = |value: f64| Factor {
+    let factor = |value: f64| DrawnFactor {
         name: "web".to_owned(),
         value,
-        ..Factor::default()
+        ..DrawnFactor::default()
     };
     for (values, lowest) in [
         ([-9.9, 50.0], -20.0),

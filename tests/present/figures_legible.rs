@@ -6,7 +6,7 @@ use crate::common::tolerances::NODE_LINE;
 use crate::present::figures::{figures, results};
 use corfem::present::figures::Figure;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
-use corfem::present::figures::mode_shapes::Modes;
+use corfem::present::figures::mode_shapes::DrawnModes;
 use corfem::present::subject::Subject;
 use nalgebra::{DMatrix, Vector3};
 
@@ -88,7 +88,9 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
 fn node_lines_stay_out_of_the_strip_between_root_and_first_rib() {
     for result in &results()[..3] {
         let subject = Subject::of_case(result).expect("a subject");
-        let modes = Modes::of(&subject).expect("nine points").expect("places");
+        let modes = DrawnModes::of(&subject)
+            .expect("nine points")
+            .expect("places");
         let normal = modes.normal().expect("a plane");
         // The first rib has the last three of the nine points.
         let [rear, _, front] =

@@ -6,9 +6,9 @@ use crate::common::golden::{Numbers, assert_golden};
 use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::Range;
-use corfem::present::figures::bars::{BarFigure, Bars, Series};
+use corfem::present::figures::bars::{BarFigure, BarSeries, Bars};
 use corfem::present::figures::error_history::{self, PassHistory};
-use corfem::present::figures::factors::{Factor, Factors};
+use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::present::figures::histogram;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use nalgebra::DMatrix;
@@ -71,11 +71,11 @@ fn histograms_of_few_samples() {
     assert_golden("drawing_histogram", &drawn, Numbers::DRAWN);
 }
 
-fn factor(name: &str, value: f64) -> Factor {
-    Factor {
+fn factor(name: &str, value: f64) -> DrawnFactor {
+    DrawnFactor {
         name: name.to_owned(),
         value,
-        ..Factor::default()
+        ..DrawnFactor::default()
     }
 }
 
@@ -84,39 +84,39 @@ fn factors_with_bounds_deviations_and_remarks() {
     let range = |lower, upper| Some(Range { lower, upper });
     let long = "a name that has fifty letters is cut off after forty";
     let rows = vec![
-        Factor {
+        DrawnFactor {
             deviation: Some(0.05),
             published: Some(0.5),
             bounds: range(0.5, 2.0),
             ..factor("below", 0.62)
         },
-        Factor {
+        DrawnFactor {
             deviation: Some(0.9),
             published: Some(1.2),
             bounds: range(0.5, 50.0),
             ..factor("above", 1.9)
         },
-        Factor {
+        DrawnFactor {
             deviation: Some(f64::NAN),
             remark: Some("at bound"),
             ..factor(&long[..41], 1.5)
         },
-        Factor {
+        DrawnFactor {
             published: Some(0.7),
             ..factor(&long[..40], f64::NAN)
         },
-        Factor {
+        DrawnFactor {
             deviation: Some(0.3),
             published: Some(0.5),
             ..factor("as it was", 1.0)
         },
-        Factor {
+        DrawnFactor {
             deviation: Some(0.01),
             published: Some(0.3),
             remark: Some("at bound"),
             ..factor(long, 0.9)
         },
-        Factor {
+        DrawnFactor {
             deviation: Some(0.75),
             published: Some(0.9),
             ..factor("unsure", 0.8)
@@ -258,7 +258,7 @@ fn matrices_with_cells_too_small_for_their_numbers() {
 
 #[test]
 fn two_series_of_small_bars_side_by_side() {
-    let series = |name: &str, values: &[(f64, Option<f64>)]| Series {
+    let series = |name: &str, values: &[(f64, Option<f64>)]| BarSeries {
         name: name.into(),
         values: values.to_vec(),
     };

@@ -4,7 +4,7 @@ use super::subject::chain;
 use crate::common::drawings::{Written, words, written};
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::present::figures::frame::Frame;
-use corfem::present::figures::mode_shapes::{DrawnMode, Modes};
+use corfem::present::figures::mode_shapes::{DrawnMode, DrawnModes};
 use corfem::present::figures::structure::draw_structure;
 use corfem::present::subject::{SensorPoint, Subject};
 use nalgebra::Vector3;
@@ -206,7 +206,7 @@ fn names_at_the_corners_stay_on_the_page_and_off_the_legend() {
 }
 
 /// Modes of four places, each moving as its number and its state say.
-fn modes(frame: Frame, motion: fn(usize) -> Vector3<f64>) -> Modes {
+fn modes(frame: Frame, motion: fn(usize) -> Vector3<f64>) -> DrawnModes {
     let moved = |mode: usize, state: usize| {
         (0..4)
             .map(|node| 0.3 * motion(mode + state + 2 * node))
@@ -217,7 +217,7 @@ fn modes(frame: Frame, motion: fn(usize) -> Vector3<f64>) -> Modes {
         hertz: [1.0, 1.25, 0.999].map(|part| part * 10f64.powi(mode as i32)),
         moved: [0, 1, 2].map(|state| moved(mode, state)),
     };
-    Modes {
+    DrawnModes {
         frame,
         modes: (0..4).map(mode).collect(),
     }

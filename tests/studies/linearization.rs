@@ -8,7 +8,7 @@ use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::studies::known::Known;
 use corfem::studies::linearization::{
-    Exact, MEASURES, Prediction, STEPS, both_structures, predictions,
+    Exact, LinearPrediction, MEASURES, STEPS, both_structures, predictions,
 };
 
 const FIRST: usize = 0;
@@ -16,13 +16,13 @@ const RECURSIVE: usize = 1;
 const TAYLOR: usize = 2;
 const TAYLOR_OF_ROOTS: usize = 3;
 
-fn error(of: &Prediction, method: usize) -> Errors {
+fn error(of: &LinearPrediction, method: usize) -> Errors {
     of.errors[method].expect("a prediction")
 }
 
 /// Mean log-log slope between two of the steps.
 fn slope(
-    all: &[Prediction],
+    all: &[LinearPrediction],
     method: usize,
     measure: fn(&Errors) -> f64,
     [from, to]: [usize; 2],

@@ -12,9 +12,9 @@ use crate::method::structure::Element;
 use std::collections::{BTreeMap, HashMap};
 
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
-type Target = (u64, u64);
+type SizeBits = (u64, u64);
 /// Elements with one property by what they are to have.
-type Groups<'a> = BTreeMap<Target, Vec<&'a Kept<Option<usize>>>>;
+type Groups<'a> = BTreeMap<SizeBits, Vec<&'a Kept<Option<usize>>>>;
 
 /// What is to change: fields by line and place, counted from the line's last field, and cards behind a line.
 struct Changes<'a> {
@@ -113,7 +113,7 @@ impl Changes<'_> {
     /// Compares the elements with the deck's.
     fn find(&mut self, file: &str, elements: &[Element]) -> Result<(), FileError> {
         let known = self.known;
-        let mut wanted: HashMap<usize, Target> = HashMap::new();
+        let mut wanted: HashMap<usize, SizeBits> = HashMap::new();
         for element in elements {
             if !known.connections.contains_key(&element.label) {
                 return Err(Error::Unknown {
@@ -129,7 +129,7 @@ impl Changes<'_> {
             );
         }
         // By kind and number of the property, or of the element that has none.
-        let mut users: BTreeMap<_, (Holder, Target, Groups)> = BTreeMap::new();
+        let mut users: BTreeMap<_, (Holder, SizeBits, Groups)> = BTreeMap::new();
         for (label, kept) in &known.connections {
             let holder = known.holder(kept)?;
             let number = kept

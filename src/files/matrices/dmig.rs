@@ -1,6 +1,6 @@
 //! DMIG cards of bulk data: matrices at grids and components, as NASTRAN takes and punches them.
 
-use super::{Found, LabeledMatrix, is_wanted};
+use super::{FoundMatrices, LabeledMatrix, is_wanted};
 use crate::files::deck::{Card, cards};
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
@@ -14,7 +14,11 @@ type Label = (usize, usize);
 ///
 /// Rows and columns of a square or symmetric matrix have one list of labels; those that no card names are not in it. A
 /// symmetric matrix has every pair of places on one card alone, in either triangle.
-pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
+pub(super) fn read(
+    file: &str,
+    text: &str,
+    wanted: Option<&str>,
+) -> Result<FoundMatrices, FileError> {
     let cards: Vec<Card> = cards(file, text)?
         .into_iter()
         .filter(|card| card.name == "DMIG")

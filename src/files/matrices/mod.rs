@@ -61,7 +61,7 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
 }
 
 /// Names of all matrices of a file, and those among them that are wanted.
-type Found = (Vec<String>, Vec<LabeledMatrix>);
+type FoundMatrices = (Vec<String>, Vec<LabeledMatrix>);
 
 fn is_wanted(name: &str, wanted: Option<&str>) -> bool {
     wanted.is_none_or(|wanted| wanted.eq_ignore_ascii_case(name))

@@ -1,6 +1,6 @@
 //! The text that NASTRAN's module OUTPUT4 writes, dense or sparse.
 
-use super::{Found, LabeledMatrix, is_wanted};
+use super::{FoundMatrices, LabeledMatrix, is_wanted};
 use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
@@ -25,7 +25,11 @@ struct Lines<'a> {
 /// first row as one number, or as two in a matrix of more than 65535 rows or of a negative number of them.
 ///
 /// NASTRAN gives both triangles of a symmetric matrix (form 6). Where all entries stand in one, it is mirrored.
-pub(super) fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<Found, FileError> {
+pub(super) fn read(
+    file: &str,
+    text: &str,
+    wanted: Option<&str>,
+) -> Result<FoundMatrices, FileError> {
     let lines = Lines {
         file,
         lines: text.lines().map(str::trim_end).collect(),

@@ -36,14 +36,14 @@ const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
 type Header = ([Option<usize>; 7], Vec<usize>);
 
 /// One row, cut into cells.
-struct Row<'a> {
+struct TestRow<'a> {
     file: &'a str,
     number: usize,
     cells: Vec<String>,
     separator: char,
 }
 
-impl Row<'_> {
+impl TestRow<'_> {
     fn cell(&self, column: Option<usize>) -> &str {
         column
             .and_then(|column| self.cells.get(column))
@@ -159,10 +159,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             .find(|(_, line)| !is_comment(line))
             .map_or("", |(_, line)| line),
     );
-    let (mut by_mode, mut header, mut rows): ([Option<Row>; 4], Option<Header>, Vec<Row>) =
+    let (mut by_mode, mut header, mut rows): ([Option<TestRow>; 4], Option<Header>, Vec<TestRow>) =
         Default::default();
     for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
-        let row = Row {
+        let row = TestRow {
             file,
             number,
             cells: cells(line, separator),
@@ -190,7 +190,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let list = |place: usize| {
         by_mode[place]
             .as_ref()
-            .map(|row: &Row| row.numbers(&modes))
+            .map(|row: &TestRow| row.numbers(&modes))
             .transpose()
     };
     let mut data = TestData {

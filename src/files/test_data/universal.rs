@@ -32,7 +32,7 @@ const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 
 /// What has been read so far; the modes' values by node and direction.
 #[derive(Default)]
-struct Found {
+struct FoundModes {
     data: TestData,
     /// By number of the node its place, the coordinate systems of this and of its displacements, and its line.
     nodes: HashMap<usize, (Vector3<f64>, [usize; 2], usize)>,
@@ -116,7 +116,7 @@ fn is_mark(line: &str) -> bool {
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |at, expected| FileError::at(file, &lines, at, expected);
-    let (mut found, mut at) = (Found::default(), 0);
+    let (mut found, mut at) = (FoundModes::default(), 0);
     while let Some(blank) = lines[at..].iter().position(|line| !line.trim().is_empty()) {
         at += blank;
         if !is_mark(lines[at]) {
@@ -160,7 +160,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     found.into_data(file)
 }
 
-impl Found {
+impl FoundModes {
     /// Dataset 15 has a line for every node, dataset 2411 two with longer coordinates. A node may come again at its place.
     fn nodes(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
         let expected =

@@ -4,7 +4,7 @@ use super::canvas::*;
 
 /// Bars of one color: what they are, and one value a group with the published one to mark on it, if there is any.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct BarSeries {
     /// What the legend says.
     pub name: String,
     /// Computed and published values, percent.
@@ -19,7 +19,7 @@ pub struct Bars {
     /// Labels of the groups.
     pub groups: Vec<String>,
     /// Series, with as many values as there are groups.
-    pub series: Vec<Series>,
+    pub series: Vec<BarSeries>,
     /// Groups before and after which number of them, with what the two sides are, if they are to be told apart.
     pub divided: Option<(usize, [&'static str; 2])>,
 }

@@ -33,7 +33,7 @@ impl Layer {
 }
 
 /// An element with its corners or ends, in.
-type Placed<'a> = (&'a Element, Vec<Vector3<f64>>);
+type CornersOf<'a> = (&'a Element, Vec<Vector3<f64>>);
 
 /// The elements of a case's model as SVG.
 ///
@@ -42,7 +42,7 @@ type Placed<'a> = (&'a Element, Vec<Vector3<f64>>);
 pub fn draw(case: &Case) -> Result<String, PresentError> {
     let model = case.model()?;
     let structure = model.structure();
-    let elements: Vec<Placed> = structure
+    let elements: Vec<CornersOf> = structure
         .elements()
         .iter()
         .map(|e| (e, structure.corners(e)))
@@ -95,7 +95,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
 fn draw_layer(
     area: &Area,
     fitted: View,
-    mut elements: Vec<&Placed>,
+    mut elements: Vec<&CornersOf>,
     (layer, name, top): (Layer, &str, f64),
 ) -> Drawn {
     // Covers lie flat.
@@ -168,7 +168,7 @@ pub(super) fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
 }
 
 /// How near the eye an element is, which looks outboard and forward from above; a rod before the panels it borders.
-fn nearness((element, corners): &Placed) -> f64 {
+fn nearness((element, corners): &CornersOf) -> f64 {
     const ROD_BEFORE_PANEL: f64 = 6.0;
     let center = center(corners);
     center.x - center.y

@@ -1,6 +1,6 @@
 //! The figures of the box and of the paper's cases, from what the runs gave.
 
-use super::bars::{BarFigure, Bars, Series};
+use super::bars::{BarFigure, BarSeries, Bars};
 use super::factors::Factors;
 use super::structure::draw_structure;
 use super::subject::subject_figures;
@@ -134,7 +134,7 @@ pub fn reading_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
                     divided: None,
                 });
             }
-            charts[row].series.push(Series {
+            charts[row].series.push(BarSeries {
                 name: reading.name().to_owned(),
                 values,
             });

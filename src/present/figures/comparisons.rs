@@ -1,6 +1,6 @@
 //! The figures of what is compared with the cases: steps by other formulae, fewer modes, and corrections of matrices.
 
-use super::bars::{BarFigure, Bars, Series};
+use super::bars::{BarFigure, BarSeries, Bars};
 use super::matrices::{HeatMap, draw_by_twos};
 use super::{Figure, growth, linearization, numbers};
 use crate::present::PresentError;
@@ -133,7 +133,7 @@ pub fn stiffness_changes(comparison: &MatrixComparison) -> Vec<HeatMap> {
 pub fn predictions(comparison: &MatrixComparison) -> BarFigure {
     let chart = |heading: &str, errors: fn(&Prediction) -> &[f64]| {
         let models = comparison.predictions.iter().filter(|p| p.model != TRUTH);
-        let series = models.map(|model| Series {
+        let series = models.map(|model| BarSeries {
             name: model.model.to_owned(),
             values: errors(model)
                 .iter()

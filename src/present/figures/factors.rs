@@ -12,7 +12,7 @@ const STEPS: f64 = 7.0;
 
 /// A parameter's factor.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Factor {
+pub struct DrawnFactor {
     /// Name of the parameter.
     pub name: String,
     /// Its factor.
@@ -31,7 +31,7 @@ pub struct Factor {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {
     /// Rows.
-    pub rows: Vec<Factor>,
+    pub rows: Vec<DrawnFactor>,
     /// Limits of all of them.
     pub limits: Option<Range>,
     /// Name of the horizontal axis.
@@ -51,7 +51,7 @@ impl Factors {
 
     /// Steps of one, two or five times a power of ten that hold everything with room for its number: lower end, upper end, step.
     fn bounds(&self) -> [f64; 3] {
-        let each = |row: &Factor| {
+        let each = |row: &DrawnFactor| {
             let deviation = row.deviation.unwrap_or(0.0);
             [
                 row.value - deviation,

@@ -1,7 +1,7 @@
 //! Errors of predicted modes against the size of the step, on logarithmic scales.
 
 use super::canvas::*;
-use crate::studies::linearization::{MEASURES, METHODS, Prediction};
+use crate::studies::linearization::{LinearPrediction, MEASURES, METHODS};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 const HEIGHT: f64 = 620.0;
@@ -19,12 +19,12 @@ const STYLES: [(RGBColor, Form, Dash); 4] = [
 pub fn draw(
     name: &str,
     title: &str,
-    structures: &[(&str, Vec<Prediction>); 2],
+    structures: &[(&str, Vec<LinearPrediction>); 2],
 ) -> Result<String, PresentError> {
     svg(name, title, HEIGHT, |area| on(area, structures))
 }
 
-fn on(area: &Area, structures: &[(&str, Vec<Prediction>)]) -> Drawn {
+fn on(area: &Area, structures: &[(&str, Vec<LinearPrediction>)]) -> Drawn {
     let mut x = 66.0;
     for (&words, (color, form, dash)) in METHODS.iter().zip(STYLES) {
         line(area, &[(x, 18.0), (x + 34.0, 18.0)], Pen(color, 1.8, dash))?;

@@ -37,14 +37,14 @@ pub struct DrawnMode {
 
 /// Modes as drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Modes {
+pub struct DrawnModes {
     /// The structure.
     pub frame: Frame,
     /// Its modes.
     pub modes: Vec<DrawnMode>,
 }
 
-impl Modes {
+impl DrawnModes {
     /// All modes of a subject, in the order and with the signs of the test modes; none when no sensor has a place and a direction.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! The figures of any correlation: its structure, its modes, its history, its factors, and how well they are known.
 
 use super::error_history::{self, error_history};
-use super::factors::{Factor, Factors};
+use super::factors::{DrawnFactor, Factors};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
-use super::mode_shapes::Modes;
+use super::mode_shapes::DrawnModes;
 use super::structure::draw_structure;
 use super::{Figure, numbers};
 use crate::method::error::Error;
@@ -37,7 +37,7 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             draw_structure(name, title, subject)
         })?;
     }
-    if let Some(modes) = Modes::of(subject)? {
+    if let Some(modes) = DrawnModes::of(subject)? {
         for (part, modes) in modes.parts() {
             let between = match subject.moved {
                 Some(_) => "the test is expanded by modes of the corrected model",
@@ -119,7 +119,7 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
 
 /// Factors of the corrected model, with their uncertainties and bounds.
 fn factors(subject: &Subject) -> Factors {
-    let row = |(e, (name, value)): (usize, (&String, f64))| Factor {
+    let row = |(e, (name, value)): (usize, (&String, f64))| DrawnFactor {
         name: name.clone(),
         value,
         deviation: subject

@@ -98,7 +98,7 @@ pub struct Subject {
 
 /// How analysis modes (rows) and test modes (columns) agree.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Agreement {
+pub struct PairAgreement {
     /// Modal assurance criterion, which knows no mass.
     pub assurance: DMatrix<f64>,
     /// Cross-orthogonality (4) of shapes of unit generalized mass, where the mass at the sensors is known.
@@ -259,7 +259,7 @@ impl Subject {
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
-    pub fn agreement(&self, check: &Check) -> Result<Agreement, Error> {
+    pub fn agreement(&self, check: &Check) -> Result<PairAgreement, Error> {
         let highest = check
             .pairing
             .analysis_mode
@@ -277,7 +277,7 @@ impl Subject {
                 mass,
             )
         };
-        Ok(Agreement {
+        Ok(PairAgreement {
             assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,
             orthogonality: self.mass.as_ref().map(orthogonality).transpose()?,
         })

@@ -1,7 +1,7 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
 
 use super::readings::{case_readings, detection_table};
-use super::stages::{self, Stage};
+use super::stages::{self, ErrorStage};
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
@@ -58,7 +58,7 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
         .chain(run.passes.iter().map(|pass| &pass.check))
         .enumerate();
     let stage = |(pass, check): (usize, &Check)| {
-        Stage::new(
+        ErrorStage::new(
             "pass",
             pass,
             &check.frequencies_hz,
@@ -106,8 +106,8 @@ pub fn gage_table(result: &CaseResult) -> Result<Table, PresentError> {
             .map(|&kind| gage_rms(panels, gages, kind))
             .collect::<Vec<_>>()
     };
-    let stages: Vec<Stage> = gages
-        .map(|(pass, gages)| Stage::new("pass", pass, &gages, &rms(&gages)))
+    let stages: Vec<ErrorStage> = gages
+        .map(|(pass, gages)| ErrorStage::new("pass", pass, &gages, &rms(&gages)))
         .collect();
     let table = named(result, paper.as_ref(), "gages", "Element");
     Ok(stages::fill(

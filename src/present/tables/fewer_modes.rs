@@ -1,6 +1,6 @@
 //! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
 
-use super::stages::{self, Stage};
+use super::stages::{self, ErrorStage};
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table};
@@ -72,7 +72,7 @@ fn frequency_table(
     let start = most.map(|run| (0, &run.initial)).into_iter();
     let found = start.chain(runs.iter().map(|&run| (run.analysis_modes, end(run))));
     let stage = |(modes, at): (_, &Agreement)| {
-        Stage::new(
+        ErrorStage::new(
             "fem",
             modes,
             &at.frequencies_hz,
@@ -112,10 +112,10 @@ fn gage_table(
             exact.shape_rms,
         ];
         let errors = [&[*shear_gage_rms, *membrane_gage_rms], &modes[..]].concat();
-        Stage::new("fem", run.analysis_modes, &run.gages_in, &errors)
+        ErrorStage::new("fem", run.analysis_modes, &run.gages_in, &errors)
     };
-    let start = Stage::new("fem", 0, &case.first_gages(), &[]);
-    let stages: Vec<Stage> = std::iter::once(start)
+    let start = ErrorStage::new("fem", 0, &case.first_gages(), &[]);
+    let stages: Vec<ErrorStage> = std::iter::once(start)
         .chain(runs.iter().map(found))
         .collect();
     let title =

@@ -7,13 +7,13 @@ use crate::torque_box::wing_box::{PANEL_COUNT, Panel, TEST_GAGE};
 
 /// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), its values in the order of the
 /// rows, and its errors under these, fractions; those that it has not are left out.
-pub(super) struct Stage {
+pub(super) struct ErrorStage {
     pub name: String,
     pub values: Vec<f64>,
     pub errors: Vec<f64>,
 }
 
-impl Stage {
+impl ErrorStage {
     /// The first model, which has the number zero, or what a pass or a run came to.
     pub fn new(what: &str, number: usize, values: &[f64], errors: &[f64]) -> Self {
         let name = if number == 0 {
@@ -45,7 +45,7 @@ pub(super) fn fill(
     table: Table,
     panels: &[Panel],
     test_hz: &[f64],
-    stages: &[Stage],
+    stages: &[ErrorStage],
     errors: &[(&str, Digits)],
     paper: Option<&PublishedTable>,
 ) -> Table {

@@ -3,7 +3,7 @@
 use super::{HERTZ, RMS_PERCENT};
 use crate::method::error::Error;
 use crate::method::model::{Check, Range};
-use crate::present::subject::{Agreement, Subject};
+use crate::present::subject::{PairAgreement, Subject};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::torque_box::BUILT_IN;
 
@@ -89,7 +89,7 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
         .notes([note]))
 }
 
-impl Agreement {
+impl PairAgreement {
     /// Of a test mode and its partner: the magnitude of their cross-orthogonality, or their assurance without mass, and the largest
     /// other entry of either's row and column.
     fn pair(&self, check: &Check, mode: usize) -> (f64, f64) {

@@ -1,6 +1,6 @@
 //! What the first iteration of a case asks of its parameters before any limit, which gives a modeling error away.
 
-use crate::present::figures::factors::Factor;
+use crate::present::figures::factors::DrawnFactor;
 use crate::present::table::{Cell, Digits, Table};
 use crate::torque_box::{CaseResult, Grouping};
 
@@ -8,9 +8,9 @@ use crate::torque_box::{CaseResult, Grouping};
 pub const ANOMALY: &str = "anomaly";
 
 /// What the first iteration of a case asks of every parameter, beside what the paper quotes; [`ANOMALY`] is remarked.
-pub fn unlimited_factors(result: &CaseResult) -> Vec<Factor> {
+pub fn unlimited_factors(result: &CaseResult) -> Vec<DrawnFactor> {
     let (names, factors) = (&result.parameter_names, result.unlimited_factors());
-    let factor = |(name, &value): (&String, &f64)| Factor {
+    let factor = |(name, &value): (&String, &f64)| DrawnFactor {
         name: name.clone(),
         value,
         // The paper quotes one factor: about 60, for the faulty cover of Case 4.
@@ -20,7 +20,7 @@ pub fn unlimited_factors(result: &CaseResult) -> Vec<Factor> {
             .as_ref()
             .filter(|anomaly| anomaly.parameter == *name)
             .map(|_| ANOMALY),
-        ..Factor::default()
+        ..DrawnFactor::default()
     };
     names.iter().zip(factors).map(factor).collect()
 }
@@ -30,7 +30,7 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
     let (case, factors) = (result.case.number, unlimited_factors(result));
     let bounds = result.case.settings.inner.factor_range;
     let title = format!("Case {case}: unlimited stiffness change factors, first iteration");
-    let word = |factor: &Factor| match factor.remark {
+    let word = |factor: &DrawnFactor| match factor.remark {
         None if bounds.contains(factor.value) => Cell::text("within bounds"),
         remark => Cell::text(remark.unwrap_or("limited")),
     };
@@ -40,7 +40,7 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
         "group"
     };
     let anomalies = factors.iter().filter(|factor| factor.remark.is_some()).map(
-        |Factor { name, value, .. }| {
+        |DrawnFactor { name, value, .. }| {
             let next = factors
                 .iter()
                 .filter(|other| other.name != *name)
@@ -52,7 +52,8 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
             format!("Anomaly: {asks}: look for a modeling error there.")
         },
     );
-    let number = |factor: &Factor| Cell::beside(factor.value, Digits::Fixed(1), factor.published);
+    let number =
+        |factor: &DrawnFactor| Cell::beside(factor.value, Digits::Fixed(1), factor.published);
     Table::new(format!("case_{case}_factors"), title, "Parameter")
         .labels(factors.iter().map(|factor| &factor.name))
         .column("Factor", "", factors.iter().map(number))
