@@ -26,8 +26,6 @@
 //!   sees of the parameters.
 //! - [`chain`]: chains of masses and springs, for examples.
 //! - [`torque_box`]: the paper's wing torque box, its four cases, its tables.
-//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements, a pre-flight
-//!   that names mistakes in model and test before the first step, and measures of correlation.
 //! - [`files`]: NASTRAN decks, matrices, tests, jobs of the user's own, and analyses by NASTRAN-95.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
@@ -69,7 +67,6 @@ pub mod sparse;
 pub mod weighted;
 pub mod chain;
 pub mod torque_box;
-pub mod studies;
 pub mod files;
 pub mod job;
 #[cfg(feature = "program")]
