@@ -25,7 +25,6 @@
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
 //! - [`torque_box`]: the paper's wing torque box, its four cases, its tables. [`chain`] has the smallest structures, for examples.
-//! - [`studies`]: a delta wing and a wing of any size, corrections of whole matrices instead of elements.
 //! - [`files`]: NASTRAN decks, matrices, tests, and analyses by NASTRAN-95.
 //! - [`job`]: a user's structure, from its files to the corrected model, with a pre-flight that names mistakes in model and test
 //!   before the first step.
@@ -69,7 +68,6 @@ pub mod sparse;
 pub mod weighted;
 pub mod chain;
 pub mod torque_box;
-pub mod studies;
 pub mod files;
 pub mod job;
 #[cfg(feature = "program")]

@@ -5,12 +5,15 @@
 //! `--scipy python3` that is done in the same run, in a process for each wing. With `--store paper/costs.csv` what was measured replaces
 //! what stands there, and the tables of `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test documents`.
 
+#[path = "../../tests/common/known/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "the tests use the rest")]
+mod known;
 mod machine;
 mod memory;
 mod numpy;
 mod stages;
 
-use corfem::studies::wing::{MESHES, Wing};
+use known::wing::{MESHES, Wing};
 use stages::Stages;
 use std::path::Path;
 use std::process::Command;

@@ -1,5 +1,8 @@
 //! What is timed: a correlation's stages one by one, each through the library's own functions.
 
+use crate::known::delta_wing::correlation;
+use crate::known::wing::Wing;
+use crate::known::{Known, planted};
 use crate::machine::Machine;
 use crate::memory::peak;
 use corfem::method::assembly::element_matrices;
@@ -13,9 +16,6 @@ use corfem::method::structure::Material;
 use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
 use corfem::sparse::load_distribution::LoadDistribution;
 use corfem::sparse::{SparseMatrix, WholeModel};
-use corfem::studies::delta_wing::correlation;
-use corfem::studies::known::{Known, planted};
-use corfem::studies::wing::Wing;
 use nalgebra::DMatrix;
 use std::hint::black_box;
 use std::sync::Arc;

@@ -1,5 +1,8 @@
 //! Every stage of a pass, ready to be done again: of the paper's box, and of the wing of 1,458 structural DOF.
 
+use crate::known::delta_wing::correlation;
+use crate::known::planted;
+use crate::known::wing::Wing;
 use corfem::method::assembly::element_matrices;
 use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::{InnerSettings, run};
@@ -7,9 +10,6 @@ use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
 use corfem::sparse::LargeModel;
 use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::studies::delta_wing::correlation;
-use corfem::studies::known::planted;
-use corfem::studies::wing::Wing;
 use corfem::torque_box::Case;
 use std::hint::black_box;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes outer_loop.toml and delta_wing.toml: correlations with NASTRAN-95 as the finite element analysis of the outer loop.
+"""Makes outer_loop.toml: correlations with NASTRAN-95 as the finite element analysis of the outer loop.
 
     python3 golden/nastran95/outer_loop.py [PROGRAM]
 
-It runs `corfem cases` and `corfem delta-wing` with `--solver nastran95 --format json` (PROGRAM, or what cargo builds of
+It runs `corfem cases` with `--solver nastran95 --format json` (PROGRAM, or what cargo builds of
 this project) and keeps what the tests compare with. NASTRAN-95 is looked for as README.md says. A run takes a few seconds.
 """
 
@@ -51,28 +51,8 @@ def cases():
     return lines
 
 
-def delta_wing():
-    wing = answer("delta-wing")["correlation"]
-    lines = [
-        "# The delta wing's wrong gages by `corfem delta-wing --solver nastran95`: test modes and inner loop in the crate, every",
-        "# finite element analysis of the model in NASTRAN-95 (PyPI wheel nastran95 0.3). Written by outer_loop.py; see README.md.",
-        "# Hz; factors on the first gages, in the order of the groups; errors as fractions.",
-        "",
-        f"test_frequencies_hz = {numbers(wing['test_frequencies_hz'])}",
-        "",
-        "[initial]",
-        f"factors = {numbers([1.0] * len(wing['parameters']))}",
-        *check(wing["initial"]),
-    ]
-    for done in wing["passes"]:
-        lines += ["", "[[passes]]", f"iterations = {done['iterations']}"]
-        lines += [f"factors = {numbers(done['factors'])}", *check(done["exact"])]
-    return lines
-
-
 def main():
-    for name, lines in [("outer_loop.toml", cases()), ("delta_wing.toml", delta_wing())]:
-        (HERE / name).write_text("\n".join(lines) + "\n")
+    (HERE / "outer_loop.toml").write_text("\n".join(cases()) + "\n")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 pub mod assignment;
 pub mod expansion;
+pub mod localization;
 mod matrices;
 pub mod metrics;
 mod model;

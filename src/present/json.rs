@@ -14,11 +14,7 @@ use crate::method::inner_loop::Iteration;
 use crate::method::model::Check;
 use crate::method::structure::DIRECTIONS;
 use crate::sparse::whole_modes::WholeModes;
-use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
-use crate::studies::delta_wing::{DeltaWing, MEASURED_GRIDS, TipLoad};
 use crate::torque_box::CaseResult;
-use crate::torque_box::fit::Fit;
-use crate::torque_box::readings::{Detection, ReadingColumn};
 use crate::torque_box::wing_box::TEST_GAGE;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -121,13 +117,13 @@ pub(super) fn iteration(iteration: &Iteration) -> Value {
     })
 }
 
-/// The history of the cases run, and the fit of the box.
+/// The history of the cases run.
 ///
 /// # Errors
 /// [`PresentError::Case`] if Table 13 were damaged; those of [`document`].
-pub fn cases(results: &[CaseResult], fit: &Fit) -> Result<String, PresentError> {
+pub fn cases(results: &[CaseResult]) -> Result<String, PresentError> {
     let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
-    document(json!({ "cases": cases, "reconstruction_fit": fit }))
+    document(json!({ "cases": cases }))
 }
 
 fn case(result: &CaseResult) -> Result<Value, PresentError> {
@@ -146,56 +142,11 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
     }))
 }
 
-/// Every reading of the step beside the print.
-pub fn readings(
-    columns: &[ReadingColumn],
-    detections: &[Detection],
-) -> Result<String, PresentError> {
-    let column = |column: &ReadingColumn| {
-        let mut value = json!(column);
-        value["correlation"] = json!(column.correlation());
-        value["difference"] = json!(column.difference());
-        value
-    };
-    document(
-        json!({ "columns": columns.iter().map(column).collect::<Value>(), "case_4": detections }),
-    )
-}
-
 /// What the pre-flight finds in structures; places count from zero.
 pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentError> {
     let structure =
         |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
     document(json!({ "structures": found.iter().map(structure).collect::<Value>() }))
-}
-
-/// The delta wing's answers, deflections along z in inches, and the correlation of its gages by group.
-///
-/// # Errors
-/// Those of the wing's analyses and of [`document`].
-pub fn delta_wing(wing: &DeltaWing, run: &WingCorrelation) -> Result<String, PresentError> {
-    let group = |((group, factor), share): ((&Group, &f64), &f64)| {
-        json!({
-            "name": group.name,
-            "elements": group.elements,
-            "true_factor": group.true_factor(),
-            "factor": factor,
-            "largest_share": share,
-        })
-    };
-    let groups = GROUPS
-        .iter()
-        .zip(&run.correlation.best_factors)
-        .zip(&run.shares);
-    document(json!({
-        "measured_grids": MEASURED_GRIDS,
-        "trailing_edge_load_deflections_in": wing.deflections(TipLoad::TrailingEdge)?,
-        "leading_edge_load_deflections_in": wing.deflections(TipLoad::LeadingEdge)?,
-        "frequencies_hz": wing.modes()?.modes.frequencies_hz(),
-        "groups": groups.map(group).collect::<Value>(),
-        "test_modes": TEST_MODES,
-        "correlation": subject(&Subject::of_wing(wing, run)?)?,
-    }))
 }
 
 /// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of

@@ -8,7 +8,6 @@ use clap::Args;
 use corfem::method::error::Error;
 use corfem::present::table::counted;
 use corfem::present::{PresentError, json, tables};
-use corfem::torque_box::fit::fit;
 use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case_with};
 use std::path::PathBuf;
@@ -95,8 +94,7 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
             }
         })?);
     }
-    let fit = fit(&reconstruction)?;
-    let mut tables = tables::cases::all_tables(&results, &fit)?;
+    let mut tables = tables::cases::all_tables(&results)?;
     if arguments.cases.is_empty() {
         tables.push(tables::published::root_error_table()?);
     }
@@ -104,8 +102,6 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
     if let Some(last) = tables.last_mut() {
         last.notes.push(held);
     }
-    arguments
-        .output
-        .write(&tables, || json::cases(&results, &fit))?;
+    arguments.output.write(&tables, || json::cases(&results))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

@@ -21,12 +21,12 @@ use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
-use output::{OutputArguments, say};
+use output::say;
 use pictures::{DumpArguments, FolderArguments};
 use place::{check, put};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use studies::{DeltaWingArguments, FewerModesArguments, MatricesArguments, TablesArguments};
+use studies::{FewerModesArguments, TablesArguments};
 use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
@@ -67,23 +67,17 @@ enum Command {
     Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
-    /// Compare every reading of the step with the printed gages, and say which reading each case is run by
-    Readings(OutputArguments),
-    /// Correct a case by elements and by whole matrices, and compare what either knows afterwards
-    Matrices(MatricesArguments),
     /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and say how its factors scatter
     Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
-    /// Look at a job before the first step; without one, at the paper's cases and the delta wing
+    /// Look at a job before the first step; without one, at the paper's cases
     Check(CheckArguments),
-    /// Compare the delta wing of NACA TN 3114 with its tests and analyses, and recover wrong gages from its modes
-    DeltaWing(DeltaWingArguments),
-    /// Write the figures of the cases, of fewer modes and of matrices as SVG
+    /// Write the figures of the cases and of fewer modes as SVG
     Figures(FolderArguments),
-    /// Write one web page with the tables and figures of cases, fewer modes and matrices, and the assumptions
+    /// Write one web page with the tables and figures of cases and fewer modes, and the assumptions
     Report(FolderArguments),
     /// Write the torque box of a case as a NASTRAN deck
     Deck(DeckArguments),
@@ -128,13 +122,10 @@ pub fn run() -> ExitCode {
         Some(Command::FewerModes(arguments)) => {
             studies::fewer_modes(&arguments, quiet).map(|()| true)
         }
-        Some(Command::Readings(arguments)) => studies::readings(&arguments, quiet).map(|()| true),
-        Some(Command::Matrices(arguments)) => studies::matrices(&arguments).map(|()| true),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
-        Some(Command::DeltaWing(arguments)) => studies::delta_wing(&arguments, quiet),
         Some(Command::Figures(arguments)) => {
             pictures::pictures(&arguments, false, quiet).map(|()| true)
         }

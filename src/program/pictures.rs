@@ -6,14 +6,10 @@ use super::place::put;
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
-use corfem::present::figures::{case_figures, comparison_figures, subject_figures};
+use corfem::present::figures::{case_figures, comparison_figures};
 use corfem::present::page::{Contents, page};
-use corfem::present::subject::Subject;
 use corfem::present::table::counted;
-use corfem::studies::matrix_comparison::{USUAL_CASE, USUAL_TEST_MODES, compare_matrices};
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs};
-use corfem::torque_box::fit::fit;
-use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{CASES, Case, run_case};
 use std::path::PathBuf;
 
@@ -24,7 +20,7 @@ pub struct FolderArguments {
     folder: PathBuf,
 }
 
-/// Runs the four cases and what is compared with them, and writes the figures, or the page that has them and the
+/// Runs the four cases, and Case 2 with fewer modes, and writes the figures, or the page that has them and the
 /// tables.
 pub fn pictures(
     FolderArguments { folder }: &FolderArguments,
@@ -42,24 +38,12 @@ pub fn pictures(
         results.push(result);
     }
     let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
-    let matrices = compare_matrices(&Case::new(USUAL_CASE)?, USUAL_TEST_MODES)?;
     let mut figures = case_figures(&results)?;
-    figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes, &matrices)?);
-    let wings = Subject::wings()?;
-    figures.extend(
-        wings
-            .iter()
-            .map(subject_figures)
-            .collect::<Result<Vec<_>, _>>()?
-            .concat(),
-    );
+    figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes)?);
     if as_page {
         let html = page(&Contents {
             results: &results,
-            fit: &fit(&Reconstruction::embedded()?)?,
             fewer_modes: &fewer_modes,
-            matrices: &matrices,
-            wings: &wings,
             figures: &figures,
             command: &format!("corfem report --output {}", folder.display()),
         })?;

@@ -2,9 +2,7 @@
 
 pub mod error;
 pub mod fewer_modes;
-pub mod fit;
 pub mod published;
-pub mod readings;
 mod run;
 pub mod table_1;
 pub mod wing_box;

@@ -8,7 +8,6 @@ use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use crate::torque_box::error::{CaseError, read_toml};
-use crate::torque_box::fit::rms;
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -119,6 +118,11 @@ pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
     rms(&gages
         .map(|(_, gage)| gage / TEST_GAGE - 1.0)
         .collect::<Vec<_>>())
+}
+
+/// Root mean square of a list; NaN of none.
+pub fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// The 24 rods, by their end grids, elements 16 to 39: twelve spar caps (rear upper, rear lower, front upper,

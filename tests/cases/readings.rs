@@ -2,15 +2,15 @@
 
 use crate::common::golden::Numbers;
 use crate::common::tolerances::ROUND_OFF;
+use crate::evidence::reading_tables::readings_tables;
+use crate::evidence::readings::{
+    READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
+};
 use corfem::method::modes::solve;
 use corfem::method::step::StepRule;
 use corfem::present::render::csv;
-use corfem::present::tables::readings::readings_tables;
 use corfem::torque_box::fewer_modes::PUBLISHED_CASE;
 use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::readings::{
-    READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
-};
 use corfem::torque_box::wing_box::{Reconstruction, TEST_GAGE};
 use corfem::torque_box::{CASES, Case, run_case};
 use nalgebra::DMatrix;

@@ -1,13 +1,13 @@
 //! The worked jobs of `tests/jobs`, made anew: what they were made of is known here, and only here.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::method::modes::ModeSet;
 use corfem::sparse::WholeShare;
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::weighted::noise::{Noise, with_noise};

@@ -19,6 +19,7 @@ pub mod ground_tests;
 pub mod hostile;
 pub mod inertia;
 pub mod jobs;
+pub mod known;
 pub mod loops;
 pub mod matrices;
 pub mod measured;
@@ -38,6 +39,7 @@ pub mod tolerances;
 pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
+pub mod wing_subjects;
 
 use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};

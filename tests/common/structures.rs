@@ -1,12 +1,12 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
+use crate::common::known::wing::Wing;
 use corfem::chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter, Range};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use corfem::sparse::factorization::FactorizedStiffness;
-use corfem::studies::wing::Wing;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 

@@ -1,11 +1,11 @@
 //! How often the 95 % intervals of a weighted correlation hold the true factors, over noisy tests.
 
 use super::{PERCENT, noise_words};
+use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use corfem::method::model::Parameter;
 use corfem::present::table::{Cell, Table, percents};
 use corfem::sparse::LargeModel;
-use corfem::studies::known::Known;
 use corfem::torque_box::error::CaseError;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::{Noise, with_noise};

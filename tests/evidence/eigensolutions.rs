@@ -1,12 +1,12 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
+use crate::common::known::delta_wing::correlation;
+use crate::common::known::wing::Wing;
+use crate::common::known::{Known, WING_MODES, planted};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::present::table::{Cell, Table};
-use corfem::studies::delta_wing::correlation;
-use corfem::studies::known::{Known, WING_MODES, planted};
-use corfem::studies::wing::Wing;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 

@@ -1,10 +1,10 @@
 //! How far the steps can be trusted: errors of predicted modes, as a table.
 
+use crate::evidence::predictions::{Exact, MEASURES, METHODS, Prediction};
 use corfem::present::table::{Digits, Table, percents};
-use corfem::studies::linearization::{Exact, LinearPrediction, MEASURES, METHODS};
 
 /// RMS errors of predicted frequencies and shapes, a whole step, a quarter and a sixteenth, beside exact ones.
-pub fn linearization_table(structures: &[(&str, Vec<LinearPrediction>)], exact: Exact) -> Table {
+pub fn linearization_table(structures: &[(&str, Vec<Prediction>)], exact: Exact) -> Table {
     let (name, against) = match exact {
         Exact::SameCondensation => ("linearization", "with the same condensation"),
         Exact::NewCondensation => ("linearization_new", "condensed anew"),

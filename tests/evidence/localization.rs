@@ -2,10 +2,10 @@
 
 use super::noise_words;
 use crate::common::measured::equal_weights;
+use corfem::job::localization::{by_factor, by_single_fit};
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
-use corfem::studies::localization::{by_factor, by_single_fit};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};

@@ -2,18 +2,27 @@
 //! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
 
 pub mod coverage;
+pub mod delta_wing_tables;
 pub mod eigensolutions;
+pub mod fit;
 pub mod linearization;
 pub mod localization;
+pub mod matrix_comparison;
+pub mod matrix_correction;
+pub mod matrix_tables;
 pub mod noisy_modes;
 pub mod plant;
+pub mod predictions;
 pub mod rates;
+pub mod reading_tables;
+pub mod readings;
 pub mod rules;
 pub mod specimen;
 
 use corfem::present::table::Digits;
 use corfem::weighted::noise::Noise;
 
+const HERTZ: Digits = Digits::Significant(4);
 const PERCENT: Digits = Digits::Fixed(1);
 const RMS_PERCENT: Digits = Digits::Fixed(2);
 

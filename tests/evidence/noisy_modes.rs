@@ -15,7 +15,7 @@ use corfem::method::structure::ElementKind;
 use corfem::present::table::{Cell, Digits, Table, numbers};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fit::rms;
+use corfem::torque_box::wing_box::rms;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::Vector3;

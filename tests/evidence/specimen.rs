@@ -1,13 +1,13 @@
 //! Structures before their correlation.
 
+use crate::common::known::Known;
+use crate::common::known::delta_wing::correlation;
 use corfem::job::preflight::{Finding, preflight};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::Settings;
 use corfem::sparse::LargeModel;
-use corfem::studies::delta_wing::correlation;
-use corfem::studies::known::Known;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 

@@ -4,6 +4,7 @@ use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{
     Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth,
 };
+use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
@@ -15,7 +16,6 @@ use corfem::present::render;
 use corfem::present::subject::Subject;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
 use corfem::present::tables::subject::{factor_table, history_table, paired_table, swaps};
-use corfem::studies::delta_wing::correlation::GROUPS;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 

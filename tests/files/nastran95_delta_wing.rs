@@ -1,20 +1,21 @@
 //! The delta wing's correlation through NASTRAN-95: its stored answers against the crate, and how its report names it.
 //!
-//! `golden/nastran95/delta_wing.toml` is what `corfem delta-wing --solver nastran95` found; `golden/nastran95/README.md` says how
+//! `golden/nastran95/delta_wing.toml` is what its correlation with NASTRAN-95 found; `golden/nastran95/README.md` says how
 //! it was made and what to expect of it.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{
+    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
+};
 use crate::common::outer_loop::{assert_near, stored_wing};
 use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
+use crate::common::wing_subjects::wing_subject;
+use crate::evidence::delta_wing_tables::delta_wing_tables;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::NAME;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::json;
-use corfem::present::tables::delta_wing::delta_wing_tables;
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{
-    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
-};
 use corfem::torque_box::BUILT_IN;
 use std::sync::LazyLock;
 
@@ -174,9 +175,9 @@ fn reports_name_another_solver() {
     expected[4].1.insert(0, note.to_owned());
     assert_eq!(noted(&other), expected);
     for run in [&*RUN, &other] {
-        let json = json::delta_wing(&wing(), run).expect("written");
-        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-        assert_eq!(json["correlation"]["solver"], run.solver);
+        let subject = wing_subject(&wing(), run).expect("a subject");
+        let json = json::subject(&subject).expect("a value");
+        assert_eq!(json["solver"], run.solver);
     }
 }
 
@@ -200,7 +201,7 @@ fn the_command_asks_the_solver_it_is_given() {
     ] {
         let output = assert_cmd::Command::cargo_bin("corfem")
             .expect("the program is built")
-            .args(["delta-wing", "--solver", "nastran95"])
+            .args(["cases", "1", "--solver", "nastran95"])
             .args(extra)
             .env("NASTRAN95", home.path())
             .output()

@@ -1,5 +1,9 @@
 //! NASTRAN-95 itself, where it is installed: it answers as stored, and runs the decks as they are written.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{
+    correlate_wing_with, first_model, settings, test_modes,
+};
 use crate::common::outer_loop::{assert_near, stored, stored_wing};
 use crate::common::tolerances::{
     NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
@@ -9,12 +13,7 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::{DynamicModel, FiniteElementModel};
 use corfem::method::modes::solve;
-use corfem::present::tables::delta_wing::delta_wing_tables;
-use corfem::present::{PresentError, render};
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{
-    correlate_wing_with, first_model, settings, test_modes,
-};
+use corfem::present::PresentError;
 use corfem::torque_box::wing_box::{PANEL_COUNT, dynamic_points};
 use corfem::torque_box::{Case, run_case_with};
 use nalgebra::DMatrix;
@@ -236,14 +235,4 @@ fn nastran_corrects_the_delta_wing_as_stored() {
             "factors of the delta wing",
         );
     }
-    // The command does the same.
-    let output = assert_cmd::Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(["delta-wing", "--solver", "nastran95"])
-        .output()
-        .expect("it starts");
-    assert_eq!(output.status.code(), Some(0));
-    let tables = delta_wing_tables(&DeltaWing::embedded().expect("the wing"), &run);
-    let text = render::text(&tables.expect("tables"));
-    assert_eq!(String::from_utf8_lossy(&output.stdout), text);
 }

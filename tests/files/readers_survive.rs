@@ -5,13 +5,13 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
+use crate::common::known::delta_wing::DeltaWing;
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
 use corfem::files::test_data::read as read_test;
 use corfem::job::{Job, Prepared};
-use corfem::studies::delta_wing::DeltaWing;
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::Reconstruction;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// In order; `cases` and `studies` are being dissolved into the others.
-const ROOMS: [&str; 9] = [
+/// In order.
+const ROOMS: [&str; 8] = [
     "method",
     "sparse",
     "weighted",
     "torque_box",
-    "studies",
     "files",
     "job",
     "present",

@@ -1,13 +1,12 @@
-//! The tables of what the method saves, and the figure of how far its steps can be trusted.
+//! The tables of what the method saves, and of how far its steps can be trusted.
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{GOLDEN_COUNT, GOLDEN_STEPS, JOB_RESULTS, ROUND_OFF_FLOOR};
 use crate::evidence::eigensolutions::{Counted, ERRORS, Effort, count_all, eigensolution_table};
 use crate::evidence::linearization::linearization_table;
-use crate::present::figures::figures;
+use crate::evidence::predictions::{Exact, METHODS, both_structures};
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::table::{Cell, Table};
-use corfem::studies::linearization::{Exact, METHODS, both_structures};
 
 fn fits(table: &Table) {
     let text = text(std::slice::from_ref(table));
@@ -71,19 +70,5 @@ fn errors_of_steps_are_those_of_the_golden() {
             ..Numbers::AS_WRITTEN
         };
         assert_golden(&table.name.clone(), &csv(&[table]), numbers);
-    }
-}
-
-#[test]
-fn figure_has_a_line_for_every_formula_in_every_chart() {
-    let figure = figures()
-        .iter()
-        .find(|figure| figure.name == "linearization")
-        .expect("drawn");
-    for words in METHODS
-        .into_iter()
-        .chain(["Case 2: shapes", "Delta wing: frequencies"])
-    {
-        assert!(figure.svg.contains(words), "{words}");
     }
 }

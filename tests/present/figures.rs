@@ -1,6 +1,7 @@
 //! The data of the figures are what the tables say.
 
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::wing_subjects::wing_subjects;
 use approx::assert_relative_eq;
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
@@ -11,9 +12,6 @@ use corfem::present::subject::Subject;
 use corfem::present::table::{Cell, Column, Table};
 use corfem::present::tables::cases::{frequency_table, iteration_table};
 use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
-use corfem::studies::matrix_comparison::{
-    MatrixComparison, USUAL_CASE, USUAL_TEST_MODES, compare_matrices,
-};
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::torque_box::{CASES, Case, CaseResult, run_case};
 use std::sync::OnceLock;
@@ -34,38 +32,33 @@ pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
     RUNS.get_or_init(|| all_runs(&Case::new(PUBLISHED_CASE).expect("a case")).expect("they run"))
 }
 
-/// Corrections by elements and by matrices, compared once.
-pub fn comparison() -> &'static MatrixComparison {
-    static COMPARISON: OnceLock<MatrixComparison> = OnceLock::new();
-    COMPARISON.get_or_init(|| {
-        let case = Case::new(USUAL_CASE).expect("a case");
-        compare_matrices(&case, USUAL_TEST_MODES).expect("it runs")
-    })
-}
-
 /// The wings, correlated once.
 pub fn wings() -> &'static [Subject] {
     static WINGS: OnceLock<[Subject; 2]> = OnceLock::new();
-    WINGS.get_or_init(|| Subject::wings().expect("they run"))
+    WINGS.get_or_init(|| wing_subjects().expect("they run"))
 }
 
-/// Every figure, drawn anew.
+/// Every figure of the report, drawn anew.
 pub fn draw_all() -> Vec<Figure> {
     let mut figures = case_figures(results()).expect("drawn");
-    let compared = comparison_figures(PUBLISHED_CASE, fewer_modes_runs(), comparison());
-    figures.extend(compared.expect("drawn"));
-    figures.extend(
-        wings()
-            .iter()
-            .flat_map(|wing| subject_figures(wing).expect("drawn")),
-    );
+    figures.extend(comparison_figures(PUBLISHED_CASE, fewer_modes_runs()).expect("drawn"));
     figures
 }
 
-/// Every figure, drawn once.
+/// Every figure of the report, drawn once.
 pub fn figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
     FIGURES.get_or_init(draw_all)
+}
+
+/// The same and those of the wings, which have places, bounds and modes that the box has not.
+pub fn all_figures() -> &'static [Figure] {
+    static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
+    FIGURES.get_or_init(|| {
+        let of_wing = |wing| subject_figures(wing).expect("drawn");
+        let of_wings = wings().iter().flat_map(of_wing);
+        figures().iter().cloned().chain(of_wings).collect()
+    })
 }
 
 fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>) {

@@ -3,7 +3,7 @@
 
 use crate::common::drawings::written;
 use crate::common::tolerances::NODE_LINE;
-use crate::present::figures::{figures, results};
+use crate::present::figures::{all_figures, results};
 use corfem::present::figures::Figure;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use corfem::present::figures::mode_shapes::DrawnModes;
@@ -11,7 +11,7 @@ use corfem::present::subject::Subject;
 use nalgebra::{DMatrix, Vector3};
 
 fn of_kind(what: &str) -> impl Iterator<Item = &'static Figure> {
-    figures()
+    all_figures()
         .iter()
         .filter(move |figure| figure.name.ends_with(what))
 }

@@ -1,12 +1,11 @@
 //! Figures of small made-up data, as stored: what the cases' own figures have no example of. A golden compares numbers to their last
 //! digit only, so that words that have to be exact are looked for by themselves.
 
-use crate::common::drawings::{words, written};
+use crate::common::drawings::words;
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::Range;
-use corfem::present::figures::bars::{BarFigure, BarSeries, Bars};
 use corfem::present::figures::error_history::{self, PassHistory};
 use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::present::figures::histogram;
@@ -254,44 +253,4 @@ fn matrices_with_cells_too_small_for_their_numbers() {
     ];
     let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."]).expect("drawn");
     assert_golden("drawing_matrices", &drawn, Numbers::DRAWN);
-}
-
-#[test]
-fn two_series_of_small_bars_side_by_side() {
-    let series = |name: &str, values: &[(f64, Option<f64>)]| BarSeries {
-        name: name.into(),
-        values: values.to_vec(),
-    };
-    let chart = |heading: &str, shown: [f64; 3]| Bars {
-        heading: heading.into(),
-        groups: ["a", "b", "c"].map(String::from).to_vec(),
-        series: vec![
-            series("before", &shown.map(|value| (value, None))),
-            series(
-                "after",
-                &shown.map(|value| (-0.25 * value, Some(0.3 * value))),
-            ),
-        ],
-        divided: Some((2, ["shown", "not shown"])),
-    };
-    let figure = BarFigure {
-        charts: vec![
-            chart("First", [0.02, -0.01, 0.004]),
-            chart("Second", [0.01, 0.0, 0.03]),
-        ],
-        across: "panel".into(),
-        up: "error".into(),
-        marked: "printed".into(),
-    };
-    let drawn = figure.draw("bars", "Bars").expect("drawn");
-    let steps = written(&drawn)
-        .into_iter()
-        .filter(|word| word.bounds[2] < 66.0 && word.text.starts_with("0."));
-    let steps: Vec<String> = steps.map(|word| word.text).collect();
-    assert_eq!(
-        steps[..4],
-        ["0.000", "0.010", "0.020", "0.030"],
-        "as many decimals as they need"
-    );
-    assert_golden("drawing_bars", &drawn, Numbers::DRAWN);
 }

@@ -1,6 +1,10 @@
 //! What a report knows of a job, of a case and of a wing, and what its tables say of sensors, doubts and suspects.
 
 use crate::common::jobs::rods;
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
+use crate::common::known::planted;
+use crate::common::known::wing::Wing;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
 use crate::files::job_errors::{placed, with};
 use crate::files::job_prepared::prepared;
@@ -13,10 +17,6 @@ use corfem::method::model::Range;
 use corfem::present::render::text;
 use corfem::present::subject::{Derivatives, Subject};
 use corfem::present::tables::job::{doubts_table, places_table, study_table, suspects_table};
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{first_model, measured_grids};
-use corfem::studies::known::planted;
-use corfem::studies::wing::Wing;
 use nalgebra::Vector3;
 
 fn at(x: f64) -> Vector3<f64> {
@@ -191,7 +191,7 @@ fn suspects_have_their_own_unlimited_factors() {
     let table = suspects_table(&prepared).expect("a table");
     let first = prepared.analyze(&[1.0; 3]).expect("analyzed");
     let inner = &prepared.job.correlation.inner;
-    let slopes = corfem::studies::localization::by_factor(&first, inner).expect("factors");
+    let slopes = corfem::job::localization::by_factor(&first, inner).expect("factors");
     let parameters = prepared.source.whole.parameters();
     assert_eq!(table.rows.len(), 3);
     for row in &table.rows {

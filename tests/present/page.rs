@@ -1,28 +1,20 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
-use crate::present::figures::{comparison, fewer_modes_runs, figures, results, wings};
+use crate::present::figures::{fewer_modes_runs, figures, results};
 use corfem::present::figures::Figure;
 use corfem::present::page::{Contents, page};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::cases::{all_tables, frequency_table, summary};
 use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
-use corfem::present::tables::matrices::matrix_tables;
-use corfem::studies::matrix_comparison::USUAL_CASE;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::fit::{Fit, fit};
-use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{Case, CaseResult};
 
 const COMMAND: &str = "corfem report --out <somewhere>";
 
-fn contents<'a>(results: &'a [CaseResult], fit: &'a Fit, figures: &'a [Figure]) -> Contents<'a> {
-    let (fewer_modes, matrices) = (fewer_modes_runs(), comparison());
+fn contents<'a>(results: &'a [CaseResult], figures: &'a [Figure]) -> Contents<'a> {
     Contents {
         results,
-        fit,
-        fewer_modes,
-        matrices,
-        wings: wings(),
+        fewer_modes: fewer_modes_runs(),
         figures,
         command: COMMAND,
     }
@@ -34,19 +26,15 @@ fn escaped(text: &str) -> String {
 }
 
 pub fn html() -> String {
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    page(&contents(results(), &fit, figures())).expect("a page")
+    page(&contents(results(), figures())).expect("a page")
 }
 
-/// Tables 9 to 12, and what corrections know; what is left out the figures have.
+/// Tables 9 to 12; what is left out the figure has.
 fn comparison_tables() -> Vec<Table> {
     let case = Case::new(PUBLISHED_CASE).expect("a case");
     let runs = published_runs(&case).expect("they run");
     let mut tables = published_tables(&case, &runs).expect("it reads");
     tables.extend(truncation_tables(fewer_modes_runs()));
-    let corrected = Case::new(USUAL_CASE).expect("a case");
-    tables.extend(matrix_tables(&corrected, comparison()));
-    tables.retain(|table| !table.name.contains("_change_") || table.name.contains("after"));
     tables.retain(|table| !table.name.starts_with("truncation"));
     let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
     assert_eq!(
@@ -58,10 +46,6 @@ fn comparison_tables() -> Vec<Table> {
             "table_11",
             "table_12",
             "fewer_modes_iterations",
-            "matrix_frequencies_as_tested",
-            "matrix_frequencies_after_a_change",
-            "matrix_distance",
-            "matrix_factors"
         ]
     );
     tables
@@ -70,8 +54,7 @@ fn comparison_tables() -> Vec<Table> {
 #[test]
 fn page_holds_every_table_number_by_number() {
     let html = html();
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    let mut tables = all_tables(results(), &fit).expect("it reads");
+    let mut tables = all_tables(results()).expect("it reads");
     tables.extend(comparison_tables());
     for table in tables {
         assert_eq!(
@@ -177,8 +160,7 @@ fn summary_says_so_when_a_case_does_not_converge() {
         table.rows[0].cells[5],
         Cell::Text("not converged".to_owned())
     );
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
-    let html = page(&contents(&[result], &fit, &[])).expect("a page");
+    let html = page(&contents(&[result], &[])).expect("a page");
     assert!(html.contains("did not converge within its limits"));
     assert!(!html.contains("Every case did what was asked"));
 }

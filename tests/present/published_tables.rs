@@ -69,7 +69,6 @@ fn table_13_has_the_cpu_seconds() {
 fn tables_of_the_paper_are_named_in_order() {
     let names = [
         "table_13",
-        "fit",
         "table_5",
         "table_9_exact",
         "table_3",

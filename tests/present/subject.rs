@@ -2,6 +2,9 @@
 
 use crate::common::alter;
 use crate::common::drawings::{size, written};
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::correlate_wing;
+use crate::common::wing_subjects::wing_subject;
 use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, Range, Share};
@@ -17,8 +20,6 @@ use corfem::present::table::{Cell, Table};
 use corfem::present::tables::subject::{
     derivative_table, factor_table, history_table, paired_table,
 };
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::correlate_wing;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -104,7 +105,7 @@ fn along(row: usize) -> (Vector3<f64>, Vector3<f64>) {
 static WING: LazyLock<Subject> = LazyLock::new(|| {
     let wing = DeltaWing::embedded().expect("the wing");
     let run = correlate_wing(&wing, |_, _| {}).expect("it runs");
-    Subject::of_wing(&wing, &run).expect("a subject")
+    wing_subject(&wing, &run).expect("a subject")
 });
 
 fn subject_tables(subject: &Subject) -> Vec<Table> {

@@ -1,4 +1,4 @@
-//! The program's comparisons from outside: fewer modes and matrices.
+//! The program's comparison from outside: fewer modes.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -58,68 +58,11 @@ fn fewer_modes_in_every_format() {
 }
 
 #[test]
-fn matrices_of_a_case_and_a_number_of_modes() {
-    let plain = corfem(&["matrices"]);
-    assert_eq!(plain.status.code(), Some(0));
-    let report = text(&plain.stdout);
-    assert!(
-        report.starts_with("Case 2, 5 test modes"),
-        "nothing here is published"
-    );
-    assert_eq!(
-        plain.stdout,
-        corfem(&["matrices", "2", "--test-modes", "5"]).stdout
-    );
-    let csv = text(&corfem(&["matrices", "--format", "csv"]).stdout);
-    assert!(csv.starts_with("table,"), "{csv:.80}");
-    let markdown = text(&corfem(&["matrices", "--format", "markdown"]).stdout);
-    assert!(markdown.starts_with("#") && markdown.contains("\n|"));
-    let json = corfem(&["matrices", "3", "--test-modes", "7", "--format", "json"]).stdout;
-    let json: Value = serde_json::from_slice(&json).expect("JSON");
-    let comparison = &json["comparison"];
-    assert_eq!(
-        (&comparison["case"], &comparison["test_modes"]),
-        (&3.into(), &7.into())
-    );
-    assert_eq!(comparison["predictions"].as_array().map(Vec::len), Some(5));
-    assert_eq!(comparison["factors"].as_array().map(Vec::len), Some(15));
-}
-
-#[test]
-fn comparisons_go_to_a_file_when_asked() {
+fn it_goes_to_a_file_when_asked() {
     let folder = tempfile::tempdir().expect("a folder");
-    for command in ["fewer-modes", "matrices"] {
-        let file = folder.path().join(command);
-        let done = corfem(&[command, "--output", file.to_str().expect("a name")]);
-        assert!(done.status.success() && done.stdout.is_empty());
-        let written = std::fs::read(&file).expect("written");
-        assert_eq!(written, corfem(&[command]).stdout);
-    }
-}
-
-#[test]
-fn bad_input_ends_with_two() {
-    for (arguments, message) in [
-        (
-            &["matrices", "5"][..],
-            "case: expected 1, 2, 3 or 4, found 5",
-        ),
-        (
-            &["matrices", "1", "--test-modes", "10"],
-            "modes: expected at most 9, found 10",
-        ),
-        (
-            &["matrices", "1", "--test-modes", "0"],
-            "modes: expected at least one",
-        ),
-    ] {
-        let done = corfem(arguments);
-        assert_eq!(done.status.code(), Some(2));
-        assert!(done.stdout.is_empty());
-        assert!(
-            text(&done.stderr).contains(message),
-            "{}",
-            text(&done.stderr)
-        );
-    }
+    let file = folder.path().join("fewer-modes");
+    let done = corfem(&["fewer-modes", "--output", file.to_str().expect("a name")]);
+    assert!(done.status.success() && done.stdout.is_empty());
+    let written = std::fs::read(&file).expect("written");
+    assert_eq!(written, corfem(&["fewer-modes"]).stdout);
 }

@@ -310,16 +310,7 @@ fn an_empty_variable_is_as_good_as_none() {
 
 #[test]
 fn quiet_and_version_mean_the_same_everywhere() {
-    for command in [
-        "cases",
-        "tables",
-        "fewer-modes",
-        "readings",
-        "matrices",
-        "delta-wing",
-        "deck",
-        "modes",
-    ] {
+    for command in ["cases", "tables", "fewer-modes", "deck", "modes"] {
         assert_eq!(
             text(&corfem(&[command, "--version"]).stdout),
             concat!("corfem ", env!("CARGO_PKG_VERSION"), "\n")

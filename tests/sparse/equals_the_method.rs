@@ -1,14 +1,14 @@
 //! Two properties that let the fast forms stand in for the text: matrices at the dynamic DOF, and modes at the sensors. Both hold
 //! over random structures, the paper's cases and the delta wing.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::first_model;
 use crate::common::tolerances::TWO_PROGRAMS;
 use corfem::method::assembly::{dense_stiffness, lumped_mass};
 use corfem::method::model::{FiniteElementModel, Parameter, Scaled, Share};
 use corfem::method::modes::{Modes, solve};
 use corfem::method::structure::Structure;
 use corfem::sparse::{LargeModel, WholeModel};
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::first_model;
 use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
 use corfem::torque_box::{CASES, Case};
 use nalgebra::{DMatrix, DVector};

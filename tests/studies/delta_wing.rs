@@ -14,11 +14,11 @@
 //!      x  0   10    30    50    70    90
 //! ```
 
+use crate::common::known::delta_wing::DeltaWing;
 use crate::common::tolerances::ROUND_OFF;
 use approx::assert_relative_eq;
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::studies::delta_wing::DeltaWing;
 use corfem::torque_box::error::CaseError;
 use nalgebra::Vector3;
 

@@ -1,15 +1,15 @@
 //! What the delta wing does under load and in vibration, beside what NASTRAN printed, what was measured, and what an analog
 //! computer gave: an experiment nobody here can tune.
 
+use crate::common::known::delta_wing::{
+    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
+};
 use crate::common::tolerances::{
     ANALOG_FREQUENCY, CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SEVEN_DIGITS, ROUND_OFF,
 };
 use approx::assert_relative_eq;
 use corfem::files::deck::{self, BulkData, bulk_data};
 use corfem::method::assembly::{dense_stiffness, element_matrices};
-use corfem::studies::delta_wing::{
-    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
-};
 use nalgebra::{DMatrix, DVector};
 
 fn wing() -> DeltaWing {

@@ -1,5 +1,9 @@
 //! Wrong gages of the delta wing recovered from ten modes at 19 points.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{
+    GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing, first_model, settings,
+};
 use crate::common::tolerances::{
     HIDDEN_GAGE, MATRIX_ROUND_OFF, RECOVERED_GAGE, ROUND_OFF, SAME_HISTORY, SEEN_SHARE,
 };
@@ -8,10 +12,6 @@ use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
 use corfem::method::outer_loop::correlate;
 use corfem::method::state::UpdateRule;
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{
-    GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing, first_model, settings,
-};
 use std::sync::LazyLock;
 
 /// The whole scenario, run once for all tests.

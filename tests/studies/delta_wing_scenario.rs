@@ -1,13 +1,13 @@
 //! The scenario of the delta wing's correlation: groups, wrong gages, dynamic points, masses and test modes.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::{
+    GROUPS, TEST_MODES, first_model, measured_grids, test_modes,
+};
 use crate::common::tolerances::{CONDENSED_WING, MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::method::modes::solve;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::{
-    GROUPS, TEST_MODES, first_model, measured_grids, test_modes,
-};
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded().expect("the wing")

@@ -1,9 +1,9 @@
 //! Full eigensolutions by perturbation and by re-analysis, counted.
 
+use crate::common::known::wing::Wing;
+use crate::common::known::{Known, planted};
 use crate::evidence::eigensolutions::{Counted, count_all, counted};
 use corfem::method::error::Error;
-use corfem::studies::known::{Known, planted};
-use corfem::studies::wing::Wing;
 use corfem::torque_box::{Case, run_case};
 
 fn case(number: usize, error: f64) -> Counted {

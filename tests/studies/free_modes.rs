@@ -2,13 +2,13 @@
 
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
+use crate::common::known::delta_wing::DeltaWing;
 use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
 use corfem::chain::spring_stiffness;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};
 use corfem::sparse::free_modes::{count_below, counted_modes};
-use corfem::studies::delta_wing::DeltaWing;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 

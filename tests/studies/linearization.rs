@@ -1,28 +1,28 @@
 //! Predicted modes beside exact ones: the order of every formula, and which is the more accurate.
 
+use crate::common::known::Known;
 use crate::common::tolerances::{
     MEASURABLE_ERROR, ORDER_HALFWAY, ORDER_SLACK, ROUND_OFF, ROUND_OFF_FLOOR,
+};
+use crate::evidence::predictions::{
+    Exact, MEASURES, Prediction, STEPS, both_structures, predictions,
 };
 use approx::assert_relative_eq;
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
-use corfem::studies::known::Known;
-use corfem::studies::linearization::{
-    Exact, LinearPrediction, MEASURES, STEPS, both_structures, predictions,
-};
 
 const FIRST: usize = 0;
 const RECURSIVE: usize = 1;
 const TAYLOR: usize = 2;
 const TAYLOR_OF_ROOTS: usize = 3;
 
-fn error(of: &LinearPrediction, method: usize) -> Errors {
+fn error(of: &Prediction, method: usize) -> Errors {
     of.errors[method].expect("a prediction")
 }
 
 /// Mean log-log slope between two of the steps.
 fn slope(
-    all: &[LinearPrediction],
+    all: &[Prediction],
     method: usize,
     measure: fn(&Errors) -> f64,
     [from, to]: [usize; 2],

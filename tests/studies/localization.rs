@@ -1,13 +1,13 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
+use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
 use crate::evidence::localization::NOISE;
 use crate::studies::weighted::at;
+use corfem::job::localization::{by_factor, by_single_fit};
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::ModeSet;
-use corfem::studies::known::Known;
-use corfem::studies::localization::{by_factor, by_single_fit};
 use corfem::torque_box::Case;
 use corfem::weighted::residuals::residuals;
 

@@ -3,13 +3,13 @@
 use crate::common::tolerances::{
     CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE,
 };
+use crate::evidence::matrix_comparison::{
+    COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
+};
+use crate::evidence::matrix_correction::baruch_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
-use corfem::studies::matrix_comparison::{
-    COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
-};
-use corfem::studies::matrix_correction::baruch_stiffness;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::COVERS;

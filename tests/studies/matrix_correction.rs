@@ -2,9 +2,9 @@
 
 use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::CORRECTION_ROUND_OFF;
+use crate::evidence::matrix_correction::{baruch_stiffness, berman_nagy_mass, weighted_norm};
 use corfem::method::error::Error;
 use corfem::method::modes::{ModeSet, Modes, solve};
-use corfem::studies::matrix_correction::{baruch_stiffness, berman_nagy_mass, weighted_norm};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 

@@ -2,6 +2,7 @@
 
 use crate::common::alter;
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
+use crate::common::known::delta_wing::{DeltaWing, correlation};
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::evidence::rates::spring_chain;
 use crate::evidence::specimen::Specimen;
@@ -14,7 +15,6 @@ use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 use corfem::sparse::random::split_mix_64;
-use corfem::studies::delta_wing::{DeltaWing, correlation};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::weighted::noise::{Noise, with_noise};

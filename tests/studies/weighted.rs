@@ -2,6 +2,7 @@
 
 use crate::common::alter;
 use crate::common::draws::Draws;
+use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{
     CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
@@ -12,7 +13,6 @@ use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
-use corfem::studies::known::Known;
 use corfem::torque_box::Case;
 use corfem::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,

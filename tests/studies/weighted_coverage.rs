@@ -9,9 +9,9 @@ use crate::common::tolerances::{
 use crate::evidence::coverage::{SEEDS, SEEN, all_coverages, coverage_tables};
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
 use crate::studies::weighted::at;
+use corfem::job::localization::by_single_fit;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::present::render::csv;
-use corfem::studies::localization::by_single_fit;
 use corfem::torque_box::Case;
 use corfem::weighted::residuals::residuals;
 

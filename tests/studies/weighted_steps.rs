@@ -1,12 +1,12 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
+use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{ROUND_OFF, STANDARD_ERRORS};
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, Share};
 use corfem::method::modes::{ModeSet, solve};
-use corfem::studies::known::Known;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};

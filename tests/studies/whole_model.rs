@@ -1,5 +1,7 @@
 //! Models without condensation, correlated at the sensors alone.
 
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{masses, sensors_at, shear_building, springs};
@@ -14,8 +16,6 @@ use corfem::method::structure::{Element, Grid, Material, Structure};
 use corfem::sparse::LargeModel;
 use corfem::sparse::free_modes::{CountedModes, counted_modes};
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
-use corfem::studies::delta_wing::DeltaWing;
-use corfem::studies::delta_wing::correlation::GROUPS;
 use corfem::torque_box::Case;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::Noise;

@@ -1,12 +1,12 @@
 //! A wing of any size: a box of ribs and spars, every member in one group.
 
+use crate::common::known::wing::{MESHES, SORTS, Wing};
 use crate::common::structures::{factorized, wings};
 use crate::common::tolerances::{COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM};
 use approx::assert_relative_eq;
 use corfem::method::elements::corner_volumes;
 use corfem::method::error::Error;
 use corfem::method::structure::{ElementKind, Material, Structure};
-use corfem::studies::wing::{MESHES, SORTS, Wing};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::f64::consts::PI;

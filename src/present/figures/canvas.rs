@@ -250,10 +250,6 @@ pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
     )
 }
 
-/// A published value on a bar.
-pub(super) const PUBLISHED: Mark =
-    Mark(Form::Diamond, 2.8, Some(ORANGE), Pen(INK, 0.9, Dash::Solid));
-
 /// A number with the sign for minus.
 pub(super) fn signed(text: String) -> String {
     text.replace('-', "−")

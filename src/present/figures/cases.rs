@@ -1,16 +1,12 @@
 //! The figures of the box and of the paper's cases, from what the runs gave.
 
-use super::bars::{BarFigure, BarSeries, Bars};
 use super::factors::Factors;
 use super::structure::draw_structure;
 use super::subject::subject_figures;
 use super::{Figure, box_elements, cover_gages};
-use crate::method::step::StepRule;
 use crate::present::PresentError;
 use crate::present::subject::Subject;
-use crate::present::tables::kind_letter;
 use crate::present::tables::unlimited::unlimited_factors;
-use crate::torque_box::readings::{columns_of, run_by_reading};
 use crate::torque_box::{CASES, Case, CaseResult};
 
 /// Every figure of the cases, in the order of the report: the box, then each case.
@@ -53,8 +49,7 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
     Ok(figures)
 }
 
-/// Adds the figures of one case: those of its correlation with gages by panel and by readings, or of Case 4 what its single iteration
-/// asks for; and its derivatives.
+/// Adds the figures of one case: those of its correlation, or of Case 4 what its single iteration asks for; and its derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
     let subject = Subject::of_case(result)?;
     let case = result.case.number;
@@ -95,67 +90,10 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         return Ok(());
     }
     figures.extend(kept("errors"));
-    let name = format!("case_{case}_readings");
-    let svg = reading_bars(result)?.draw(
-        &name,
-        &format!("Case {case}: gage errors by readings of the step"),
-    )?;
-    let caption = "gage errors by three readings of the step beside the printed ones, pass by pass";
-    figures.push(Figure::new(&name, format!("Case {case}: {caption}."), svg));
     figures.extend(
         ["node_lines", "mode_shapes", "agreement", "derivatives"]
             .into_iter()
             .filter_map(kept),
     );
     Ok(())
-}
-
-/// Gage errors of a case by panel and by readings of the step, a chart for every pass that the paper prints.
-///
-/// # Errors
-/// Those of [`run_by_reading`] and of the published tables.
-pub fn reading_bars(result: &CaseResult) -> Result<BarFigure, PresentError> {
-    let mut charts: Vec<Bars> = Vec::new();
-    for reading in [StepRule::Norm, StepRule::Diagonal, StepRule::Relative] {
-        for (row, column) in columns_of(&run_by_reading(&result.case, reading)?)?
-            .iter()
-            .enumerate()
-        {
-            let pairs = column.errors().zip(&column.published_errors);
-            let values = pairs
-                .map(|(error, printed)| (100.0 * error, Some(100.0 * printed)))
-                .collect();
-            if row == charts.len() {
-                let (heading, groups) = (format!("Pass {}", row + 1), panel_names(result));
-                charts.push(Bars {
-                    heading,
-                    groups,
-                    series: Vec::new(),
-                    divided: None,
-                });
-            }
-            charts[row].series.push(BarSeries {
-                name: reading.name().to_owned(),
-                values,
-            });
-        }
-    }
-    let (across, up) = (
-        "panel: S shear, M membrane".to_owned(),
-        "gage error, percent of 0.010 in".to_owned(),
-    );
-    Ok(BarFigure {
-        charts,
-        across,
-        up,
-        marked: "published".to_owned(),
-    })
-}
-
-/// Numbers and kinds of a case's panels.
-fn panel_names(result: &CaseResult) -> Vec<String> {
-    let panels = result.case.panels.iter();
-    panels
-        .map(|panel| format!("{} {}", panel.label, kind_letter(panel.kind)))
-        .collect()
 }

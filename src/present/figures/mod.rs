@@ -1,10 +1,8 @@
-//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's and the studies' from
-//! them.
+//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's from them.
 //!
 //! The same data give the same bytes. What draws fails with
 //! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
-pub mod bars;
 pub mod box_elements;
 mod canvas;
 mod chart;
@@ -14,8 +12,6 @@ pub mod comparisons;
 pub mod cover_gages;
 pub mod error_history;
 pub mod factors;
-pub mod growth;
-pub mod linearization;
 pub mod matrices;
 pub mod frame;
 pub mod histogram;

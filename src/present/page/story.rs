@@ -1,11 +1,11 @@
-//! What the page tells before its tables, in the words of `paper/report.md`: the method, every case and wing in three figures.
+//! What the page tells before its tables, in the words of `paper/report.md`: the method, every case in three figures.
 
-use super::html::{escaped, figure, figures, prose};
+use super::html::{figure, figures, prose};
 use super::{Contents, Part, named};
 use crate::present::verdict::verdict_in_words;
 use crate::torque_box::CaseResult;
 
-/// A part for every section of the words whose case or wing there is.
+/// A part for every section of the words whose case there is.
 pub(super) fn story(contents: &Contents) -> Vec<Part> {
     let sections = include_str!("../../../paper/report.md")
         .split("\n## ")
@@ -26,12 +26,6 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
                 .iter()
                 .find(|result| result.case.number.to_string() == number)?,
         );
-    } else if short != "Method" {
-        let wing = contents
-            .wings
-            .iter()
-            .find(|wing| wing.title.starts_with(short))?;
-        body += &format!("<p class=\"note\">{}</p>\n", escaped(&wing.words()));
     }
     let seen = pieces.filter_map(|piece| {
         let (name, words) = piece.split_once("`: ")?;

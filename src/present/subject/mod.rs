@@ -1,7 +1,7 @@
 //! What a report needs to know of any correlation, whatever it is of.
 
 mod job;
-mod known;
+mod case;
 
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;

@@ -1,22 +1,19 @@
-//! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one, and the box's fit.
+//! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
-use super::readings::{case_readings, detection_table};
 use super::stages::{self, ErrorStage};
 use super::subject::solver_note;
 use super::unlimited::unlimited_table;
-use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, in_words, remarks, rms};
+use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
 use crate::method::error_sum::Errors;
 use crate::method::model::Check;
-use crate::method::step::{Accumulation, StepRule};
+use crate::method::step::Accumulation;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table, numbers, percents};
+use crate::present::table::{Cell, Digits, Table, numbers};
 use crate::present::verdict::verdict_in_words;
-use crate::torque_box::fit::Fit;
 use crate::torque_box::published::PublishedTable;
-use crate::torque_box::readings::{READINGS, columns_of, detection, run_by_reading};
 use crate::torque_box::wing_box::gage_rms;
-use crate::torque_box::{BUILT_IN, CASES, CaseResult, Grouping};
+use crate::torque_box::{CASES, CaseResult, Grouping};
 
 /// The published table to stand beside a run's, if the paper made that run: by single elements.
 fn published(
@@ -209,37 +206,6 @@ pub fn settings_table(results: &[CaseResult]) -> Table {
     table
 }
 
-/// How well the reconstructed box reproduces the published frequencies, column by column.
-pub fn fit_table(fit: &Fit) -> Table {
-    let (case, stage, mode) = &fit.largest_at;
-    let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
-    let note = format!(
-        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither \
-        coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement \
-        with everything else is evidence.",
-        100.0 * fit.rms,
-        100.0 * fit.largest,
-        in_words(stage),
-    );
-    let title = "The reconstructed box: computed frequencies at published gages against published";
-    let mut table = Table::new("fit", title, "Column")
-        .headings(["RMS", "Largest"], "%")
-        .notes([note]);
-    for column in &fit.columns {
-        let differences: Vec<f64> = column.differences().collect();
-        let largest = differences
-            .iter()
-            .copied()
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let label = format!("Case {} {}", column.case, in_words(&column.column));
-        table.row(
-            label,
-            percents([Some(rms(&differences)), largest], RMS_PERCENT),
-        );
-    }
-    table
-}
-
 /// What became of every case, a line each.
 pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
@@ -274,42 +240,20 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
 }
 
 /// Every table of a run, in the order of the report.
-pub fn all_tables(results: &[CaseResult], fit: &Fit) -> Result<Vec<Table>, PresentError> {
+pub fn all_tables(results: &[CaseResult]) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![outcome_table(results)];
     for result in results {
         tables.extend(tables_of(result)?);
     }
-    tables.extend([
-        iteration_table(results)?,
-        settings_table(results),
-        fit_table(fit),
-    ]);
+    tables.extend([iteration_table(results)?, settings_table(results)]);
     Ok(tables)
 }
 
-/// The tables of one case: frequencies, gages, and what the library's own reading of the step makes of it; in Case 4 what its
-/// single iteration asks for, by every reading.
+/// The tables of one case: frequencies and gages; in Case 4 also what its single iteration asks for.
 pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     if result.case.number == CASES[3] {
         tables.push(unlimited_table(result));
-    }
-    // The print has neither grouped runs nor other programs' elements, and nothing is beside the library's own reading.
-    let is_papers = result.case.grouping == Grouping::Elements && result.solver == BUILT_IN;
-    let own = StepRule::default();
-    if is_papers && result.case.number == CASES[3] {
-        let detection = |reading| detection(&result.case.reconstruction, reading);
-        tables.push(detection_table(
-            &READINGS
-                .into_iter()
-                .map(detection)
-                .collect::<Result<Vec<_>, _>>()?,
-        ));
-    } else if is_papers && result.case.settings.inner.step != own {
-        let mut columns = columns_of(result)?;
-        columns.extend(columns_of(&run_by_reading(&result.case, own)?)?);
-        columns.sort_by(|a, b| a.stage.cmp(&b.stage));
-        tables.push(case_readings(result.case.number, &columns)?);
     }
     Ok(tables)
 }

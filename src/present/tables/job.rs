@@ -3,12 +3,12 @@
 
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
+use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::preflight::{Finding, coarse_condensation, preflight};
 use crate::job::{ComparedModes, Finished, PlacedSensor, Prepared, Study, Summary, Vary};
 use crate::method::model::{DynamicModel, Range};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
-use crate::studies::localization::{by_factor, by_single_fit};
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::residuals::residuals;
 

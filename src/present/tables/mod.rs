@@ -1,21 +1,17 @@
-//! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of the studies.
+//! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of decks and jobs.
 
 pub mod cases;
 pub mod deck;
-pub mod delta_wing;
 pub mod fewer_modes;
 pub mod job;
-pub mod matrices;
 pub mod preflight;
 pub mod published;
-pub mod readings;
 pub mod stages;
 pub mod subject;
 pub mod unlimited;
 
 use super::table::Digits;
 use crate::method::structure::ElementKind;
-use crate::torque_box::fit::rms;
 use crate::torque_box::published::PublishedTable;
 
 const HERTZ: Digits = Digits::Significant(4);

@@ -17,11 +17,11 @@ mod noise;
 
 use crate::common::double_double::{DD_EPSILON, Dd};
 use crate::common::tolerances::{CHAIN_ROUND_OFF, NEAREST_DECISION, ROUND_OFF};
+use crate::evidence::readings::READINGS;
 use approx::assert_relative_eq;
 use chain::{Decision, History, Pass, run};
 use corfem::method::outer_loop::Settings;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS, fewer_modes_run};
-use corfem::torque_box::readings::READINGS;
 use corfem::torque_box::{CASES, Case, CaseResult, run_case};
 use noise::Noise;
 use num_rational::BigRational;

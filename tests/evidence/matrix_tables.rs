@@ -1,11 +1,13 @@
 //! Why elements and not matrices, as tables.
 
-use super::{HERTZ, PERCENT, RMS_PERCENT, kind_letter, rms};
-use crate::present::table::{Cell, Digits, Table, numbers, percents};
-use crate::studies::matrix_comparison::{
+use super::{HERTZ, PERCENT, RMS_PERCENT};
+use crate::evidence::matrix_comparison::{
     COVER_DOUBLER, ElementFactor, MatrixComparison, Prediction, TRUTH,
 };
-use crate::torque_box::Case;
+use corfem::method::structure::ElementKind;
+use corfem::present::table::{Cell, Digits, Table, numbers, percents};
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::rms;
 
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.
 pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {
@@ -129,9 +131,13 @@ pub fn factor_table(case: &Case, comparison: &MatrixComparison) -> Table {
         .column(
             "Type",
             "",
-            case.panels
-                .iter()
-                .map(|panel| Cell::text(kind_letter(panel.kind))),
+            case.panels.iter().map(|panel| {
+                Cell::text(if panel.kind == ElementKind::Membrane {
+                    "M"
+                } else {
+                    "S"
+                })
+            }),
         )
         .column("True", "", factors(|factor| factor.truth))
         .column("Found", "", factors(|factor| factor.found))

@@ -1,15 +1,15 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
-use super::subject::{history_table, paired_table};
 use super::{PERCENT, RMS_PERCENT};
-use crate::present::PresentError;
-use crate::present::subject::Subject;
-use crate::present::table::{Digits, Table, numbers, percents};
-use crate::studies::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
-use crate::studies::delta_wing::{
+use crate::common::known::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
+use crate::common::known::delta_wing::{
     DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
 };
-use crate::torque_box::published::PublishedTable;
+use crate::common::wing_subjects::wing_subject;
+use corfem::present::PresentError;
+use corfem::present::table::{Digits, Table, numbers, percents};
+use corfem::present::tables::subject::{history_table, paired_table};
+use corfem::torque_box::published::PublishedTable;
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);
@@ -27,7 +27,7 @@ pub fn delta_wing_tables(
     wing: &DeltaWing,
     run: &WingCorrelation,
 ) -> Result<Vec<Table>, PresentError> {
-    let subject = Subject::of_wing(wing, run)?;
+    let subject = wing_subject(wing, run)?;
     let mut paired = paired_table(&subject)?;
     paired
         .rows

@@ -3,24 +3,20 @@
 //! Both corrections are given the lowest test modes alone, and then predict all modes of the box, as tested and after a design change
 //! that is no part of the test: thicker covers. The truth is the box with the right gages.
 
-use crate::method::error::Error;
-use crate::method::model::DynamicModel;
-use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::outer_loop::correlate;
-use crate::method::pairing::{cross_orthogonality, pair_modes, paired};
-use crate::method::step::StepRule;
-use crate::studies::matrix_correction::{
+use crate::evidence::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm,
 };
-use crate::torque_box::Case;
-use crate::torque_box::error::CaseError;
-use crate::torque_box::wing_box::{COVERS, PANEL_COUNT, TEST_GAGE};
+use corfem::method::error::Error;
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::{ModeSet, Modes, solve};
+use corfem::method::outer_loop::correlate;
+use corfem::method::pairing::{cross_orthogonality, pair_modes, paired};
+use corfem::method::step::StepRule;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::{COVERS, PANEL_COUNT, TEST_GAGE};
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
 
-/// The case compared unless another is asked for: every panel is wrong by as much, so that a corrected stiffness
-/// can be judged entry by entry.
-pub const USUAL_CASE: usize = 2;
 /// Test modes given to the corrections unless told otherwise: about half, so that there are others to predict.
 pub const USUAL_TEST_MODES: usize = 5;
 /// Name of the prediction that is right by definition.
@@ -34,7 +30,7 @@ const READ_DIGITS: f64 = 100.0;
 const SMALLEST_SINGULAR_VALUE: f64 = 1e-9;
 
 /// A model and what it says of the box as tested and after the design change.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// Which model.
     pub model: &'static str,
@@ -53,7 +49,7 @@ pub struct Prediction {
 }
 
 /// Factors on one element's gage.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ElementFactor {
     /// Element number.
     pub element: usize,
@@ -69,7 +65,7 @@ pub struct ElementFactor {
 type Candidate<'a> = (&'static str, DMatrix<f64>, DMatrix<f64>, &'a DMatrix<f64>);
 
 /// The comparison.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MatrixComparison {
     /// Case number.
     pub case: usize,
@@ -112,7 +108,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
     let read = as_read(&test, &start.mass)?;
-    let corrected_mass = berman_nagy_mass(&start.mass, &read.shapes)?;
+    let corrected_mass = berman_nagy_mass(&start.mass, read.shapes())?;
     let berman_nagy = baruch_stiffness(&start.stiffness, &corrected_mass, &read)?;
 
     let right = [TEST_GAGE; PANEL_COUNT];
@@ -189,16 +185,12 @@ fn with_doublers(gages: &[f64]) -> Vec<f64> {
 /// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
 /// then of unit generalized mass.
 fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
-    let mut shapes = modes.shapes.clone();
+    let mut shapes = modes.shapes().clone();
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    ModeSet {
-        omega_squared: modes.omega_squared.clone(),
-        shapes,
-    }
-    .scaled_with(mass)
+    modes.with_shapes(shapes)?.scaled_with(mass)
 }
 
 /// Relative frequency errors of a model, its modes paired with the true ones.

@@ -20,10 +20,10 @@ pub mod correlation;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
-use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use crate::torque_box::error::{CaseError, read_toml};
+use corfem::method::error::Error;
+use corfem::method::linear_algebra::check_length;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::torque_box::error::CaseError;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
@@ -79,7 +79,7 @@ impl DeltaWing {
     pub fn embedded() -> Result<Self, CaseError> {
         Self::parse(
             "paper/delta_wing.toml",
-            include_str!("../../../paper/delta_wing.toml"),
+            include_str!("../../../../paper/delta_wing.toml"),
         )
     }
 
@@ -88,7 +88,12 @@ impl DeltaWing {
     /// # Errors
     /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
-        let read: Self = read_toml(name, "a delta wing: material, half depths and sizes", text)?;
+        let wrong = |source| CaseError::Toml {
+            name: name.to_owned(),
+            expected: "a delta wing: material, half depths and sizes",
+            source: Box::new(source),
+        };
+        let read: Self = toml::from_str(text).map_err(wrong)?;
         let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
         let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
         let along_stations: Vec<usize> = (1..STATIONS.len())

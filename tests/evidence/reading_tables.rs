@@ -1,13 +1,12 @@
 //! What each reading of the step makes of the paper's gages, beside the print.
 
 use super::{PERCENT, RMS_PERCENT};
-use crate::method::step::StepRule;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table, numbers};
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::readings::{Detection, READINGS, ReadingColumn};
-use crate::torque_box::wing_box::PANEL_COUNT;
-use crate::torque_box::{ANOMALY_RATIO, CASES, published_reading};
+use crate::evidence::readings::{Detection, READINGS, ReadingColumn};
+use corfem::method::step::StepRule;
+use corfem::present::PresentError;
+use corfem::present::table::{Cell, Digits, Table, numbers};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::{ANOMALY_RATIO, CASES, published_reading};
 
 /// A quantity of a column of gages: its label, its heading where it stands across, its digits and its value.
 type Quantity = (
@@ -71,34 +70,6 @@ fn column_name(column: &ReadingColumn) -> String {
         4 | 6 | 8 => format!("Case {} pass {number}", column.table / 2 - 1),
         table => format!("Table {table} FEM {number}"),
     }
-}
-
-/// The gage errors of a case pass by pass, by the reading it is run by and by others, percent, beside the print; with what is
-/// left of the other errors, the iterations, and how the gage errors go with the printed ones.
-pub fn case_readings(case: usize, columns: &[ReadingColumn]) -> Result<Table, PresentError> {
-    let title = format!(
-        "Case {case}: gage errors in percent by the reading it is run by and by the library's own"
-    );
-    let mut table = Table::new(format!("case_{case}_readings"), title, "Element")
-        .labels(1..=PANEL_COUNT)
-        .labels(QUANTITIES.map(|quantity| quantity.0));
-    for column in columns {
-        let name = column_name(column).replace(&format!("Case {case} p"), "P");
-        let gages = column.errors().zip(&column.published_errors);
-        let gages = gages
-            .map(|(error, printed)| Cell::beside(100.0 * error, PERCENT, Some(100.0 * printed)));
-        let others = QUANTITIES
-            .iter()
-            .map(|quantity| cell(quantity, column))
-            .collect::<Result<Vec<_>, _>>()?;
-        table = table.column(
-            format!("{name} {}", column.reading.name()),
-            "",
-            gages.chain(others),
-        );
-    }
-    Ok(table
-        .notes(["Correlation and RMS difference, percent points, of the fifteen gage errors with the printed ones."]))
 }
 
 /// Every reading of the step against every published column of gages, and Case 4 by each.

@@ -1,13 +1,13 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::{DeltaWing, STATIONS, upper_grid};
-use crate::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
-use crate::method::error::Error;
-use crate::method::structure::Structure;
-use crate::sparse::factorization::FactorizedStiffness;
-use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
-use crate::torque_box::error::CaseError;
-use crate::torque_box::published::PublishedTable;
+use corfem::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
+use corfem::method::error::Error;
+use corfem::method::structure::Structure;
+use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::published::PublishedTable;
 use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.
@@ -91,7 +91,7 @@ impl DeltaWing {
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_deflections() -> Result<PublishedTable, CaseError> {
-    let text = include_str!("../../../paper/tables/delta_wing_deflections.csv");
+    let text = include_str!("../../../../paper/tables/delta_wing_deflections.csv");
     PublishedTable::parse(0, "paper/tables/delta_wing_deflections.csv", text)
 }
 
@@ -100,6 +100,6 @@ pub fn known_deflections() -> Result<PublishedTable, CaseError> {
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_frequencies() -> Result<PublishedTable, CaseError> {
-    let text = include_str!("../../../paper/tables/delta_wing_frequencies.csv");
+    let text = include_str!("../../../../paper/tables/delta_wing_frequencies.csv");
     PublishedTable::parse(0, "paper/tables/delta_wing_frequencies.csv", text)
 }

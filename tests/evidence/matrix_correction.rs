@@ -7,11 +7,11 @@
 //! Journal* 16 (1978), 1208–1210; Berman and Nagy, "Improvement of a Large Analytical Model Using Test Data", *AIAA
 //! Journal* 21 (1983), 1168–1173.
 
-use crate::method::error::Error;
-use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, reduced, symmetric_part,
+use corfem::method::error::Error;
+use corfem::method::linear_algebra::{
+    check_finite, check_shape, check_symmetric, cholesky, symmetric_part,
 };
-use crate::method::modes::ModeSet;
+use corfem::method::modes::ModeSet;
 use nalgebra::DMatrix;
 
 /// Departure of $\Phi^t M \Phi$ from $I$ above which test shapes are refused where they must be orthonormal.
@@ -37,8 +37,8 @@ pub fn baruch_stiffness(
     test: &ModeSet,
 ) -> Result<DMatrix<f64>, Error> {
     check_problem(stiffness, mass, test)?;
-    let (inertia, forces) = (mass * &test.shapes, stiffness * &test.shapes);
-    let generalized = test.shapes.tr_mul(&forces) + DMatrix::from_diagonal(&test.omega_squared);
+    let (inertia, forces) = (mass * test.shapes(), stiffness * test.shapes());
+    let generalized = test.shapes().tr_mul(&forces) + DMatrix::from_diagonal(test.omega_squared());
     let half = 0.5 * &inertia * generalized * inertia.transpose() - forces * inertia.transpose();
     Ok(symmetric_part(&(stiffness + &half + half.transpose())))
 }
@@ -59,8 +59,15 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> Result<DM
     check_finite("test mode shapes", shapes)?;
     let inertia = mass * shapes;
     let generalized = symmetric_part(&shapes.tr_mul(&inertia));
-    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT)
-        .map_err(|error| error.or_dependent("test mode"))?;
+    let lower = cholesky("generalized mass", &generalized, SMALLEST_MASS_PIVOT).map_err(
+        |error| match error {
+            Error::NotPositiveDefinite { dof, .. } => Error::Dependent {
+                what: "test mode",
+                index: dof,
+            },
+            other => other,
+        },
+    )?;
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
     lower.solve_lower_triangular_unchecked_mut(&mut solved);
@@ -83,13 +90,15 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<f64, 
 }
 
 /// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: up to a rotation the same as $M^{-1/2} \Delta M^{-1/2}$.
-pub(crate) fn mass_weighted(
-    change: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
+pub fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_symmetric("matrix change", change)?;
     check_shape("matrix change", change, mass.nrows(), mass.nrows())?;
-    Ok(reduced(&cholesky("dynamic mass", mass, 0.0)?, change))
+    let lower = cholesky("dynamic mass", mass, 0.0)?;
+    let mut reduced = change.clone();
+    lower.solve_lower_triangular_unchecked_mut(&mut reduced);
+    reduced.transpose_mut();
+    lower.solve_lower_triangular_unchecked_mut(&mut reduced);
+    Ok(reduced)
 }
 
 fn check_problem(
@@ -100,9 +109,9 @@ fn check_problem(
     check_symmetric("dynamic stiffness", stiffness)?;
     check_symmetric("dynamic mass", mass)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
-    check_shape("test mode shapes", &test.shapes, mass.nrows(), test.len())?;
-    check_finite("test mode shapes", &test.shapes)?;
-    let cross = test.shapes.tr_mul(&(mass * &test.shapes));
+    check_shape("test mode shapes", test.shapes(), mass.nrows(), test.len())?;
+    check_finite("test mode shapes", test.shapes())?;
+    let cross = test.shapes().tr_mul(&(mass * test.shapes()));
     for (first, second) in
         (0..test.len()).flat_map(|first| (0..=first).map(move |second| (first, second)))
     {

@@ -3,19 +3,19 @@
 //! The paper's section 6 calls Van de Vooren's formulae more accurate than a Taylor series type linearization. All of them know the
 //! same: the modes before the step and $\beta = V^t \Delta K V$, whose entries are the exact derivatives of $K_D$.
 
-use crate::method::appendix_c::{Perturbed, first_order, recursive_1};
-use crate::method::error::Error;
-use crate::method::error_sum::{Errors, errors};
-use crate::method::linear_algebra::{check_length, symmetric_part};
-use crate::method::model::DynamicModel;
-use crate::method::modes::{ModeSet, solve};
-use crate::method::pairing::{cross_orthogonality, pair_modes};
-use crate::sparse::LargeModel;
-use crate::studies::known::Known;
-use crate::torque_box::error::CaseError;
+use crate::common::known::Known;
+use corfem::method::appendix_c::{Perturbed, first_order, recursive_1};
+use corfem::method::error::Error;
+use corfem::method::error_sum::{Errors, errors};
+use corfem::method::linear_algebra::{check_length, symmetric_part};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::sparse::LargeModel;
+use corfem::torque_box::error::CaseError;
 use nalgebra::{DMatrix, DVector};
 
-/// What predicts modes, in the order of [`LinearPrediction::errors`].
+/// What predicts modes, in the order of [`Prediction::errors`].
 pub const METHODS: [&str; 4] = [
     "first order",
     "Recursive 1, order 4",
@@ -46,7 +46,7 @@ pub enum Exact {
 
 /// How good the predictions of one step are.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LinearPrediction {
+pub struct Prediction {
     /// The step as a fraction of the whole one.
     pub step: f64,
     /// Errors over all modes by each of the [`METHODS`]; none where it fails, because a root is lost or modes come together.
@@ -87,7 +87,7 @@ pub fn predictions(
     toward: &[f64],
     steps: &[f64],
     exact: Exact,
-) -> Result<Vec<LinearPrediction>, Error> {
+) -> Result<Vec<Prediction>, Error> {
     check_length("parameter factors", toward.len(), model.parameters().len())?;
     let DynamicModel {
         stiffness,
@@ -95,7 +95,7 @@ pub fn predictions(
         shares,
     } = model.matrices(&vec![1.0; toward.len()])?;
     let start = solve(&stiffness, &mass, stiffness.nrows())?;
-    let (k, shapes) = (&start.omega_squared, &start.shapes);
+    let (k, shapes) = (start.omega_squared(), start.shapes());
     let of_step = |&step: &f64| {
         let changes = shares
             .iter()
@@ -118,11 +118,7 @@ pub fn predictions(
             else {
                 return Ok(None);
             };
-            let modes = ModeSet {
-                omega_squared: roots.map(f64::recip),
-                shapes: shapes * p,
-            }
-            .scaled_with(&mass)?;
+            let modes = ModeSet::new(roots.map(f64::recip), shapes * p)?.scaled_with(&mass)?;
             let pairing = pair_modes(&cross_orthogonality(&modes, &answer, &mass)?)?;
             errors(&modes, &pairing, &answer).map(Some)
         };
@@ -132,7 +128,7 @@ pub fn predictions(
             .chain(linear)
             .map(error)
             .collect::<Result<_, _>>()?;
-        Ok(LinearPrediction { step, errors })
+        Ok(Prediction { step, errors })
     };
     steps.iter().map(of_step).collect()
 }
@@ -141,9 +137,7 @@ pub fn predictions(
 ///
 /// # Errors
 /// Those of the models and of [`predictions`].
-pub fn both_structures(
-    exact: Exact,
-) -> Result<[(&'static str, Vec<LinearPrediction>); 2], CaseError> {
+pub fn both_structures(exact: Exact) -> Result<[(&'static str, Vec<Prediction>); 2], CaseError> {
     let of = |known: Known| predictions(&known.model, &known.truth, &STEPS, exact);
     Ok([
         ("Case 2", of(Known::of_case(2)?)?),

@@ -1,10 +1,11 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
-use crate::torque_box::Case;
-use crate::torque_box::error::CaseError;
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
-use serde::Serialize;
+use super::RMS_PERCENT;
+use corfem::present::table::{Table, percents};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, rms};
 
 /// The published columns: case, table of frequencies, table of gages, column prefixes.
 ///
@@ -16,7 +17,7 @@ const COLUMNS: [(usize, usize, usize, [&str; 4]); 3] = [
 ];
 
 /// Exact solution of the box at one published set of gages, beside the published frequencies.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct FitColumn {
     /// Case number.
     pub case: usize,
@@ -43,7 +44,7 @@ impl FitColumn {
 }
 
 /// The fit over all published frequencies at published gages.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct Fit {
     /// The twelve columns of nine frequencies.
     pub columns: Vec<FitColumn>,
@@ -76,9 +77,8 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
                     .collect::<Result<Vec<_>, _>>()
             };
             let model = case.model_with(&rows(&gages, PANEL_COUNT, "in")?)?;
-            let solution = model
-                .analyze(&vec![1.0; model.parameters().len()], &test, None)?
-                .exact;
+            let model = model.analyze(&vec![1.0; model.parameters().len()], &test, None)?;
+            let solution = model.exact();
             columns.push(FitColumn {
                 case: number,
                 column: prefix.to_owned(),
@@ -109,7 +109,33 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
     })
 }
 
-/// Root mean square of a list; NaN of none.
-pub fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+/// How well the reconstructed box reproduces the published frequencies, column by column.
+pub fn fit_table(fit: &Fit) -> Table {
+    let (case, stage, mode) = &fit.largest_at;
+    let count: usize = fit.columns.iter().map(|c| c.frequencies_hz.len()).sum();
+    let note = format!(
+        "Over all {count} frequencies: RMS {:.3} %, largest {:.2} % (Case {case} {}, mode {mode}). The paper printed neither \
+        coordinates nor masses: the box was fitted to these frequencies, so agreement with them is calibration and agreement \
+        with everything else is evidence.",
+        100.0 * fit.rms,
+        100.0 * fit.largest,
+        stage.replace('_', " "),
+    );
+    let title = "The reconstructed box: computed frequencies at published gages against published";
+    let mut table = Table::new("fit", title, "Column")
+        .headings(["RMS", "Largest"], "%")
+        .notes([note]);
+    for column in &fit.columns {
+        let differences: Vec<f64> = column.differences().collect();
+        let largest = differences
+            .iter()
+            .copied()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let label = format!("Case {} {}", column.case, column.column.replace('_', " "));
+        table.row(
+            label,
+            percents([Some(rms(&differences)), largest], RMS_PERCENT),
+        );
+    }
+    table
 }

@@ -3,12 +3,11 @@
 //! Rods lie between neighboring grids, a shear panel in every cell of a rib or spar, membranes on both surfaces; the root is held.
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
-use crate::method::error::{Error, at_least_one};
-use crate::method::model::Parameter;
-use crate::method::modes::check_count;
-use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use crate::sparse::LargeModel;
-use crate::sparse::load_distribution::LoadDistribution;
+use corfem::method::error::Error;
+use corfem::method::model::Parameter;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::LargeModel;
+use corfem::sparse::load_distribution::LoadDistribution;
 use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
@@ -166,7 +165,10 @@ impl Wing {
     /// # Errors
     /// [`Error::Empty`] without a bay or cell; those of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, Error> {
-        at_least_one("bays and cells", self.bays.into_iter().min().unwrap_or(0))?;
+        if self.bays.contains(&0) {
+            let what = "bays and cells";
+            return Err(Error::Empty { what });
+        }
         let (lines, levels) = (self.bays[1] + 1, self.bays[2] + 1);
         let grid = |n: usize| {
             let place = [n / (lines * levels), n / levels % lines, n % levels];
@@ -240,5 +242,18 @@ impl Wing {
             .enumerate()
             .map(|(group, labels)| Parameter::group(&name(group), labels));
         LargeModel::new(structure, loads, mass, parameters.collect())
+    }
+}
+
+/// Refuses none of something, or more of it than there is.
+fn check_count(what: &'static str, requested: usize, available: usize) -> Result<(), Error> {
+    match requested {
+        0 => Err(Error::Empty { what }),
+        _ if requested > available => Err(Error::TooMany {
+            what,
+            available,
+            requested,
+        }),
+        _ => Ok(()),
     }
 }

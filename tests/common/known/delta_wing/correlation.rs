@@ -13,17 +13,17 @@
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 use super::DeltaWing;
-use crate::method::error::Error;
-use crate::method::error_sum::ErrorMeasure;
-use crate::method::inner_loop::InnerSettings;
-use crate::method::model::{FiniteElementModel, ModalModel, Parameter};
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use crate::method::state::UpdateRule;
-use crate::method::step::{Accumulation, StepRule};
-use crate::method::structure::{Element, Material, Structure};
-use crate::sparse::load_distribution::LoadDistribution;
-use crate::torque_box::BUILT_IN;
+use corfem::method::error::Error;
+use corfem::method::error_sum::ErrorMeasure;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::model::{FiniteElementModel, ModalModel, Parameter};
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
+use corfem::method::state::UpdateRule;
+use corfem::method::step::{Accumulation, StepRule};
+use corfem::method::structure::{Element, Material, Structure};
+use corfem::sparse::load_distribution::LoadDistribution;
+use corfem::torque_box::BUILT_IN;
 use nalgebra::DMatrix;
 
 /// Elements that are scaled together.
@@ -154,16 +154,15 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
 /// # Errors
 /// Those of [`DeltaWing::modes`] and [`ModeSet::from_measured`].
 pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
-    let (structure, tested) = (
-        wing.structure()?,
-        wing.modes()?.modes.select(&TEST_MODES.map(|mode| mode - 1)),
-    );
+    let (structure, whole) = (wing.structure()?, wing.modes()?.modes);
+    let (places, all_hz) = (TEST_MODES.map(|mode| mode - 1), whole.frequencies_hz());
     let row = |grid: usize| structure.free_dof_index(grid, Z);
     let rows: Vec<usize> = measured_grids(&structure)
         .into_iter()
         .filter_map(row)
         .collect();
-    ModeSet::from_measured(&tested.frequencies_hz(), &tested.shapes.select_rows(&rows))
+    let shapes = whole.shapes().select_rows(&rows).select_columns(&places);
+    ModeSet::from_measured(&places.map(|place| all_hz[place]), &shapes)
 }
 
 /// The scenario run to its end.
@@ -220,7 +219,7 @@ pub fn correlate_wing_with<E: From<Error>>(
     };
     let first = analyze(&[1.0; GROUPS.len()])?;
     let shares = first
-        .test_shares
+        .test_shares()
         .iter()
         .map(|share| share.diagonal().max())
         .collect();

@@ -1,15 +1,18 @@
-//! Structures with wrong gages whose true factors are known.
+//! Structures with wrong gages whose true factors are known. The benches include this file too.
 
-use crate::method::error::Error;
-use crate::method::modes::ModeSet;
-use crate::method::outer_loop::{Correlation, Settings, correlate};
-use crate::sparse::LargeModel;
-use crate::studies::delta_wing::DeltaWing;
-use crate::studies::delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
-use crate::studies::wing::Wing;
-use crate::torque_box::Case;
-use crate::torque_box::error::CaseError;
-use crate::torque_box::wing_box::TEST_GAGE;
+pub mod delta_wing;
+pub mod wing;
+
+use corfem::method::error::Error;
+use corfem::method::modes::ModeSet;
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::sparse::LargeModel;
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::TEST_GAGE;
+use delta_wing::DeltaWing;
+use delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
+use wing::Wing;
 
 /// Modes of the wing's test and analysis.
 pub const WING_MODES: usize = 10;

@@ -3,17 +3,15 @@
 //! The paper's sentence about $\Delta k$ does not decide how it is measured. Its printed gages do: every reading is run on the
 //! same box, as many passes as the paper prints, and compared with the print gage by gage.
 
-use crate::method::outer_loop::{Pass, Settings};
-use crate::method::step::StepRule;
-use crate::method::structure::ElementKind;
-use crate::torque_box::error::CaseError;
-use crate::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use crate::torque_box::fit::rms;
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms};
-use crate::torque_box::{Case, CaseResult, published_passes, run_case};
+use corfem::method::outer_loop::{Pass, Settings};
+use corfem::method::step::StepRule;
+use corfem::method::structure::ElementKind;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms, rms};
+use corfem::torque_box::{Case, CaseResult, published_passes, run_case};
 use nalgebra::DVector;
-use serde::Serialize;
 
 /// The readings of the step that the tables are asked about, the library's own first.
 pub const READINGS: [StepRule; 4] = [
@@ -24,7 +22,7 @@ pub const READINGS: [StepRule; 4] = [
 ];
 
 /// A column of the paper's gages as one reading has it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReadingColumn {
     /// The reading.
     pub reading: StepRule,
@@ -152,7 +150,7 @@ pub fn columns_of(result: &CaseResult) -> Result<Vec<ReadingColumn>, CaseError> 
 }
 
 /// What Case 4's first iteration asks for by one reading.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Detection {
     /// The reading.
     pub reading: StepRule,

@@ -1,0 +1,87 @@
+//! The wings with wrong gages, correlated, as a report shows a correlation.
+
+use super::known::delta_wing::DeltaWing;
+use super::known::delta_wing::correlation::{
+    GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
+};
+use super::known::recovered;
+use corfem::present::PresentError;
+use corfem::present::subject::{Derivatives, SensorPoint, Subject};
+use nalgebra::Vector3;
+
+/// The delta wing with wrong gages.
+///
+/// # Errors
+/// Those of its model.
+pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Subject, PresentError> {
+    let names = GROUPS.map(|group| group.name.to_owned());
+    let model = first_model(wing)?;
+    let structure = model.structure();
+    let place = |label| {
+        structure
+            .grids()
+            .iter()
+            .find(|grid| grid.label == label)
+            .map(|grid| grid.position)
+    };
+    let sensor = |label| up(format!("{label} z"), place(label).unwrap_or_default());
+    let held = structure.grids().iter().filter(|grid| grid.constrained[2]);
+    let first = model.analyze(&[1.0; GROUPS.len()], &run.test, None)?;
+    Ok(Subject {
+        title: "Delta wing with wrong gages".to_owned(),
+        solver: run.solver.to_owned(),
+        ranges: model.factor_ranges()?,
+        supports: held.map(|grid| grid.position).collect(),
+        sensors: measured_grids(structure).into_iter().map(sensor).collect(),
+        mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
+        derivatives: Some(Derivatives::of(&first)?),
+        truth: GROUPS.iter().map(Group::true_factor).collect(),
+        ..Subject::of(
+            "delta_wing",
+            &names,
+            &run.test,
+            &run.correlation.initial,
+            Some(&run.correlation),
+        )
+        .on(structure)
+    })
+}
+
+/// Delta wing and the wing of [`recovered`], each correlated from wrong gages.
+///
+/// # Errors
+/// Those of both correlations, and of [`wing_subject`].
+pub fn wing_subjects() -> Result<[Subject; 2], PresentError> {
+    let (wing, (known, run)) = (DeltaWing::embedded()?, recovered()?);
+    let names: Vec<String> = known
+        .model
+        .parameters()
+        .iter()
+        .map(|group| group.name.clone())
+        .collect();
+    let (title, ranges) = (
+        "Wing of 1,458 DOF with wrong gages".to_owned(),
+        known.model.factor_ranges()?,
+    );
+    let large = Subject::of("wing", &names, &known.test, &run.initial, Some(&run))
+        .on(known.model.structure());
+    let delta = wing_subject(&wing, &correlate_wing(&wing, |_, _| {})?)?;
+    Ok([
+        delta,
+        Subject {
+            title,
+            ranges,
+            truth: known.truth,
+            ..large
+        },
+    ])
+}
+
+/// A sensor that measures upward.
+fn up(name: String, place: Vector3<f64>) -> SensorPoint {
+    SensorPoint {
+        name,
+        place: Some(place),
+        direction: Vector3::z(),
+    }
+}
