@@ -398,7 +398,8 @@ proptest! {
     #[test]
     fn any_subject_has_sound_figures_tables_and_page(
         wrong in prop::collection::vec(0.8..1.25_f64, 2..6),
-        name in "[ -~äß°]{1,30}",
+        // Not a name like "inf", which the drawings are searched for.
+        name in "[ -~äß°]{1,30}".prop_filter("a number", |name| !name.contains("inf") && !name.contains("NaN")),
         places in prop::array::uniform32(-1e3..1e3_f64),
         flat in prop::array::uniform3(any::<bool>()),
         is_rotation in any::<bool>(),
