@@ -71,8 +71,6 @@ struct ModelFiles {
 struct TestFile {
     file: PathBuf,
     modes: Option<Vec<usize>>,
-    #[serde(default)]
-    orthogonalize: bool,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -144,8 +142,6 @@ enum Scales {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
-    /// Which modes of the model.
-    pub modes: ComparedModes,
     analysis_modes: Option<usize>,
     pairing: PairingRule,
     floor: Option<f64>,
@@ -159,18 +155,6 @@ pub struct Compare {
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
     pub seed: u64,
-}
-
-/// Which modes of the model are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ComparedModes {
-    /// Those of the whole model, as the sensors see them: no condensation, and a structure may hang free.
-    #[default]
-    Whole,
-    /// Those of the model condensed to the sensors, as in the paper: faster where there are few sensors, and right when all mass
-    /// is there.
-    Condensed,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]

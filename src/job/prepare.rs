@@ -2,12 +2,11 @@
 
 use super::model::load;
 use super::sensors::{PlacedSensor, place};
-use super::{Compare, ComparedModes, Job, Method, ModelSource, PairingRule, read};
+use super::{Compare, Job, Method, ModelSource, PairingRule, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
 use crate::method::error::Error;
 use crate::method::model::{ModalModel, Pair};
 use crate::method::modes::ModeSet;
@@ -45,8 +44,6 @@ pub struct Prepared {
     pub modes: Vec<usize>,
     /// Test modes, from zero, that no mode of the first model is like, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
-    /// Test modes, from zero, that Appendix B deleted, and why.
-    pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
     /// The first model, and how, with how many modes and with which test it was compared.
@@ -103,10 +100,7 @@ impl Prepared {
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
-        let most = match job.compare.modes {
-            ComparedModes::Whole => source.whole.dof_count(),
-            ComparedModes::Condensed => placed.len(),
-        };
+        let most = source.whole.dof_count();
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
         let mut prepared = Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
@@ -118,39 +112,12 @@ impl Prepared {
             test,
             modes,
             unpaired: Vec::new(),
-            deleted: Vec::new(),
             analysis_modes,
             first: None,
         };
-        if prepared.job.test.orthogonalize {
-            prepared.orthogonalize()?;
-        }
         prepared.leave_out_unpaired()?;
         prepared.weights()?;
         Ok(prepared)
-    }
-
-    /// Appendix B: the test modes orthogonalized with the mass at the sensors, without those that move too much by it. The structure
-    /// counts as held, so that nothing is balanced.
-    fn orthogonalize(&mut self) -> Result<(), FileError> {
-        let (_, mass) = self.source.whole.condensed(&self.ones(), &self.sensors)?;
-        let examined = examine(
-            &self.test,
-            &mass,
-            Supports::Held,
-            &MovementLimits::default(),
-        )?;
-        let reports = self.modes.iter().copied().zip(examined.reports);
-        self.deleted = reports
-            .filter(|(_, report)| report.verdict != ModeVerdict::Kept)
-            .collect();
-        self.modes = examined
-            .kept
-            .into_iter()
-            .map(|mode| self.modes[mode])
-            .collect();
-        self.test = examined.modes;
-        Ok(())
     }
 
     /// Leaves out the test modes that no mode of the first model is like.
@@ -238,7 +205,7 @@ impl Prepared {
     /// What the loops are handed at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`crate::sparse::WholeModel::analyze`] and its condensed way.
+    /// Those of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         if let Some((compare, count, test, first)) = &self.first
             && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
@@ -256,12 +223,7 @@ impl Prepared {
             PairingRule::Closest => pair_modes,
             PairingRule::Optimal => pair_by_assignment,
         };
-        let model = match self.job.compare.modes {
-            ComparedModes::Whole => whole.analyze(factors, sensors, (test, pair), count),
-            ComparedModes::Condensed => {
-                whole.analyze_condensed(factors, sensors, test, Some(count))
-            }
-        };
+        let model = whole.analyze(factors, sensors, (test, pair), count);
         // Gauss-Newton steps have weights of their own.
         let is_paper = self.job.compare.method == Method::Paper;
         if is_paper {

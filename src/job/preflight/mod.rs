@@ -24,7 +24,6 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use crate::sparse::{CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{Look, changed, mend, paired_values, reordered};
@@ -83,32 +82,6 @@ pub enum Finding {
     ExcludesStart { parameter: usize, range: Range },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
-    /// Condensation to the measured points makes a mode of the model itself too stiff.
-    CoarseCondensation {
-        mode: usize,
-        error: CondensationError,
-    },
-}
-
-/// The lowest `count` modes that condensation to the measured points raises by more than
-/// [`LARGEST_CONDENSATION_ERROR`]: what a correlation would take for an error of the elements.
-///
-/// # Errors
-/// Those of [`WholeModel::condensation_errors`].
-pub fn coarse_condensation(
-    model: &WholeModel,
-    factors: &[f64],
-    sensors: &SparseMatrix,
-    count: usize,
-) -> Result<Vec<Finding>, Error> {
-    let errors = model
-        .condensation_errors(factors, sensors, count)?
-        .into_iter()
-        .enumerate();
-    let coarse = errors.filter(|(_, error)| error.frequency > LARGEST_CONDENSATION_ERROR);
-    Ok(coarse
-        .map(|(mode, error)| Finding::CoarseCondensation { mode, error })
-        .collect())
 }
 
 /// Looks at a finite element model and its test before the first step.
