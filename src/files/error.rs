@@ -93,6 +93,9 @@ pub enum FileError {
         expected: String,
         found: String,
     },
+    /// A job or what it names that is refused, and why.
+    #[error("{of}: {reason}")]
+    Refused { of: String, reason: String },
     /// A request to stop a correlation.
     #[error("correlation: expected to go on, found a request to stop")]
     Interrupted,
@@ -169,6 +172,13 @@ impl FileError {
             of: of.to_string(),
             expected: expected.into(),
             found: found.into(),
+        }
+    }
+
+    pub(crate) fn refused(of: impl ToString, reason: impl Into<String>) -> Self {
+        Self::Refused {
+            of: of.to_string(),
+            reason: reason.into(),
         }
     }
 

@@ -4,6 +4,7 @@
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
 pub mod assignment;
+mod entries;
 pub mod expansion;
 mod matrices;
 pub mod metrics;
@@ -15,6 +16,7 @@ mod samples;
 mod sensors;
 mod study;
 
+pub use entries::removed_step;
 pub use model::{Geometry, ModelSource};
 pub use prepare::Prepared;
 pub use run::{Finished, History, run};
@@ -24,6 +26,7 @@ pub use study::{Study, Vary};
 
 use crate::files::error::FileError;
 use crate::method::outer_loop::Settings;
+use entries::{CorrelationEntries, refuse_removed};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -52,7 +55,7 @@ pub struct Job {
     #[serde(default)]
     pub compare: Compare,
     /// How the correlation steps and stops.
-    #[serde(default)]
+    #[serde(default, with = "CorrelationEntries")]
     pub correlation: Settings,
 }
 
@@ -143,8 +146,6 @@ enum Scales {
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
     analysis_modes: Option<usize>,
-    pairing: PairingRule,
-    floor: Option<f64>,
     /// How the factors are found.
     pub method: Method,
     frequency_deviation: Option<f64>,
@@ -155,14 +156,6 @@ pub struct Compare {
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
     pub seed: u64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum PairingRule {
-    Closest,
-    #[default]
-    Optimal,
 }
 
 /// How factors are found.
@@ -182,9 +175,11 @@ const MOST_LABELS: usize = 10_000_000;
 /// Reads a job file.
 ///
 /// # Errors
-/// [`FileError::File`] when it cannot be read; [`FileError::Input`] naming line and entry that are not understood.
+/// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
+/// [`FileError::Input`] naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    refuse_removed(path, &text)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
         ..job

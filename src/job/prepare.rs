@@ -2,21 +2,21 @@
 
 use super::model::load;
 use super::sensors::{PlacedSensor, place};
-use super::{Compare, Job, Method, ModelSource, PairingRule, read};
+use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
 use crate::method::error::Error;
-use crate::method::model::{ModalModel, Pair};
+use crate::method::model::ModalModel;
 use crate::method::modes::ModeSet;
-use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
+use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
+/// Modal assurance below which a test mode counts as without a partner.
 const FLOOR: f64 = 0.5;
 
 /// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
@@ -151,8 +151,7 @@ impl Prepared {
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
         let assurance = modal_assurance(&shapes, &self.test.shapes)?;
-        let floor = self.job.compare.floor.unwrap_or(FLOOR);
-        let partners = pair_optimally(&assurance, floor)?;
+        let partners = pair_optimally(&assurance, FLOOR)?;
         let kept: Vec<usize> = (0..partners.len())
             .filter(|&mode| partners[mode].is_some())
             .collect();
@@ -166,7 +165,7 @@ impl Prepared {
         let expected = "a mode of the model with a modal assurance of";
         self.job.refuse(
             best,
-            format!("{expected} {floor} or more for one test mode at least"),
+            format!("{expected} {FLOOR} or more for one test mode at least"),
         )?;
         if self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
@@ -219,11 +218,7 @@ impl Prepared {
             &self.test,
             self.analysis_modes,
         );
-        let pair: Pair = match self.job.compare.pairing {
-            PairingRule::Closest => pair_modes,
-            PairingRule::Optimal => pair_by_assignment,
-        };
-        let model = whole.analyze(factors, sensors, (test, pair), count);
+        let model = whole.analyze(factors, sensors, (test, pair_by_assignment), count);
         // Gauss-Newton steps have weights of their own.
         let is_paper = self.job.compare.method == Method::Paper;
         if is_paper {

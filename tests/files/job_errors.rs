@@ -3,6 +3,7 @@
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::job::{Prepared, run};
+use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -452,12 +453,59 @@ fn test_modes_are_there_and_named_once() {
             "starts = 2",
             "expected one of compare.starts where the method is \"paper\", found 2",
         ),
+    ]);
+}
+
+#[test]
+fn an_entry_that_is_gone_is_named_with_what_happens_instead() {
+    const FILE: &str = "file = \"test.csv\"";
+    const INNER: &str = "[correlation.inner]\nstep = ";
+    check(&[
+        (
+            FILE,
+            "file = \"test.csv\"\northogonalize = true",
+            "job.toml: test.orthogonalize is no longer an entry: test modes are compared as they were measured",
+        ),
         (
             COMPARE,
-            "[compare]\nfloor = 1.5",
-            "with a modal assurance of 1.5 or more for one test mode at least",
+            "[correlation.inner]\nhalvings = 3\n[compare]",
+            "job.toml: correlation.inner.halvings is no longer an entry: a step that does not lower",
         ),
+        (
+            COMPARE,
+            &format!("{INNER}\"steepest_descent\"\n[compare]"),
+            "job.toml: correlation.inner.step: the step rule steepest_descent is gone; choose matrix, own, relative or gage",
+        ),
+        (
+            COMPARE,
+            &format!("{INNER}\"best\"\n[compare]"),
+            "unknown variant `best`",
+        ),
+        (COMPARE, "[compare]\nflor = 0.1", "unknown field `flor`"),
     ]);
+}
+
+/// What a job leaves out of its settings is the library's, and what it gives is taken.
+#[test]
+fn a_job_sets_some_of_the_settings_and_the_others_are_the_librarys() {
+    let settings = |job: &str| {
+        let (_folder, path) = placed(&with(
+            rods(),
+            "job.toml",
+            COMPARE,
+            &format!("{job}\n[compare]"),
+        ));
+        corfem::job::read(&path).expect("a job").correlation
+    };
+    assert_eq!(settings(""), Settings::default());
+    let mut expected = Settings {
+        most_passes: 3,
+        ..Settings::default()
+    };
+    assert_eq!(settings("[correlation]\nmost_passes = 3"), expected);
+    expected.inner.tolerance = 0.5;
+    let given = "[correlation]\nmost_passes = 3\n[correlation.inner]\ntolerance = 0.5";
+    assert_eq!(settings(given), expected);
 }
 
 #[test]
