@@ -120,6 +120,38 @@ impl Prepared {
         Ok(prepared)
     }
 
+    /// A digest of the job's file, of the files it names and of what the command line `adds`.
+    ///
+    /// # Errors
+    /// [`FileError::File`] when one of them cannot be read any more.
+    pub fn identity(&self, adds: &str) -> Result<u64, FileError> {
+        let job = &self.job;
+        let model = [
+            &job.model.deck,
+            &job.model.stiffness,
+            &job.model.mass,
+            &job.model.rows,
+        ];
+        let named = model
+            .into_iter()
+            .chain(job.parameters.iter().map(|rule| &rule.matrix))
+            .flatten();
+        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
+        let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
+        let mut identity = digest(program.as_bytes(), 0);
+        for file in named.chain([job.path.clone()]) {
+            // Behind a # may stand which matrix of the file.
+            let text = file.to_string_lossy();
+            let of_matrix =
+                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
+            let bytes = std::fs::read(&file)
+                .or_else(of_matrix)
+                .map_err(FileError::of_file(&file, "read"))?;
+            identity = digest(&bytes, identity);
+        }
+        Ok(identity)
+    }
+
     /// Leaves out the test modes that no mode of the first model is like.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let mut first = self.analyze(&self.ones());
@@ -227,6 +259,12 @@ impl Prepared {
             model
         }
     }
+}
+
+/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
+pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
+    let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)
 }
 
 /// The test modes at the sensors placed.
