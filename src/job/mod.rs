@@ -9,6 +9,7 @@ pub mod expansion;
 mod matrices;
 pub mod metrics;
 mod model;
+pub mod nastran95;
 pub mod preflight;
 mod prepare;
 mod run;

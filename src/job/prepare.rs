@@ -1,6 +1,7 @@
 //! Model and test put together: what a correlation of a job starts from.
 
-use super::model::load;
+use super::matrices::from_matrices;
+use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
 use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
@@ -259,6 +260,25 @@ impl Prepared {
             model
         }
     }
+}
+
+/// Reads the model of a job.
+fn load(job: &Job) -> Result<ModelSource, FileError> {
+    job.refuse(
+        job.parameters.is_empty().then_some("none"),
+        "at least one [[parameter]]",
+    )?;
+    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
+        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
+        (None, None, None) => "neither",
+        (Some(_), ..) => "a deck and matrices",
+        _ => "one matrix alone",
+    };
+    Err(job.wrong(
+        "either model.deck, or model.stiffness and model.mass",
+        found,
+    ))
 }
 
 /// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.

@@ -6,7 +6,7 @@
 use crate::common::outer_loop::{assert_near, stored_wing};
 use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
 use corfem::files::error::FileError;
-use corfem::files::nastran95::NAME;
+use corfem::job::nastran95::NAME;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::json;

@@ -5,7 +5,7 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::signals::{SIGNALS, send, undisturbed};
 use corfem::files::error::FileError;
-use corfem::files::nastran95::{Nastran95, default_folder};
+use corfem::job::nastran95::{Nastran95, default_folder};
 use rustix::process::Signal;
 use std::os::unix::{fs::PermissionsExt, process::ExitStatusExt};
 use std::path::Path;

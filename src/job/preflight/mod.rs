@@ -11,6 +11,7 @@
 //! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
 
 mod frequencies;
+mod look;
 mod order;
 mod shapes;
 mod words;
@@ -24,9 +25,10 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
+use look::{Look, paired_values, reordered};
 use nalgebra::DMatrix;
 use serde::Serialize;
-use shapes::{Look, changed, mend, paired_values, reordered};
+use shapes::{changed, mend};
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
