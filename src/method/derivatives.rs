@@ -74,7 +74,7 @@ pub fn error_changes(
 ///
 /// let shares = vec![Share::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
-/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let modal = model.analyze(&test, None)?;
 /// // The error is 1 - (2/3)√c, here at c = 1.001 and at 1.
 /// let changes = by_definition(&modal, &ModalState::start(&modal))?;
@@ -140,7 +140,7 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
 ///
 /// let shares = vec![Share::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
-/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let modal = model.analyze(&test, None)?;
 /// // The derivative of 1 - (2/3)√c at c = 1.
 /// let slopes = gradient(&modal, &ModalState::start(&modal))?;

@@ -132,7 +132,7 @@ pub struct InnerRun {
 /// // A unit mass on a spring of 4 beside a test mode of ω² = 9.
 /// let shares = vec![Share::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
-/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &InnerSettings::default())?;
 /// // The first step asks for 1 + 0.8 · (3 · 1/3) · (1/3) / (4/9), and 1.5 is allowed.
 /// assert!((inner.first_unlimited_factors[0] - 1.6).abs() < 0.001);

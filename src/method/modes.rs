@@ -222,9 +222,9 @@ pub(crate) fn check_count(
 ///
 /// // Two unit masses on three unit springs: together on two of them, apart on all, ω² = 1 and 3.
 /// let modes = solve(&dmatrix![2.0, -1.0; -1.0, 2.0], &DMatrix::identity(2, 2), 2)?;
-/// assert!((modes.omega_squared[0] - 1.0).abs() < 1e-14);
-/// assert!((modes.omega_squared[1] - 3.0).abs() < 1e-14);
-/// assert!((modes.shapes[(0, 0)] - 0.5_f64.sqrt()).abs() < 1e-14);
+/// assert!((modes.omega_squared()[0] - 1.0).abs() < 1e-14);
+/// assert!((modes.omega_squared()[1] - 3.0).abs() < 1e-14);
+/// assert!((modes.shapes()[(0, 0)] - 0.5_f64.sqrt()).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {

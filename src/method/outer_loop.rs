@@ -94,7 +94,7 @@ pub struct Correlation {
 /// # use nalgebra::{dmatrix, dvector};
 ///
 /// // A unit mass on a spring of 4, of which the test says 9.
-/// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let analyze = |factors: &[f64]| -> Result<_, Error> {
 ///     let stiffness = dmatrix![4.0 * factors[0]];
 ///     let shares = vec![Share::Stiffness(stiffness.clone())];

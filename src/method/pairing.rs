@@ -67,8 +67,8 @@ impl Pairing {
 ///
 /// // The test has the second analysis mode first, and the first one upside down.
 /// let omega_squared = dvector![1.0, 4.0];
-/// let analysis = ModeSet { omega_squared: omega_squared.clone(), shapes: DMatrix::identity(2, 2) };
-/// let test = ModeSet { omega_squared, shapes: dmatrix![0.0, -1.0; 1.0, 0.0] };
+/// let analysis = ModeSet::new(omega_squared.clone(), DMatrix::identity(2, 2))?;
+/// let test = ModeSet::new(omega_squared, dmatrix![0.0, -1.0; 1.0, 0.0])?;
 /// let cross = cross_orthogonality(&analysis, &test, &DMatrix::identity(2, 2))?;
 /// assert_eq!(cross, dmatrix![0.0, -1.0; 1.0, 0.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
@@ -179,7 +179,7 @@ pub(crate) fn signed_assurance(
 ///
 /// // Both test modes are closest to the first analysis mode; the second is closer and keeps it.
 /// let pairing = pair_modes(&dmatrix![0.8, -0.9; 0.6, 0.3])?;
-/// assert_eq!((pairing.analysis_mode, pairing.sign), (vec![1, 0], vec![1.0, -1.0]));
+/// assert_eq!((pairing.analysis_mode(), pairing.sign()), (&[1, 0][..], &[1.0, -1.0][..]));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {

@@ -127,10 +127,7 @@ impl ModalState {
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
         let pairing = (model.pair)(&shapes.tr_mul(&model.cross))?;
-        let modes = ModeSet {
-            omega_squared: perturbed.roots.map(f64::recip),
-            shapes: &exact.shapes * &shapes,
-        };
+        let modes = ModeSet::new(perturbed.roots.map(f64::recip), &exact.shapes * &shapes)?;
         let errors = model.errors_of(&modes, &pairing)?;
         Ok(Self {
             factors,

@@ -55,7 +55,7 @@ pub struct Balanced {
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // Two free unit masses on a spring move against each other; measured with 0.05 of both together.
-/// let raw = ModeSet { omega_squared: dvector![2.0], shapes: dmatrix![1.0; -0.9] };
+/// let raw = ModeSet::new(dvector![2.0], dmatrix![1.0; -0.9])?;
 /// let stiffness = dmatrix![1.0, -1.0; -1.0, 1.0];
 /// let balanced = balance(&raw, &stiffness, &DMatrix::identity(2, 2), &dmatrix![1.0; 1.0])?;
 /// assert!((balanced.shapes - dmatrix![0.95; -0.95]).amax() < 1e-14);

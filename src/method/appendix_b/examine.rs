@@ -111,7 +111,7 @@ pub struct Examination {
 ///
 /// // The third shape has a fifth of either of the others in it.
 /// let shapes = dmatrix![1.0, 0.0, 0.2; 0.0, 1.0, 0.2; 0.0, 0.0, 1.0];
-/// let raw = ModeSet { omega_squared: dvector![1.0, 4.0, 9.0], shapes };
+/// let raw = ModeSet::new(dvector![1.0, 4.0, 9.0], shapes)?;
 /// let mass = DMatrix::identity(3, 3);
 /// let examination = examine(&raw, &mass, Supports::Held, &MovementLimits::default())?;
 /// assert_eq!(examination.kept, [0, 1]);

@@ -78,12 +78,12 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // The second shape has a tenth of the first in it.
-/// let raw = ModeSet { omega_squared: dvector![1.0, 4.0], shapes: dmatrix![1.0, 0.1; 0.0, 1.0] };
+/// let raw = ModeSet::new(dvector![1.0, 4.0], dmatrix![1.0, 0.1; 0.0, 1.0])?;
 /// let mass = DMatrix::identity(2, 2);
 /// let modes = orthogonalize(&raw, &mass)?.modes;
-/// assert!((generalized_mass(&modes.shapes, &mass)? - &mass).amax() < 1e-14);
+/// assert!((generalized_mass(modes.shapes(), &mass)? - &mass).amax() < 1e-14);
 /// // The sum of 1/ω² is that of the raw modes, 1 + 1/4.
-/// assert!((modes.omega_squared.map(f64::recip).sum() - 1.25).abs() < 1e-14);
+/// assert!((modes.omega_squared().map(f64::recip).sum() - 1.25).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {

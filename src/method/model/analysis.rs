@@ -100,9 +100,9 @@ impl FiniteElementModel {
     /// // A unit mass on a spring of 4 beside a test mode of ω² = 9: a frequency of 2 for 3.
     /// let (spring, parameters) = (rods(&[4.0], [true, false])?, vec![Parameter::element(1, None)]);
     /// let model = FiniteElementModel::new(spring, dmatrix![1.0], dmatrix![1.0], parameters)?;
-    /// let test = ModeSet { omega_squared: dvector![9.0], shapes: dmatrix![1.0] };
+    /// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
     /// let modal = model.analyze(&[1.0], &test, None)?;
-    /// assert!((modal.exact.errors.frequency - 1.0 / 3.0).abs() < 1e-14);
+    /// assert!((modal.exact().errors.frequency - 1.0 / 3.0).abs() < 1e-14);
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
     pub fn analyze(

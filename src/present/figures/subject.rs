@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 /// agreement of the modes before and after, and derivatives where there are any.
 ///
 /// # Errors
-/// Those of [`Modes::of`] and [`Subject::agreement`]; [`PresentError::Drawing`].
+/// Those of [`DrawnModes::of`] and [`Subject::agreement`]; [`PresentError::Drawing`].
 pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |what: &str,
