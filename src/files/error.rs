@@ -120,11 +120,12 @@ pub enum FileError {
     /// Results of NASTRAN-95 that are not what the deck asks for.
     #[error("NASTRAN-95: expected {expected}, found {found}")]
     SolverAnswer { expected: String, found: String },
-    /// A file that the operating system refuses to read, write, run or remove.
-    #[error("{path}: expected to {action} it, found an error: {source}")]
+    /// A file that the operating system refuses to read, write, run or remove; `named` says where it is named, if it is.
+    #[error("cannot {action} {}{named}: {}", .path.display(), why(action, source))]
     File {
         path: PathBuf,
         action: &'static str,
+        named: String,
         source: std::io::Error,
     },
 }
@@ -188,7 +189,17 @@ impl FileError {
         move |source| Self::File {
             path: path.clone(),
             action,
+            named: String::new(),
             source,
         }
+    }
+}
+
+/// Why a file was refused.
+fn why(action: &str, source: &std::io::Error) -> String {
+    match (source.kind(), action) {
+        (std::io::ErrorKind::NotFound, "write") => "no such folder".to_owned(),
+        (std::io::ErrorKind::NotFound, _) => "no such file".to_owned(),
+        _ => source.to_string(),
     }
 }

@@ -177,7 +177,7 @@ const MOST_LABELS: usize = 10_000_000;
 ///
 /// # Errors
 /// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
-/// [`FileError::Input`] naming line and entry that are not understood.
+/// naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
     refuse_removed(path, &text)?;
@@ -186,10 +186,11 @@ pub fn read(path: &Path) -> Result<Job, FileError> {
         ..job
     });
     job.map_err(|error| {
-        FileError::input(
+        let reason = error.to_string();
+        let reason = reason.trim_end();
+        FileError::refused(
             path.display(),
-            "a job as corfem init explains it",
-            error.to_string(),
+            format!("{reason}\n(corfem init explains every entry)"),
         )
     })
 }
@@ -202,11 +203,37 @@ impl Job {
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
     }
 
+    /// The bytes of a file that an entry names.
+    fn bytes(&self, file: &Path, entry: &str) -> Result<Vec<u8>, FileError> {
+        let job = self.path.file_name().unwrap_or_default();
+        std::fs::read(file).map_err(|source| FileError::File {
+            path: file.to_owned(),
+            action: "read",
+            named: format!(" ({entry} in {})", job.display()),
+            source,
+        })
+    }
+
     /// Its file's name.
     pub(crate) fn stem(&self) -> String {
         self.path
             .file_stem()
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// Refuses what is given, by what is wrong with it.
+    fn refuse_if(
+        &self,
+        given: Option<impl ToString>,
+        wrong: impl Fn(String) -> String,
+    ) -> Result<(), FileError> {
+        match given {
+            Some(given) => Err(FileError::refused(
+                self.path.display(),
+                wrong(given.to_string()),
+            )),
+            None => Ok(()),
+        }
     }
 
     fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {

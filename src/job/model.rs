@@ -39,7 +39,7 @@ pub struct ModelSource {
 
 /// The model of a job whose deck this file holds.
 pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
-    let bytes = std::fs::read(file).map_err(FileError::of_file(file, "read"))?;
+    let bytes = job.bytes(file, "model.deck")?;
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
@@ -74,7 +74,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         } in groups(job, rule, &deck)?
         {
             let unknown = labels.iter().find(|label| !row_of.contains_key(label));
-            job.refuse(unknown, format!("elements of the deck in parameter {name}"))?;
+            job.refuse_if(unknown, |label| {
+                format!("parameter \"{name}\": the deck has no element {label}")
+            })?;
             for &element in &labels {
                 if let Some(first) =
                     owner.insert((rule.scales == Scales::Mass, element), name.clone())
@@ -104,10 +106,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                     let is_known =
                         |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
                     let unknown = masses.iter().find(|label| !is_known(label));
-                    job.refuse(
-                        unknown,
-                        format!("point masses of the deck in parameter {name}"),
-                    )?;
+                    job.refuse_if(unknown, |label| {
+                        format!("parameter \"{name}\": the deck has no point mass {label}")
+                    })?;
                     for point in bulk
                         .masses
                         .iter()

@@ -60,7 +60,7 @@ impl Prepared {
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = job.beside(&job.test.file);
-        let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
+        let bytes = job.bytes(&file, "test.file")?;
         let data = test_data::read(&file.display().to_string(), &bytes)?;
         let source = Arc::new(load(&job)?);
         Self::with(job, data, source)

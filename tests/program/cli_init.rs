@@ -15,7 +15,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let refused = corfem(&["init", words(&path)]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        text(&refused.stderr).contains("job.toml: expected to write it"),
+        text(&refused.stderr).contains("job.toml: entity already exists"),
         "{}",
         text(&refused.stderr)
     );

@@ -299,7 +299,7 @@ fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
     let output = correlate(&job, &["--folder", words(&out)]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     let expected = format!(
-        "corfem: {}/no.mtx: expected to read it, found an error",
+        "corfem: cannot read {}/no.mtx (parameter story 3 in job.toml): no such file",
         words(folder.path())
     );
     assert!(

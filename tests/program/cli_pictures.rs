@@ -89,7 +89,7 @@ fn what_cannot_be_written_is_exit_status_2_and_takes_nothing_away() {
     std::fs::write(path("file"), "mine").expect("written");
     failed(
         &["report", "-q", "--out", &path("file")],
-        "file: expected to write it",
+        "file: Not a directory",
     );
     assert_eq!(
         std::fs::read_to_string(path("file")).expect("it reads"),
