@@ -93,6 +93,9 @@ pub enum FileError {
         expected: String,
         found: String,
     },
+    /// A job or what it names that is refused, and why.
+    #[error("{of}: {reason}")]
+    Refused { of: String, reason: String },
     /// A request to stop a correlation.
     #[error("correlation: expected to go on, found a request to stop")]
     Interrupted,
@@ -117,11 +120,12 @@ pub enum FileError {
     /// Results of NASTRAN-95 that are not what the deck asks for.
     #[error("NASTRAN-95: expected {expected}, found {found}")]
     SolverAnswer { expected: String, found: String },
-    /// A file that the operating system refuses to read, write, run or remove.
-    #[error("{path}: expected to {action} it, found an error: {source}")]
+    /// A file that the operating system refuses to read, write, run or remove; `named` says where it is named, if it is.
+    #[error("cannot {action} {}{named}: {}", .path.display(), why(action, source))]
     File {
         path: PathBuf,
         action: &'static str,
+        named: String,
         source: std::io::Error,
     },
 }
@@ -172,13 +176,30 @@ impl FileError {
         }
     }
 
+    pub(crate) fn refused(of: impl ToString, reason: impl Into<String>) -> Self {
+        Self::Refused {
+            of: of.to_string(),
+            reason: reason.into(),
+        }
+    }
+
     /// Turns the operating system's error about a file into this one, for `map_err`.
     pub fn of_file(path: &Path, action: &'static str) -> impl Fn(std::io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self::File {
             path: path.clone(),
             action,
+            named: String::new(),
             source,
         }
+    }
+}
+
+/// Why a file was refused.
+fn why(action: &str, source: &std::io::Error) -> String {
+    match (source.kind(), action) {
+        (std::io::ErrorKind::NotFound, "write") => "no such folder".to_owned(),
+        (std::io::ErrorKind::NotFound, _) => "no such file".to_owned(),
+        _ => source.to_string(),
     }
 }

@@ -1,4 +1,4 @@
-//! Files of other programs, and the programs themselves.
+//! Files of other programs: bytes to data and back.
 
 pub mod deck;
 pub mod error;

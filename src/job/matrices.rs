@@ -17,14 +17,14 @@ pub(super) fn from_matrices(
     stiffness: &Path,
     mass: &Path,
 ) -> Result<ModelSource, FileError> {
-    let stiffness = matrix(job, stiffness)?;
+    let stiffness = matrix(job, stiffness, "model.stiffness")?;
     let count = stiffness.matrix.rows();
     let own: Option<Vec<_>> = stiffness
         .rows
         .as_ref()
         .map(|labels| labels.iter().map(degree_of_freedom).collect());
     let (labels, places) = match (&job.model.rows, &own) {
-        (Some(file), _) => rows(&job.beside(file))?,
+        (Some(file), _) => rows(job, &job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
         (None, None) => {
             return Err(job.wrong(
@@ -50,7 +50,7 @@ pub(super) fn from_matrices(
         .collect();
     let twice = (row_of.len() != count).then_some("one in two");
     job.refuse(twice, "every grid and direction in one row of the matrices")?;
-    let mass = on_rows(job, mass, &row_of)?;
+    let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
         let ParameterRule {
@@ -80,7 +80,8 @@ pub(super) fn from_matrices(
                     found,
                 )
             })?;
-        let matrix = on_rows(job, file, &row_of)?;
+        let entry = format!("parameter {name}");
+        let matrix = on_rows(job, (file, &entry), &row_of)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
@@ -117,13 +118,13 @@ fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
 }
 
 /// A matrix of a file, its columns those of its rows; behind a `#` in its name stands which of several.
-fn matrix(job: &Job, file: &Path) -> Result<LabeledMatrix, FileError> {
+fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let (file, wanted) = text
         .rsplit_once('#')
         .map_or((&*text, None), |(file, name)| (file, Some(name)));
     let file = job.beside(Path::new(file));
-    let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
+    let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
     let others = (found.columns != found.rows).then_some("others");
     job.refuse(
@@ -136,10 +137,10 @@ fn matrix(job: &Job, file: &Path) -> Result<LabeledMatrix, FileError> {
 /// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
 fn on_rows(
     job: &Job,
-    file: &Path,
+    (file, entry): (&Path, &str),
     row_of: &BTreeMap<(usize, usize), usize>,
 ) -> Result<SparseMatrix, FileError> {
-    let LabeledMatrix { rows, matrix, .. } = matrix(job, file)?;
+    let LabeledMatrix { rows, matrix, .. } = matrix(job, file, entry)?;
     let Some(labels) = &rows else {
         return Ok(matrix);
     };
@@ -170,9 +171,8 @@ type LabeledRow = (usize, usize);
 type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
-fn rows(file: &Path) -> Result<Rows, FileError> {
-    let text =
-        decoded(&std::fs::read(file).map_err(FileError::of_file(file, "read"))?).into_owned();
+fn rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
+    let text = decoded(&job.bytes(file, "model.rows")?).into_owned();
     let lines = (1..)
         .zip(text.lines())
         .filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));

@@ -4,11 +4,13 @@
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
 pub mod assignment;
+mod entries;
 pub mod expansion;
 pub mod localization;
 mod matrices;
 pub mod metrics;
 mod model;
+pub mod nastran95;
 pub mod preflight;
 mod prepare;
 mod run;
@@ -16,6 +18,7 @@ mod samples;
 mod sensors;
 mod study;
 
+pub use entries::removed_step;
 pub use model::{Geometry, ModelSource};
 pub use prepare::Prepared;
 pub use run::{Finished, History, run};
@@ -25,6 +28,7 @@ pub use study::{Study, Vary};
 
 use crate::files::error::FileError;
 use crate::method::outer_loop::Settings;
+use entries::{CorrelationEntries, refuse_removed};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -53,7 +57,7 @@ pub struct Job {
     #[serde(default)]
     pub compare: Compare,
     /// How the correlation steps and stops.
-    #[serde(default)]
+    #[serde(default, with = "CorrelationEntries")]
     pub correlation: Settings,
 }
 
@@ -72,8 +76,6 @@ struct ModelFiles {
 struct TestFile {
     file: PathBuf,
     modes: Option<Vec<usize>>,
-    #[serde(default)]
-    orthogonalize: bool,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -145,11 +147,7 @@ enum Scales {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
-    /// Which modes of the model.
-    pub modes: ComparedModes,
     analysis_modes: Option<usize>,
-    pairing: PairingRule,
-    floor: Option<f64>,
     /// How the factors are found.
     pub method: Method,
     frequency_deviation: Option<f64>,
@@ -160,26 +158,6 @@ pub struct Compare {
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
     pub seed: u64,
-}
-
-/// Which modes of the model are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ComparedModes {
-    /// Those of the whole model, as the sensors see them: no condensation, and a structure may hang free.
-    #[default]
-    Whole,
-    /// Those of the model condensed to the sensors, as in the paper: faster where there are few sensors, and right when all mass
-    /// is there.
-    Condensed,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum PairingRule {
-    Closest,
-    #[default]
-    Optimal,
 }
 
 /// How factors are found.
@@ -199,18 +177,21 @@ const MOST_LABELS: usize = 10_000_000;
 /// Reads a job file.
 ///
 /// # Errors
-/// [`FileError::File`] when it cannot be read; [`FileError::Input`] naming line and entry that are not understood.
+/// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
+/// naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    refuse_removed(path, &text)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
         ..job
     });
     job.map_err(|error| {
-        FileError::input(
+        let reason = error.to_string();
+        let reason = reason.trim_end();
+        FileError::refused(
             path.display(),
-            "a job as corfem init explains it",
-            error.to_string(),
+            format!("{reason}\n(corfem init explains every entry)"),
         )
     })
 }
@@ -223,11 +204,37 @@ impl Job {
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
     }
 
+    /// The bytes of a file that an entry names.
+    fn bytes(&self, file: &Path, entry: &str) -> Result<Vec<u8>, FileError> {
+        let job = self.path.file_name().unwrap_or_default();
+        std::fs::read(file).map_err(|source| FileError::File {
+            path: file.to_owned(),
+            action: "read",
+            named: format!(" ({entry} in {})", job.display()),
+            source,
+        })
+    }
+
     /// Its file's name.
     pub(crate) fn stem(&self) -> String {
         self.path
             .file_stem()
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// Refuses what is given, by what is wrong with it.
+    fn refuse_if(
+        &self,
+        given: Option<impl ToString>,
+        wrong: impl Fn(String) -> String,
+    ) -> Result<(), FileError> {
+        match given {
+            Some(given) => Err(FileError::refused(
+                self.path.display(),
+                wrong(given.to_string()),
+            )),
+            None => Ok(()),
+        }
     }
 
     fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {

@@ -1,6 +1,5 @@
 //! The model that a job names, as matrices at all degrees of freedom, and where these are.
 
-use super::matrices::from_matrices;
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
@@ -38,27 +37,9 @@ pub struct ModelSource {
     pub members: Vec<Vec<usize>>,
 }
 
-/// Reads the model of a job.
-pub(super) fn load(job: &Job) -> Result<ModelSource, FileError> {
-    job.refuse(
-        job.parameters.is_empty().then_some("none"),
-        "at least one [[parameter]]",
-    )?;
-    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
-        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
-        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
-        (None, None, None) => "neither",
-        (Some(_), ..) => "a deck and matrices",
-        _ => "one matrix alone",
-    };
-    Err(job.wrong(
-        "either model.deck, or model.stiffness and model.mass",
-        found,
-    ))
-}
-
-fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
-    let bytes = std::fs::read(file).map_err(FileError::of_file(file, "read"))?;
+/// The model of a job whose deck this file holds.
+pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
+    let bytes = job.bytes(file, "model.deck")?;
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
@@ -93,7 +74,9 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
         } in groups(job, rule, &deck)?
         {
             let unknown = labels.iter().find(|label| !row_of.contains_key(label));
-            job.refuse(unknown, format!("elements of the deck in parameter {name}"))?;
+            job.refuse_if(unknown, |label| {
+                format!("parameter \"{name}\": the deck has no element {label}")
+            })?;
             for &element in &labels {
                 if let Some(first) =
                     owner.insert((rule.scales == Scales::Mass, element), name.clone())
@@ -123,10 +106,9 @@ fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
                     let is_known =
                         |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
                     let unknown = masses.iter().find(|label| !is_known(label));
-                    job.refuse(
-                        unknown,
-                        format!("point masses of the deck in parameter {name}"),
-                    )?;
+                    job.refuse_if(unknown, |label| {
+                        format!("parameter \"{name}\": the deck has no point mass {label}")
+                    })?;
                     for point in bulk
                         .masses
                         .iter()

@@ -1,23 +1,23 @@
 //! Model and test put together: what a correlation of a job starts from.
 
-use super::model::load;
+use super::matrices::from_matrices;
+use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
-use super::{Compare, ComparedModes, Job, Method, ModelSource, PairingRule, read};
+use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::appendix_b::{ModeReport, ModeVerdict, MovementLimits, Supports, examine};
 use crate::method::error::Error;
-use crate::method::model::{ModalModel, Pair};
+use crate::method::model::ModalModel;
 use crate::method::modes::ModeSet;
-use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
+use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
 use nalgebra::DMatrix;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Modal assurance below which a test mode counts as without a partner, unless the job says otherwise.
+/// Modal assurance below which a test mode counts as without a partner.
 const FLOOR: f64 = 0.5;
 
 /// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
@@ -45,8 +45,6 @@ pub struct Prepared {
     pub modes: Vec<usize>,
     /// Test modes, from zero, that no mode of the first model is like, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
-    /// Test modes, from zero, that Appendix B deleted, and why.
-    pub deleted: Vec<(usize, ModeReport)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
     /// The first model, and how, with how many modes and with which test it was compared.
@@ -62,7 +60,7 @@ impl Prepared {
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = job.beside(&job.test.file);
-        let bytes = std::fs::read(&file).map_err(FileError::of_file(&file, "read"))?;
+        let bytes = job.bytes(&file, "test.file")?;
         let data = test_data::read(&file.display().to_string(), &bytes)?;
         let source = Arc::new(load(&job)?);
         Self::with(job, data, source)
@@ -103,10 +101,7 @@ impl Prepared {
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
-        let most = match job.compare.modes {
-            ComparedModes::Whole => source.whole.dof_count(),
-            ComparedModes::Condensed => placed.len(),
-        };
+        let most = source.whole.dof_count();
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
         let mut prepared = Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
@@ -118,39 +113,44 @@ impl Prepared {
             test,
             modes,
             unpaired: Vec::new(),
-            deleted: Vec::new(),
             analysis_modes,
             first: None,
         };
-        if prepared.job.test.orthogonalize {
-            prepared.orthogonalize()?;
-        }
         prepared.leave_out_unpaired()?;
         prepared.weights()?;
         Ok(prepared)
     }
 
-    /// Appendix B: the test modes orthogonalized with the mass at the sensors, without those that move too much by it. The structure
-    /// counts as held, so that nothing is balanced.
-    fn orthogonalize(&mut self) -> Result<(), FileError> {
-        let (_, mass) = self.source.whole.condensed(&self.ones(), &self.sensors)?;
-        let examined = examine(
-            &self.test,
-            &mass,
-            Supports::Held,
-            &MovementLimits::default(),
-        )?;
-        let reports = self.modes.iter().copied().zip(examined.reports);
-        self.deleted = reports
-            .filter(|(_, report)| report.verdict != ModeVerdict::Kept)
-            .collect();
-        self.modes = examined
-            .kept
+    /// A digest of the job's file, of the files it names and of what the command line `adds`.
+    ///
+    /// # Errors
+    /// [`FileError::File`] when one of them cannot be read any more.
+    pub fn identity(&self, adds: &str) -> Result<u64, FileError> {
+        let job = &self.job;
+        let model = [
+            &job.model.deck,
+            &job.model.stiffness,
+            &job.model.mass,
+            &job.model.rows,
+        ];
+        let named = model
             .into_iter()
-            .map(|mode| self.modes[mode])
-            .collect();
-        self.test = examined.modes;
-        Ok(())
+            .chain(job.parameters.iter().map(|rule| &rule.matrix))
+            .flatten();
+        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
+        let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
+        let mut identity = digest(program.as_bytes(), 0);
+        for file in named.chain([job.path.clone()]) {
+            // Behind a # may stand which matrix of the file.
+            let text = file.to_string_lossy();
+            let of_matrix =
+                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
+            let bytes = std::fs::read(&file)
+                .or_else(of_matrix)
+                .map_err(FileError::of_file(&file, "read"))?;
+            identity = digest(&bytes, identity);
+        }
+        Ok(identity)
     }
 
     /// Leaves out the test modes that no mode of the first model is like.
@@ -184,8 +184,7 @@ impl Prepared {
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
         let assurance = modal_assurance(&shapes, &self.test.shapes)?;
-        let floor = self.job.compare.floor.unwrap_or(FLOOR);
-        let partners = pair_optimally(&assurance, floor)?;
+        let partners = pair_optimally(&assurance, FLOOR)?;
         let kept: Vec<usize> = (0..partners.len())
             .filter(|&mode| partners[mode].is_some())
             .collect();
@@ -199,7 +198,7 @@ impl Prepared {
         let expected = "a mode of the model with a modal assurance of";
         self.job.refuse(
             best,
-            format!("{expected} {floor} or more for one test mode at least"),
+            format!("{expected} {FLOOR} or more for one test mode at least"),
         )?;
         if self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
@@ -238,7 +237,7 @@ impl Prepared {
     /// What the loops are handed at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`crate::sparse::WholeModel::analyze`] and its condensed way.
+    /// Those of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         if let Some((compare, count, test, first)) = &self.first
             && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
@@ -252,16 +251,7 @@ impl Prepared {
             &self.test,
             self.analysis_modes,
         );
-        let pair: Pair = match self.job.compare.pairing {
-            PairingRule::Closest => pair_modes,
-            PairingRule::Optimal => pair_by_assignment,
-        };
-        let model = match self.job.compare.modes {
-            ComparedModes::Whole => whole.analyze(factors, sensors, (test, pair), count),
-            ComparedModes::Condensed => {
-                whole.analyze_condensed(factors, sensors, test, Some(count))
-            }
-        };
+        let model = whole.analyze(factors, sensors, (test, pair_by_assignment), count);
         // Gauss-Newton steps have weights of their own.
         let is_paper = self.job.compare.method == Method::Paper;
         if is_paper {
@@ -270,6 +260,31 @@ impl Prepared {
             model
         }
     }
+}
+
+/// Reads the model of a job.
+fn load(job: &Job) -> Result<ModelSource, FileError> {
+    job.refuse(
+        job.parameters.is_empty().then_some("none"),
+        "at least one [[parameter]]",
+    )?;
+    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
+        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
+        (None, None, None) => "neither",
+        (Some(_), ..) => "a deck and matrices",
+        _ => "one matrix alone",
+    };
+    Err(job.wrong(
+        "either model.deck, or model.stiffness and model.mass",
+        found,
+    ))
+}
+
+/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
+pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
+    let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)
 }
 
 /// The test modes at the sensors placed.

@@ -1,7 +1,8 @@
 //! The samples of a study as a file has them, one a line, and what they come to.
 
 use super::Study;
-use super::study::{FAILED, digest};
+use super::prepare::digest;
+use super::study::FAILED;
 use crate::files::error::FileError;
 use std::collections::BTreeMap;
 use std::fs::File;

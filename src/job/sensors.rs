@@ -88,14 +88,12 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         };
         let axis = measured.unwrap_or_else(|| Vector3::ith(direction % 3, 1.0));
         let is_still = motion(source, grid, direction, axis).next().is_none();
-        let still = is_still.then(|| format!("grid {grid} {}", DIRECTIONS[direction]));
-        job.refuse(
-            still,
+        job.refuse_if(is_still.then_some(grid), |grid| {
             format!(
-                "a degree of freedom of the model that moves for sensor {}",
-                sensor.name
-            ),
-        )?;
+                "sensor {}: the model has no free degree of freedom at grid {grid}, direction {}",
+                sensor.name, DIRECTIONS[direction]
+            )
+        })?;
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);

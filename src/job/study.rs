@@ -46,32 +46,7 @@ impl Study {
         let mut vary = vary.to_vec();
         vary.sort_unstable();
         vary.dedup();
-        let job = &prepared.job;
-        let mut identity = digest(
-            format!("{} {seed} {vary:?}", env!("CARGO_PKG_VERSION")).as_bytes(),
-            0,
-        );
-        let model = [
-            &job.model.deck,
-            &job.model.stiffness,
-            &job.model.mass,
-            &job.model.rows,
-        ];
-        let named = model
-            .into_iter()
-            .chain(job.parameters.iter().map(|rule| &rule.matrix))
-            .flatten();
-        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
-        for file in named.chain([path.to_owned()]) {
-            // Behind a # may stand which matrix of the file.
-            let text = file.to_string_lossy();
-            let of_matrix =
-                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
-            let bytes = std::fs::read(&file)
-                .or_else(of_matrix)
-                .map_err(FileError::of_file(&file, "read"))?;
-            identity = digest(&bytes, identity);
-        }
+        let identity = prepared.identity(&format!("{seed} {vary:?}"))?;
         Ok(Self {
             prepared,
             seed,
@@ -238,9 +213,3 @@ impl Study {
 
 /// The outcome of a sample that failed.
 pub(super) const FAILED: &str = "failed";
-
-/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
-pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
-    let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)
-}

@@ -6,6 +6,7 @@ use super::place::put;
 use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
+use corfem::files::escaped;
 use corfem::job::{Method, Prepared, TEMPLATE, TEST_TEMPLATE, run};
 use corfem::present::page::subject_page;
 use corfem::present::subject::Subject;
@@ -14,7 +15,7 @@ use corfem::present::tables::job::{doubts_table, places_table, seen_table, suspe
 use corfem::present::tables::subject::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -53,6 +54,12 @@ pub struct CheckArguments {
     job: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+/// What a run calls its job: the file's name without its folders, which are nothing of the run's.
+pub fn file_name(job: &Path) -> String {
+    job.file_name()
+        .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
 }
 
 /// Writes a job, or a test's table, that explains itself.
@@ -141,6 +148,12 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             doubts_table(&prepared)?,
         ];
         let command = format!("corfem correlate {}", arguments.job.display());
+        let identity =
+            prepared.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
+        let run = format!(
+            "correlate {}, inputs {identity:016x}",
+            file_name(&arguments.job)
+        );
         let mut files = vec![
             (
                 "report.html".to_owned(),
@@ -161,7 +174,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
                 .flatten()
                 .map(|deck| ("corrected.bdf".to_owned(), deck)),
         );
-        put_all(folder, &files)?;
+        put_all(folder, &files, &run)?;
         deck?;
     }
     if finished.is_interrupted {

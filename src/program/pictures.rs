@@ -1,4 +1,4 @@
-//! `corfem figures`, `corfem report` and `corfem dump`: files in a folder, all of them or none.
+//! `corfem figures`, `corfem report` and `corfem dump`: files in a folder.
 
 use super::folder::put_all;
 use super::output::say as tell;
@@ -47,14 +47,18 @@ pub fn pictures(
             figures: &figures,
             command: &format!("corfem report --output {}", folder.display()),
         })?;
-        put_all(folder, &[("report.html".to_owned(), html.into_bytes())])?;
+        put_all(
+            folder,
+            &[("report.html".to_owned(), html.into_bytes())],
+            "report",
+        )?;
         say(folder.join("report.html").display().to_string());
     } else {
         let files: Vec<_> = figures
             .into_iter()
             .map(|figure| (figure.name + ".svg", figure.svg.into_bytes()))
             .collect();
-        put_all(folder, &files)?;
+        put_all(folder, &files, "figures")?;
         say(format!("{} files in {}", files.len(), folder.display()));
     }
     Ok(())
@@ -83,7 +87,7 @@ pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> 
             .into_iter()
             .map(|(name, text)| (name, text.into_bytes())),
     );
-    put_all(folder, &files)?;
+    put_all(folder, &files, &format!("dump {}", arguments.case))?;
     if !quiet {
         tell(format_args!(
             "{} files in {}",

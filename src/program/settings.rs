@@ -1,20 +1,21 @@
 //! Settings of the loops from the command line, so that a reader tries another reading without writing Rust.
 
 use clap::Args;
+use corfem::job::removed_step;
 use corfem::method::linear_algebra::check_length;
 use corfem::method::model::Range;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::present::PresentError;
 use serde::Deserialize;
-use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
+use serde::de::{Error as _, IntoDeserializer};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Settings of the loops")]
 pub struct SettingsArguments {
     /// How the step measures a change of stiffness: matrix, own, relative or gage
-    #[arg(long, value_name = "RULE", value_parser = named::<StepRule>)]
+    #[arg(long, value_name = "RULE", value_parser = rule)]
     rule: Option<StepRule>,
     /// How changes of several iterations come together: sum or product
     #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>)]
@@ -40,6 +41,11 @@ pub struct SettingsArguments {
 pub fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
     let from: StrDeserializer<Error> = text.into_deserializer();
     T::deserialize(from)
+}
+
+/// A rule of the step by its name; of one that is gone it says so.
+fn rule(text: &str) -> Result<StepRule, Error> {
+    removed_step(text).map_or_else(|| named(text), |removed| Err(Error::custom(removed)))
 }
 
 impl SettingsArguments {

@@ -2,7 +2,7 @@
 
 use super::signals;
 use clap::{Args, ValueEnum};
-use corfem::files::nastran95::{NAME, Nastran95, default_folder};
+use corfem::job::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::FiniteElementModel;
 use corfem::present::PresentError;
 use corfem::torque_box::BUILT_IN;

@@ -1,6 +1,7 @@
 //! `corfem study`: a job many times, its test varied by what it may be wrong by.
 
 use super::folder::put_all;
+use super::job::file_name;
 use super::output::{OutputArguments, say};
 use super::settings::named;
 use super::{progress, signals};
@@ -117,6 +118,11 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     put_all(
         folder,
         &files.map(|(name, text)| (name.to_owned(), text.into_bytes())),
+        &format!(
+            "study {}, inputs {:016x}",
+            file_name(&arguments.job),
+            study.identity
+        ),
     )?;
     arguments
         .output

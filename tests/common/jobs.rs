@@ -57,7 +57,7 @@ fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64
     }
 }
 
-/// The paper's box of Case 2 from its deck, its nine modes with noise, and Appendix B on them.
+/// The paper's box of Case 2 from its deck, and its nine modes with noise.
 pub fn torque_box() -> Files {
     let case = Case::new(2).expect("Case 2");
     let model = case.model().expect("a model");
@@ -75,8 +75,7 @@ pub fn torque_box() -> Files {
     data.frequency_deviation = Some(vec![Noise::USUAL.frequency; noisy.len()]);
     data.shape_deviation = Some(vec![Noise::USUAL.shape; noisy.len()]);
     let ranges = model.factor_ranges().expect("ranges");
-    let mut job = "title = \"torque box\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.csv\"\n\
-                   # Appendix B: orthogonalized, and without the modes that move too much by it.\northogonalize = true\n\n\
+    let mut job = "title = \"torque box\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.csv\"\n\n\
                    [compare]\nmethod = \"gauss_newton\"\n"
         .to_owned();
     for (parameter, range) in model.parameters().iter().zip(ranges) {

@@ -3,6 +3,7 @@
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::job::{Prepared, run};
+use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -84,19 +85,15 @@ fn a_job_names_its_model_once_and_whole() {
         (
             "model.bdf",
             "no.bdf",
-            "no.bdf: expected to read it, found an error",
+            "no.bdf (model.deck in job.toml): no such file",
         ),
         (
             "test.csv",
             "no.csv",
-            "no.csv: expected to read it, found an error",
+            "no.csv (test.file in job.toml): no such file",
         ),
         ("[model]", "[model]\ndek = 1", "unknown field `dek`"),
-        (
-            "[model]",
-            "[model",
-            "job.toml: expected a job as corfem init explains it, found TOML parse error at line 1",
-        ),
+        ("[model]", "[model", "job.toml: TOML parse error at line 1"),
         ("gauss_newton", "newton", "unknown variant `newton`"),
     ]);
     let mut none = rods();
@@ -118,7 +115,7 @@ fn a_job_names_its_model_once_and_whole() {
         .to_string();
     assert!(
         missing.starts_with(&format!(
-            "{}/job.toml: expected to read it",
+            "cannot read {}/job.toml: no such file",
             folder.path().display()
         )),
         "{missing}"
@@ -151,12 +148,12 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [\"9999990-9999999\"]",
-            "expected elements of the deck in parameter a, found 9999990",
+            "parameter \"a\": the deck has no element 9999990",
         ),
         (
             A,
             "elements = [1, 9]",
-            "expected elements of the deck in parameter a, found 9",
+            "parameter \"a\": the deck has no element 9",
         ),
         (
             A,
@@ -186,7 +183,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "masses = [12, 19]\nscales = \"mass\"",
-            "expected point masses of the deck in parameter a, found 19",
+            "parameter \"a\": the deck has no point mass 19",
         ),
         (
             A,
@@ -354,17 +351,17 @@ fn sensors_are_those_of_the_test_at_what_moves() {
         (
             SENSORS,
             &place("S2", 1, "x"),
-            "that moves for sensor S2, found grid 1 x",
+            "sensor S2: the model has no free degree of freedom at grid 1, direction x",
         ),
         (
             SENSORS,
             &place("S2", 2, "z"),
-            "that moves for sensor S2, found grid 2 z",
+            "sensor S2: the model has no free degree of freedom at grid 2, direction z",
         ),
         (
             SENSORS,
             &place("S2", 77, "x"),
-            "that moves for sensor S2, found grid 77 x",
+            "sensor S2: the model has no free degree of freedom at grid 77, direction x",
         ),
         (
             SENSORS,
@@ -452,12 +449,59 @@ fn test_modes_are_there_and_named_once() {
             "starts = 2",
             "expected one of compare.starts where the method is \"paper\", found 2",
         ),
+    ]);
+}
+
+#[test]
+fn an_entry_that_is_gone_is_named_with_what_happens_instead() {
+    const FILE: &str = "file = \"test.csv\"";
+    const INNER: &str = "[correlation.inner]\nstep = ";
+    check(&[
+        (
+            FILE,
+            "file = \"test.csv\"\northogonalize = true",
+            "job.toml: test.orthogonalize is no longer an entry: test modes are compared as they were measured",
+        ),
         (
             COMPARE,
-            "[compare]\nfloor = 1.5",
-            "with a modal assurance of 1.5 or more for one test mode at least",
+            "[correlation.inner]\nhalvings = 3\n[compare]",
+            "job.toml: correlation.inner.halvings is no longer an entry: a step that does not lower",
         ),
+        (
+            COMPARE,
+            &format!("{INNER}\"steepest_descent\"\n[compare]"),
+            "job.toml: correlation.inner.step: the step rule steepest_descent is gone; choose matrix, own, relative or gage",
+        ),
+        (
+            COMPARE,
+            &format!("{INNER}\"best\"\n[compare]"),
+            "unknown variant `best`",
+        ),
+        (COMPARE, "[compare]\nflor = 0.1", "unknown field `flor`"),
     ]);
+}
+
+/// What a job leaves out of its settings is the library's, and what it gives is taken.
+#[test]
+fn a_job_sets_some_of_the_settings_and_the_others_are_the_librarys() {
+    let settings = |job: &str| {
+        let (_folder, path) = placed(&with(
+            rods(),
+            "job.toml",
+            COMPARE,
+            &format!("{job}\n[compare]"),
+        ));
+        corfem::job::read(&path).expect("a job").correlation
+    };
+    assert_eq!(settings(""), Settings::default());
+    let mut expected = Settings {
+        most_passes: 3,
+        ..Settings::default()
+    };
+    assert_eq!(settings("[correlation]\nmost_passes = 3"), expected);
+    expected.inner.tolerance = 0.5;
+    let given = "[correlation]\nmost_passes = 3\n[correlation.inner]\ntolerance = 0.5";
+    assert_eq!(settings(given), expected);
 }
 
 #[test]

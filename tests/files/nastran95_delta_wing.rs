@@ -12,7 +12,7 @@ use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
 use crate::common::wing_subjects::wing_subject;
 use crate::evidence::delta_wing_tables::delta_wing_tables;
 use corfem::files::error::FileError;
-use corfem::files::nastran95::NAME;
+use corfem::job::nastran95::NAME;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::present::json;

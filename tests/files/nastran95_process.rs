@@ -5,7 +5,7 @@
 use crate::common::fake_solver::{fake, solver};
 use crate::common::signals::{SIGNALS, send, undisturbed};
 use corfem::files::error::FileError;
-use corfem::files::nastran95::{Nastran95, default_folder};
+use corfem::job::nastran95::{Nastran95, default_folder};
 use rustix::process::Signal;
 use std::os::unix::{fs::PermissionsExt, process::ExitStatusExt};
 use std::path::Path;
@@ -299,7 +299,7 @@ fn a_temporary_folder_that_cannot_be_made_is_named() {
     assert_eq!(output.status.code(), Some(2));
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        stderr.starts_with("corfem: /no/such/folder: expected to write it"),
+        stderr.starts_with("corfem: cannot write /no/such/folder: "),
         "{stderr}"
     );
 }

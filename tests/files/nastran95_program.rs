@@ -10,7 +10,7 @@ use crate::common::tolerances::{
     NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
 };
 use corfem::files::deck::{self, BulkData, Task};
-use corfem::files::nastran95::{NAME, Nastran95, default_folder};
+use corfem::job::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::model::{DynamicModel, FiniteElementModel};
 use corfem::method::modes::solve;
 use corfem::present::PresentError;

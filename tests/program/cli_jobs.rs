@@ -92,7 +92,18 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             (parameters.len(), parameters.len()),
             "{name}"
         );
-        let mut table = csv::Reader::from_path(folder.path().join("factors.csv")).expect("a table");
+        let path = folder.path().join("factors.csv");
+        let run = format!(
+            "corfem {} correlate job.toml, inputs ",
+            env!("CARGO_PKG_VERSION")
+        );
+        for name in &expected {
+            let text = std::fs::read_to_string(folder.path().join(name)).expect("it reads");
+            // A corrected deck keeps every byte beside its corrected numbers.
+            assert_eq!(text.contains(&run), *name != "corrected.bdf", "{name}");
+        }
+        let mut reader = csv::ReaderBuilder::new();
+        let mut table = reader.comment(Some(b'#')).from_path(path).expect("a table");
         let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("a row")).collect();
         for (e, parameter) in parameters.iter().enumerate() {
             let of = |column: &str| {
@@ -288,7 +299,7 @@ fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
     let output = correlate(&job, &["--folder", words(&out)]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     let expected = format!(
-        "corfem: {}/no.mtx: expected to read it, found an error",
+        "corfem: cannot read {}/no.mtx (parameter story 3 in job.toml): no such file",
         words(folder.path())
     );
     assert!(

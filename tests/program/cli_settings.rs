@@ -81,6 +81,10 @@ fn fewer_modes_takes_them_too() {
 fn settings_out_of_range_are_refused_by_their_names() {
     for (arguments, said) in [
         (["--rule", "best"], "unknown variant `best`"),
+        (
+            ["--rule", "sum"],
+            "the step rule sum is gone; choose matrix, own, relative or gage",
+        ),
         (["--limits", "1.5,0.5"], "--limits"),
         (["--limits", "0.5"], "--limits: expected 2 x 1, found 1 x 1"),
         (

@@ -224,7 +224,7 @@ fn bad_input_is_exit_status_2() {
     }
     let absent = corfem(&["modes", "no/such.dat"]);
     assert_eq!(absent.status.code(), Some(2));
-    assert!(text(&absent.stderr).contains("no/such.dat: expected to read it"));
+    assert!(text(&absent.stderr).contains("cannot read no/such.dat: no such file"));
 }
 
 /// A rod that holds one mass, with three cards that the crate does not understand.

@@ -182,8 +182,13 @@ fn a_folder_gets_every_matrix_as_the_document_has_it() {
     );
     // T, V_G and the document; K_D, M, V, B and fifteen shares of the start and of both passes.
     assert_eq!(fs::read_dir(&path).expect("a folder").count(), 3 + 3 * 19);
-    let dump: Value =
+    let mut dump: Value =
         serde_json::from_slice(&fs::read(path.join("dump.json")).expect("a file")).expect("JSON");
+    let run = dump.as_object_mut().and_then(|dump| dump.remove("run"));
+    assert_eq!(
+        run,
+        Some(concat!("corfem ", env!("CARGO_PKG_VERSION"), " dump 2").into())
+    );
     assert_eq!(dump, dumped("2"));
     let stored = |name: &str| {
         let name = format!("{name}.mtx");

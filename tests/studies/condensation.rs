@@ -4,7 +4,6 @@ use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
 use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
-use corfem::job::preflight::coarse_condensation;
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
@@ -115,22 +114,6 @@ fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
         .filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR)
         .count();
     assert!((1..=4).contains(&refused), "{errors:?}");
-    // The pre-flight says so, mode by mode, and says nothing where every joint is measured.
-    let findings = coarse_condensation(&model, &ONES, &joints, 5).expect("findings");
-    assert_eq!(findings.len(), refused);
-    assert!(
-        findings[0]
-            .to_string()
-            .starts_with("Condensation to the measured points raises mode "),
-        "{}",
-        findings[0]
-    );
-    let all: Vec<usize> = (1..=RODS).collect();
-    let (model, joints) = whole(&bar(&[1.0; RODS], &all));
-    assert_eq!(
-        coarse_condensation(&model, &ONES, &joints, RODS).expect("findings"),
-        []
-    );
 }
 
 /// A model whose one parameter is all its stiffness.

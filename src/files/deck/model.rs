@@ -1,6 +1,5 @@
 //! What a deck says: grids, elements, ties and masses, whatever the order and the format of its cards.
 
-use super::modes::check_memory;
 use crate::files::error::FileError;
 use crate::method::assembly::{ElementMatrix, lumped_mass};
 use crate::method::error::Error;
@@ -15,6 +14,12 @@ use std::collections::{BTreeMap, HashMap};
 const DYNAMIC_DIRECTION: usize = 2;
 /// Numbers made up here start after the next multiple of this, so that a reader tells them from those given.
 const LABEL_STEP: usize = 100;
+/// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
+const MOST_MEMORY: f64 = 4.0;
+/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once:
+/// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
+const DENSE_MATRICES: f64 = 10.0;
+const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 
 /// One MPC equation, $a_m u_m + \sum_j a_j u_j = 0$, which makes the DOF $m$ follow the others.
 #[derive(Debug, Clone, PartialEq)]
@@ -302,5 +307,22 @@ impl BulkData {
 
     pub(super) fn sizes(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.size).collect()
+    }
+}
+
+/// Refuses dense matrices that memory does not hold, before they are made.
+fn check_memory(masses: usize, free: usize) -> Result<(), FileError> {
+    let entries = masses as f64 * masses.max(free) as f64;
+    let needed = DENSE_MATRICES * entries * size_of::<f64>() as f64 / BYTES_PER_GIB;
+    let refused = FileError::TooManyMasses {
+        most: MOST_MEMORY,
+        needed,
+        masses,
+        free,
+    };
+    if needed <= MOST_MEMORY {
+        Ok(())
+    } else {
+        Err(refused)
     }
 }

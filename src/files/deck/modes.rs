@@ -10,12 +10,6 @@ use crate::method::structure::{DIRECTIONS, Structure, positive};
 use crate::sparse::factorization::FactorizedStiffness;
 use crate::sparse::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};
 
-/// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
-const MOST_MEMORY: f64 = 4.0;
-/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once:
-/// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
-const DENSE_MATRICES: f64 = 10.0;
-const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
 /// 1e10 six digits of the lowest frequency are left.
 const LARGEST_RATIO: f64 = 1e10;
@@ -61,23 +55,6 @@ pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
         positive("generalized mass", owner, shape.amax().powi(-2))?;
     }
     Ok(found)
-}
-
-/// Refuses dense matrices that memory does not hold, before they are made.
-pub(super) fn check_memory(masses: usize, free: usize) -> Result<(), FileError> {
-    let entries = masses as f64 * masses.max(free) as f64;
-    let needed = DENSE_MATRICES * entries * size_of::<f64>() as f64 / BYTES_PER_GIB;
-    let refused = FileError::TooManyMasses {
-        most: MOST_MEMORY,
-        needed,
-        masses,
-        free,
-    };
-    if needed <= MOST_MEMORY {
-        Ok(())
-    } else {
-        Err(refused)
-    }
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.

@@ -6,6 +6,7 @@ pub mod complex_modes;
 mod csv;
 mod universal;
 mod universal_axes;
+mod universal_block;
 
 pub(crate) use csv::{cells, quoted, separator};
 

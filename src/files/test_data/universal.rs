@@ -14,18 +14,15 @@
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
 
 use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
-use super::{Sensor, TestData, default_name, real};
+use super::universal_block::{Block, INTEGER, LONG_REAL, REAL, VALUES, integer};
+use super::{Sensor, TestData, default_name};
 use crate::files::error::FileError;
 use crate::files::test_data::complex_modes::realize;
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-/// Columns of a record of node numbers or codes, of one of values, of a line of these, and of a node in dataset 15.
-const INTEGER: usize = 10;
-const REAL: usize = 13;
-pub(super) const LONG_REAL: usize = 25;
-pub(super) const VALUES: [usize; 6] = [REAL; 6];
+/// Columns of a node in dataset 15.
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
@@ -39,74 +36,6 @@ struct FoundModes {
     systems: Systems,
     shapes: Vec<BTreeMap<(usize, usize), Complex<f64>>>,
     complex: bool,
-}
-
-/// The lines of one dataset that are still to be read.
-pub(super) struct Block<'a> {
-    file: &'a str,
-    lines: &'a [&'a str],
-    /// Number of the next line in the file, from one.
-    number: usize,
-}
-
-impl<'a> Block<'a> {
-    pub fn is_done(&self) -> bool {
-        self.lines.iter().all(|line| line.trim().is_empty())
-    }
-
-    pub fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
-        let end = || FileError::line(self.file, self.number, expected, "the end of the dataset");
-        let (first, rest) = self.lines.split_first().ok_or_else(end)?;
-        (self.lines, self.number) = (rest, self.number + 1);
-        Ok(first)
-    }
-
-    /// An error about the line read last.
-    pub fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
-        FileError::line(self.file, self.number - 1, expected, found.to_string())
-    }
-
-    /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
-    pub fn reals(
-        &mut self,
-        expected: &'static str,
-        widths: &[usize],
-    ) -> Result<Vec<f64>, FileError> {
-        let line = self.line(expected)?;
-        let mut start = 0;
-        let column = |&width: &usize| {
-            let text = line.get(start..line.len().min(start + width));
-            start += width;
-            text.and_then(|text| real(text.trim()))
-        };
-        let by_columns: Option<Vec<f64>> = widths.iter().map(column).collect();
-        let by_blanks = || {
-            line.split_whitespace()
-                .take(widths.len())
-                .map(real)
-                .collect::<Option<Vec<f64>>>()
-        };
-        let numbers = by_columns
-            .or_else(by_blanks)
-            .filter(|numbers| numbers.len() == widths.len());
-        numbers.ok_or_else(|| self.wrong(expected, line.trim()))
-    }
-
-    pub fn integers(
-        &mut self,
-        expected: &'static str,
-        count: usize,
-    ) -> Result<Vec<usize>, FileError> {
-        let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
-        numbers
-            .into_iter()
-            .map(|number| integer(number).ok_or_else(|| self.wrong(expected, number)))
-            .collect()
-    }
-}
-
-fn integer(number: f64) -> Option<usize> {
-    ((0.0..1e15).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
 
 fn is_mark(line: &str) -> bool {
@@ -140,11 +69,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             + count.ok_or_else(|| {
                 wrong(lines.len(), "the end of the dataset, -1 in columns 5 and 6")
             })?;
-        let mut block = Block {
-            file,
-            lines: &lines[at + 2..end],
-            number: at + 3,
-        };
+        let mut block = Block::new(file, &lines[at + 2..end], at + 3);
         match dataset {
             15 | 2411 => found.nodes(&mut block, dataset)?,
             18 => by_points(&mut block, &mut found.systems)?,
@@ -173,7 +98,7 @@ impl FoundModes {
             let of_place = if dataset == 15 { numbers[1] } else { 0.0 };
             let (systems, line) = (
                 [of_place, numbers[2]].map(|number| integer(number).unwrap_or(0)),
-                block.number - 1,
+                block.last_number(),
             );
             if dataset == 2411 {
                 numbers.extend(block.reals("three coordinates", &[LONG_REAL; 3])?);

@@ -1,6 +1,6 @@
 //! Coordinate systems of a Universal File: dataset 18 gives them by three points, dataset 2420 by a matrix.
 
-use super::universal::{Block, LONG_REAL, VALUES};
+use super::universal_block::{Block, LONG_REAL, VALUES};
 use crate::files::error::FileError;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;

@@ -11,6 +11,7 @@
 //! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
 
 mod frequencies;
+mod look;
 mod order;
 mod shapes;
 mod words;
@@ -24,10 +25,10 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use crate::sparse::{CondensationError, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel};
+use look::{Look, paired_values, reordered};
 use nalgebra::DMatrix;
 use serde::Serialize;
-use shapes::{Look, changed, mend, paired_values, reordered};
+use shapes::{changed, mend};
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
@@ -83,32 +84,6 @@ pub enum Finding {
     ExcludesStart { parameter: usize, range: Range },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
-    /// Condensation to the measured points makes a mode of the model itself too stiff.
-    CoarseCondensation {
-        mode: usize,
-        error: CondensationError,
-    },
-}
-
-/// The lowest `count` modes that condensation to the measured points raises by more than
-/// [`LARGEST_CONDENSATION_ERROR`]: what a correlation would take for an error of the elements.
-///
-/// # Errors
-/// Those of [`WholeModel::condensation_errors`].
-pub fn coarse_condensation(
-    model: &WholeModel,
-    factors: &[f64],
-    sensors: &SparseMatrix,
-    count: usize,
-) -> Result<Vec<Finding>, Error> {
-    let errors = model
-        .condensation_errors(factors, sensors, count)?
-        .into_iter()
-        .enumerate();
-    let coarse = errors.filter(|(_, error)| error.frequency > LARGEST_CONDENSATION_ERROR);
-    Ok(coarse
-        .map(|(mode, error)| Finding::CoarseCondensation { mode, error })
-        .collect())
 }
 
 /// Looks at a finite element model and its test before the first step.

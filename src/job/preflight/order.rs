@@ -1,6 +1,6 @@
 //! Points in another order: a first guess from what does not depend on the order of modes or signs, then exchanges.
 
-use super::shapes::{Look, reordered};
+use super::look::{Look, reordered};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
 use crate::method::modes::ModeSet;

@@ -1,10 +1,11 @@
 //! Which single change of test shapes or model makes them agree.
 
+use super::look::{Look, paired_values, reordered};
 use super::order::{best_order, flexibility_order};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
-use crate::method::modes::{ModeSet, Modes, solve};
-use crate::method::pairing::{Pairing, pair_modes};
+use crate::method::modes::ModeSet;
+use crate::method::pairing::pair_modes;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -51,64 +52,6 @@ pub struct Mended {
     pub next: Option<(Change, f64)>,
 }
 
-/// Model and test side by side.
-pub(super) struct Look<'a> {
-    mass: &'a DMatrix<f64>,
-    pub analysis: Modes,
-    /// $V_F^t M$ (n × d).
-    projection: DMatrix<f64>,
-}
-
-impl<'a> Look<'a> {
-    pub fn new(stiffness: &DMatrix<f64>, mass: &'a DMatrix<f64>) -> Result<Self, Error> {
-        let analysis = solve(stiffness, mass, mass.nrows())?;
-        let projection = analysis.shapes.tr_mul(mass);
-        Ok(Self {
-            mass,
-            analysis,
-            projection,
-        })
-    }
-
-    /// Cross-orthogonality with test shapes of any scale; none for a shape without generalized mass.
-    pub fn cross(&self, shapes: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        let mut cross = &self.projection * shapes;
-        let weighted = self.mass * shapes;
-        for (mode, mut column) in cross.column_iter_mut().enumerate() {
-            let generalized_mass = shapes.column(mode).dot(&weighted.column(mode));
-            if generalized_mass <= 0.0 {
-                return None;
-            }
-            column /= generalized_mass.sqrt();
-        }
-        Some(cross)
-    }
-
-    /// The agreement of test shapes where it exceeds `least`: the mean of the paired magnitudes of cross-orthogonality.
-    pub fn agreement_above(&self, shapes: &DMatrix<f64>, least: f64) -> Option<f64> {
-        let cross = self.cross(shapes)?;
-        // Every mode paired with its best bounds the agreement, and costs no sorting.
-        let bound =
-            cross.column_iter().map(|column| column.amax()).sum::<f64>() / cross.ncols() as f64;
-        if bound <= least {
-            return None;
-        }
-        let values = paired_values(&cross, &pair_modes(&cross).ok()?);
-        let agreement = values.iter().sum::<f64>() / values.len() as f64;
-        (agreement > least).then_some(agreement)
-    }
-}
-
-/// The magnitudes of cross-orthogonality of the pairs, in the order of the test modes.
-pub(super) fn paired_values(cross: &DMatrix<f64>, pairing: &Pairing) -> Vec<f64> {
-    pairing
-        .analysis_mode
-        .iter()
-        .enumerate()
-        .map(|(test, &mode)| cross[(mode, test)].abs())
-        .collect()
-}
-
 /// The test shapes after a change.
 pub(super) fn changed(shapes: &DMatrix<f64>, change: &Change) -> DMatrix<f64> {
     let mut changed = shapes.clone();
@@ -120,11 +63,6 @@ pub(super) fn changed(shapes: &DMatrix<f64>, change: &Change) -> DMatrix<f64> {
         Change::Columns(_) => {}
     }
     changed
-}
-
-/// A symmetric matrix with rows and columns in another order.
-pub(super) fn reordered(matrix: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
-    matrix.select_rows(order).select_columns(order)
 }
 
 /// Whether a change from one agreement to another is enough to be named.

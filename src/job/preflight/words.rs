@@ -35,13 +35,6 @@ impl Display for Change {
 impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let words = match self {
-            Self::CoarseCondensation { mode, error } => {
-                let (mode, percent, hertz) = (mode + 1, 100.0 * error.frequency, error.whole_hz);
-                format!(
-                    "Condensation to the measured points raises mode {mode} by {percent:.1} %, from {hertz:.4} Hz: measure \
-                    more points, or leave the mode out."
-                )
-            }
             Self::CommonFactor(CommonFactor { median, named, .. }) => {
                 let said = |known: NamedFactor| format!("near {}: {}?", known.name, known.mistake);
                 let said = named.map_or_else(|| "by no mistake known here.".to_owned(), said);

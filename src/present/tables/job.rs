@@ -5,8 +5,8 @@ use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
-use crate::job::preflight::{Finding, coarse_condensation, preflight};
-use crate::job::{ComparedModes, Finished, PlacedSensor, Prepared, Study, Summary, Vary};
+use crate::job::preflight::{Finding, preflight};
+use crate::job::{Finished, PlacedSensor, Prepared, Study, Summary, Vary};
 use crate::method::model::{DynamicModel, Range};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
@@ -96,16 +96,12 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
                 mass,
                 shares: Vec::new(),
             };
-            let mut findings = preflight(
+            let findings = preflight(
                 &model,
                 &prepared.test,
                 &prepared.job.correlation,
                 &whole.ranges(),
             )?;
-            if prepared.job.compare.modes == ComparedModes::Condensed {
-                let count = prepared.test.len().min(model.mass.nrows());
-                findings.extend(coarse_condensation(whole, &ones, &prepared.sensors, count)?);
-            }
             sentences.extend(findings.iter().map(Finding::to_string));
         }
         Err(error) => sentences.push(format!(
@@ -119,12 +115,6 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
         of_mode(
             *mode,
             format!("no mode of the first model is like it ({most}); it is left out"),
-        );
-    }
-    for (mode, report) in &prepared.deleted {
-        of_mode(
-            *mode,
-            format!("deleted by Appendix B ({:?})", report.verdict),
         );
     }
     for (mode, phase) in prepared

@@ -10,11 +10,11 @@
 //! coordinates, gages and material in single precision: its matrices differ from the crate's by up to 1.5e-7 of the largest
 //! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
-mod output5;
 mod process;
 
 use crate::files::deck::{BulkData, Task, write};
 use crate::files::error::FileError;
+use crate::files::nastran95::{Matrices, read_output5};
 use crate::method::assembly::{dense_stiffness, lumped_mass};
 use crate::method::error::Error;
 use crate::method::model::FiniteElementModel;
@@ -25,8 +25,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
-
-pub use output5::{Matrices, read_output5};
 
 /// The program's name in reports.
 pub const NAME: &str = "NASTRAN-95";

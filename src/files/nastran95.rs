@@ -1,6 +1,6 @@
 //! The formatted file of NASTRAN's module OUTPUT5.
 
-use super::process::shown;
+use super::escaped;
 use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use nalgebra::DMatrix;
@@ -86,4 +86,13 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
         }
     }
     Ok(matrices)
+}
+
+/// Characters of the program's words that an error carries.
+const MESSAGE_LENGTH: usize = 300;
+
+/// What an error carries of another program's words: not all of them, and nothing a terminal obeys.
+pub(crate) fn shown(words: &str) -> String {
+    let start: String = words.chars().take(MESSAGE_LENGTH).collect();
+    escaped(&start) + if start.len() < words.len() { "..." } else { "" }
 }

@@ -2,7 +2,7 @@
 
 use super::{Answer, Nastran95};
 use crate::files::error::FileError;
-use crate::files::escaped;
+use crate::files::nastran95::shown;
 #[cfg(unix)]
 use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
 use std::fs::File;
@@ -24,8 +24,6 @@ const UNITS: std::ops::RangeInclusive<u32> = 11..=23;
 const ANSWER: &str = "ftn15";
 /// Lines of a fatal message, and of the end of the output of a crashed run, that an error carries.
 const MESSAGE_LINES: usize = 3;
-/// Characters of them that it carries.
-const MESSAGE_LENGTH: usize = 300;
 /// Files of a run that are looked at while it runs and read when it has ended.
 const PRINTED: &str = "printed";
 const ERRORS: &str = "errors";
@@ -187,12 +185,6 @@ pub(super) fn last_lines(text: &str) -> String {
         [] => "nothing printed".to_owned(),
         last => shown(&last.join(" / ")),
     }
-}
-
-/// What an error carries of another program's words: not all of them, and nothing a terminal obeys.
-pub(super) fn shown(words: &str) -> String {
-    let start: String = words.chars().take(MESSAGE_LENGTH).collect();
-    escaped(&start) + if start.len() < words.len() { "..." } else { "" }
 }
 
 /// A file's text, if it is there; NASTRAN prints bytes that are no text.

@@ -1,0 +1,93 @@
+//! The lines of one dataset of a Universal File, in columns.
+
+use super::real;
+use crate::files::error::FileError;
+
+/// Columns of a record of node numbers or codes, of one of values, of a line of these.
+pub(super) const INTEGER: usize = 10;
+pub(super) const REAL: usize = 13;
+pub(super) const LONG_REAL: usize = 25;
+pub(super) const VALUES: [usize; 6] = [REAL; 6];
+
+/// The lines of one dataset that are still to be read.
+pub(super) struct Block<'a> {
+    file: &'a str,
+    lines: &'a [&'a str],
+    /// Number of the next line in the file, from one.
+    number: usize,
+}
+
+impl<'a> Block<'a> {
+    /// The lines of a dataset of which the first has this number in the file.
+    pub fn new(file: &'a str, lines: &'a [&'a str], number: usize) -> Self {
+        Self {
+            file,
+            lines,
+            number,
+        }
+    }
+
+    pub fn is_done(&self) -> bool {
+        self.lines.iter().all(|line| line.trim().is_empty())
+    }
+
+    pub fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
+        let end = || FileError::line(self.file, self.number, expected, "the end of the dataset");
+        let (first, rest) = self.lines.split_first().ok_or_else(end)?;
+        (self.lines, self.number) = (rest, self.number + 1);
+        Ok(first)
+    }
+
+    /// The number in the file of the line read last.
+    pub fn last_number(&self) -> usize {
+        self.number - 1
+    }
+
+    /// An error about the line read last.
+    pub fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
+        FileError::line(self.file, self.last_number(), expected, found.to_string())
+    }
+
+    /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
+    pub fn reals(
+        &mut self,
+        expected: &'static str,
+        widths: &[usize],
+    ) -> Result<Vec<f64>, FileError> {
+        let line = self.line(expected)?;
+        let mut start = 0;
+        let column = |&width: &usize| {
+            let text = line.get(start..line.len().min(start + width));
+            start += width;
+            text.and_then(|text| real(text.trim()))
+        };
+        let by_columns: Option<Vec<f64>> = widths.iter().map(column).collect();
+        let by_blanks = || {
+            line.split_whitespace()
+                .take(widths.len())
+                .map(real)
+                .collect::<Option<Vec<f64>>>()
+        };
+        let numbers = by_columns
+            .or_else(by_blanks)
+            .filter(|numbers| numbers.len() == widths.len());
+        numbers.ok_or_else(|| self.wrong(expected, line.trim()))
+    }
+
+    pub fn integers(
+        &mut self,
+        expected: &'static str,
+        count: usize,
+    ) -> Result<Vec<usize>, FileError> {
+        let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
+        numbers
+            .into_iter()
+            .map(|number| integer(number).ok_or_else(|| self.wrong(expected, number)))
+            .collect()
+    }
+}
+
+/// A whole number from zero up.
+pub(super) fn integer(number: f64) -> Option<usize> {
+    ((0.0..1e15).contains(&number) && number.fract() == 0.0).then_some(number as usize)
+}

@@ -1,0 +1,148 @@
+//! The entries of a job's `[correlation]`, and those that jobs no longer have.
+
+use crate::files::error::FileError;
+use crate::method::derivatives::DerivativeRule;
+use crate::method::error_sum::ErrorMeasure;
+use crate::method::inner_loop::InnerSettings;
+use crate::method::model::Range;
+use crate::method::outer_loop::Settings;
+use crate::method::state::UpdateRule;
+use crate::method::step::{Accumulation, StepRule};
+use serde::Deserialize;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// Entries of `[correlation]`; what is skipped keeps the library's value.
+#[derive(Deserialize)]
+#[serde(
+    remote = "Settings",
+    default = "Settings::default",
+    deny_unknown_fields
+)]
+pub(super) struct CorrelationEntries {
+    #[serde(with = "InnerEntries")]
+    inner: InnerSettings,
+    later_inner_tolerance: f64,
+    error_sum_tolerance: f64,
+    frequency_tolerance: f64,
+    shape_tolerance: f64,
+    #[serde(skip)]
+    least_passes: usize,
+    most_passes: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    remote = "InnerSettings",
+    default = "InnerSettings::default",
+    deny_unknown_fields
+)]
+struct InnerEntries {
+    #[serde(skip)]
+    first_relaxation: f64,
+    #[serde(skip)]
+    relaxation: f64,
+    factor_range: Range,
+    tolerance: f64,
+    #[serde(skip)]
+    halvings: usize,
+    #[serde(skip)]
+    iterations: usize,
+    #[serde(skip)]
+    derivatives: DerivativeRule,
+    step: StepRule,
+    #[serde(skip)]
+    accumulation: Accumulation,
+    #[serde(skip)]
+    measure: ErrorMeasure,
+    #[serde(skip)]
+    update: UpdateRule,
+}
+
+/// Entries that jobs had, and what happens instead.
+const REMOVED: [(&str, &str); 13] = [
+    (
+        "test.orthogonalize",
+        "test modes are compared as they were measured",
+    ),
+    (
+        "compare.modes",
+        "the whole model's modes are compared at the sensors",
+    ),
+    (
+        "compare.pairing",
+        "modes are paired for the largest sum of modal assurance",
+    ),
+    (
+        "compare.floor",
+        "test modes with a modal assurance below 0.5 with the first model are left out and named",
+    ),
+    (
+        "correlation.least_passes",
+        "the loop ends after the first pass within tolerance",
+    ),
+    (
+        "correlation.inner.first_relaxation",
+        "the first iteration of a pass takes 0.8 of its step",
+    ),
+    (
+        "correlation.inner.relaxation",
+        "iterations after the first take their whole step",
+    ),
+    (
+        "correlation.inner.halvings",
+        "a step that does not lower the error sum is halved up to five times",
+    ),
+    (
+        "correlation.inner.iterations",
+        "a pass takes at most 30 iterations",
+    ),
+    (
+        "correlation.inner.derivatives",
+        "derivatives are taken by definition (12)",
+    ),
+    (
+        "correlation.inner.accumulation",
+        "changes of stiffness within a pass add up",
+    ),
+    (
+        "correlation.inner.measure",
+        "errors are sums over nine modes, whatever the number compared",
+    ),
+    (
+        "correlation.inner.update",
+        "modes follow the factors by Recursive 1",
+    ),
+];
+
+/// What to say of a step rule that is gone.
+pub fn removed_step(name: &str) -> Option<String> {
+    ["sum", "steepest_descent"]
+        .contains(&name)
+        .then(|| format!("the step rule {name} is gone; choose matrix, own, relative or gage"))
+}
+
+/// Refuses a job that names an entry or a rule that jobs no longer have.
+///
+/// # Errors
+/// [`FileError::Refused`]. A text that is no TOML passes: its reader says where it goes wrong.
+pub(super) fn refuse_removed(path: &Path, text: &str) -> Result<(), FileError> {
+    let table: Table = toml::from_str(text).unwrap_or_default();
+    let at = |entry: &str| -> Option<&Value> {
+        let (first, rest) = entry.split_once('.')?;
+        rest.split('.')
+            .try_fold(table.get(first)?, |value, key| value.get(key))
+    };
+    let removed = REMOVED.iter().find(|(entry, _)| at(entry).is_some());
+    let removed =
+        removed.map(|(entry, instead)| format!("{entry} is no longer an entry: {instead}"));
+    let step = at("correlation.inner.step").and_then(Value::as_str);
+    let reason = removed.or_else(|| {
+        let removed = step.and_then(removed_step)?;
+        Some(format!("correlation.inner.step: {removed}"))
+    });
+    match reason {
+        Some(reason) => Err(FileError::refused(path.display(), reason)),
+        None => Ok(()),
+    }
+}
