@@ -10,7 +10,7 @@ use thiserror::Error;
 #[allow(missing_docs, reason = "a variant's message says what its fields are")]
 pub enum Error {
     /// A number that must be finite is NaN or infinite; the first such entry, column by column.
-    #[error("{what}: expected finite numbers, found {value} at entry ({row}, {column})")]
+    #[error("{what}: {value} at entry ({row}, {column}) is not a finite number")]
     NotFinite {
         what: &'static str,
         row: usize,
@@ -18,7 +18,7 @@ pub enum Error {
         value: f64,
     },
     /// A matrix or list has the wrong size.
-    #[error("{what}: expected {expected_rows} x {expected_columns}, found {rows} x {columns}")]
+    #[error("{what}: {rows} x {columns} instead of {expected_rows} x {expected_columns}")]
     WrongShape {
         what: &'static str,
         expected_rows: usize,
@@ -28,7 +28,7 @@ pub enum Error {
     },
     /// A matrix that must be symmetric is not; the worst pair, with its difference over the largest entry.
     #[error(
-        "{what}: expected symmetry, found ({row}, {column}) off its mirror by {difference:.1e} of the largest"
+        "{what}: entry ({row}, {column}) is off its mirror by {difference:.1e} of the largest; the matrix must be symmetric"
     )]
     NotSymmetric {
         what: &'static str,
@@ -37,14 +37,14 @@ pub enum Error {
         difference: f64,
     },
     /// A quantity that must be positive (gage, area, mass, modulus) is not.
-    #[error("{what} of {owner}: expected a positive finite number, found {value}")]
+    #[error("{what} of {owner} is {value}; it must be positive and finite")]
     NotPositive {
         what: &'static str,
         owner: String,
         value: f64,
     },
     /// A setting or a constant outside its range.
-    #[error("{name}: expected {expected}, found {found}")]
+    #[error("{name} is {found}; it must be {expected}")]
     Setting {
         name: &'static str,
         expected: &'static str,
@@ -52,7 +52,7 @@ pub enum Error {
     },
     /// Limits that are not positive and finite, or the lower one not below the upper one.
     #[error(
-        "{what}: expected a positive lower limit below a finite upper one, found {lower} and {upper}"
+        "{what}: {lower} to {upper} is no range; the lower limit must be positive, the upper one larger and finite"
     )]
     Limits {
         what: String,
@@ -60,36 +60,34 @@ pub enum Error {
         upper: f64,
     },
     /// Limits on a parameter's factor that exclude where it starts, which is one.
-    #[error("{what}: expected limits that hold its start, 1, found {lower} to {upper}")]
+    #[error("{what}: bounds {lower} to {upper} exclude the starting factor 1")]
     StartOutside {
         what: String,
         lower: f64,
         upper: f64,
     },
     /// No modes, elements or parameters where at least one is needed.
-    #[error("{what}: expected at least one, found none")]
+    #[error("{what}: at least one is needed")]
     Empty { what: &'static str },
     /// More modes asked for than there are.
-    #[error("{what}: expected at most {available}, found {requested}")]
+    #[error("{what}: {requested} asked for, but there are only {available}")]
     TooMany {
         what: &'static str,
         available: usize,
         requested: usize,
     },
     /// Two grids or two elements carry the same number.
-    #[error("{what} {label}: expected each {what} once, found it defined again")]
+    #[error("{what} {label} is defined twice")]
     Duplicate { what: &'static str, label: usize },
     /// A reference to a grid, element or dynamic degree of freedom that does not exist.
-    #[error("{owner}: expected an existing {what}, found {what} {label}, which is not defined")]
+    #[error("{owner}: there is no {what} {label}")]
     Unknown {
         owner: String,
         what: &'static str,
         label: usize,
     },
     /// An element stands in two parameters.
-    #[error(
-        "element {element}: expected in one parameter at most, found in {first} and in {second}"
-    )]
+    #[error("element {element} is in two parameters, {first} and {second}; it may be in one")]
     SharedElement {
         element: usize,
         first: String,
@@ -97,50 +95,42 @@ pub enum Error {
     },
     /// A point mass to be scaled is coupled to another degree of freedom.
     #[error(
-        "dynamic mass: expected a point mass at degree of freedom {0} (from zero), found it coupled to others"
+        "dynamic mass: degree of freedom {0} (from zero) is coupled to others; a point mass must stand alone"
     )]
     CoupledMass(usize),
     /// An error inside one element.
     #[error("element {element}: {source}")]
     InElement { element: usize, source: Box<Error> },
     /// An element has the wrong number of grid points for its kind.
-    #[error("expected {expected} grid points, found {found}")]
+    #[error("{found} grid points instead of {expected}")]
     WrongCornerCount { expected: usize, found: usize },
     /// A rod whose ends coincide: the distance between them, in.
-    #[error("expected a rod with length, found length {0:.3e} between its ends")]
+    #[error("the rod has no length ({0:.3e} between its ends)")]
     ZeroLength(f64),
     /// A triangle or panel without area: its area over the square of its longest side or diagonal.
-    #[error(
-        "expected a panel with area, found {0:.3e} of the square of its longest diagonal or side"
-    )]
+    #[error("the panel has no area ({0:.3e} of the square of its longest diagonal or side)")]
     ZeroArea(f64),
     /// A quadrilateral with an angle of 180 degrees or more at a corner, 1 to 4 in the order given.
-    #[error(
-        "expected a convex panel, found an interior angle of 180 degrees or more at its corner {0}"
-    )]
+    #[error("the panel is not convex: its interior angle at corner {0} is 180 degrees or more")]
     NotConvex(usize),
     /// Nothing constrains some motion: the grid that moves most in it, its direction (`x`, `y` or `z`), and the smallest
     /// eigenvalue of the stiffness scaled to unit diagonal.
-    #[error(
-        "stiffness: expected no free motion, found grid {grid} free along {direction} (ratio {ratio:.1e})"
-    )]
+    #[error("nothing holds grid {grid} along {direction} (stiffness ratio {ratio:.1e})")]
     SingularStiffness {
         grid: usize,
         direction: char,
         ratio: f64,
     },
     /// A matrix that must be positive definite is not; the row where the factorization stopped.
-    #[error(
-        "{what}: expected a positive definite matrix, found a pivot not positive at row {dof} (from zero)"
-    )]
+    #[error("{what} is not positive definite: the pivot of row {dof} (from zero) is not positive")]
     NotPositiveDefinite { what: &'static str, dof: usize },
     /// A dynamic degree of freedom, rigid-body vector or test mode that is a combination of those before it.
-    #[error(
-        "{what} {index} (from zero): expected it independent of those before it, found a combination of them"
-    )]
+    #[error("{what} {index} (from zero) is a combination of those before it")]
     Dependent { what: &'static str, index: usize },
     /// Modes that must be orthonormal with the mass, or biorthogonal with the stiffness, and are not.
-    #[error("{what} {first} and {second} (from zero): expected {expected}, found {found}")]
+    #[error(
+        "{what} {first} and {second} (from zero) have the product {found} instead of {expected}"
+    )]
     NotOrthonormal {
         what: &'static str,
         first: usize,
@@ -149,12 +139,12 @@ pub enum Error {
         found: f64,
     },
     /// A model has a mode that is not a vibration; the value is its squared circular frequency.
-    #[error("mode {mode} (from zero): expected a positive eigenvalue, found {value:.6e} rad^2/s^2")]
+    #[error("mode {mode} (from zero) is no vibration: its eigenvalue is {value:.6e} rad^2/s^2")]
     NotAVibration { mode: usize, value: f64 },
     /// Two modes come together under a change, so that a denominator of the perturbation vanishes: that of row `first` for mode
     /// `second`, over the generalized stiffness.
     #[error(
-        "modes {first} and {second} (from zero): expected separate roots, found them {separation:.1e} apart"
+        "modes {first} and {second} (from zero) come too close to tell apart ({separation:.1e})"
     )]
     CoalescingModes {
         first: usize,
@@ -162,21 +152,19 @@ pub enum Error {
         separation: f64,
     },
     /// A change so large that a perturbed root, s², loses its sign.
-    #[error("mode {mode} (from zero): expected a positive perturbed root, found {value:.3e}")]
+    #[error(
+        "the change takes the root of mode {mode} (from zero) to {value:.3e}; it must stay positive"
+    )]
     LostRoot { mode: usize, value: f64 },
     /// A change that takes away a mode's generalized stiffness, so that its root has no finite value.
-    #[error(
-        "mode {mode} (from zero): expected generalized stiffness after the change, found {ratio:.1e} of it left"
-    )]
+    #[error("the change leaves mode {mode} (from zero) {ratio:.1e} of its generalized stiffness")]
     LostStiffness { mode: usize, ratio: f64 },
     /// A pencil without a complete set of modes: the cosine of a mode's left and right shapes in the measure of the stiffness.
-    #[error(
-        "mode {mode} (from zero): expected independent modes, found left and right orthogonal to {cosine:.1e}"
-    )]
+    #[error("left and right shapes of mode {mode} (from zero) are orthogonal to {cosine:.1e}")]
     Defective { mode: usize, cosine: f64 },
     /// A recursion that in the most orders allowed had not reached the largest relative change of a root allowed.
     #[error(
-        "perturbation: expected roots to settle to {largest:.0e} in {orders} orders, found {last_change:.1e}"
+        "the roots still change by {last_change:.1e} after {orders} orders; they must settle to {largest:.0e}"
     )]
     UnsettledRoots {
         largest: f64,
@@ -184,9 +172,7 @@ pub enum Error {
         last_change: f64,
     },
     /// A factorization that does not solve its own matrix to what round-off explains.
-    #[error(
-        "{what}: expected a solution to {allowed:.1e} of its loads, found a residual of {residual:.1e}"
-    )]
+    #[error("{what}: the solution leaves {residual:.1e} of its loads, more than {allowed:.1e}")]
     WrongSolution {
         what: &'static str,
         residual: f64,
@@ -194,7 +180,7 @@ pub enum Error {
     },
     /// Modes found that are not as many as an independent count says there are.
     #[error(
-        "modes below {bound:.6e} rad^2/s^2: expected {counted} by the shifted pencil's inertia, found {found}"
+        "{found} modes were found below {bound:.6e} rad^2/s^2, but the shifted pencil's inertia counts {counted}"
     )]
     Miscounted {
         bound: f64,
@@ -202,7 +188,7 @@ pub enum Error {
         found: usize,
     },
     /// An iterative library routine did not converge.
-    #[error("{0}: expected the library's routine to converge, found that it did not")]
+    #[error("{0}: the library's routine did not converge")]
     NoConvergence(&'static str),
     /// A structure on supports, where the reactions balance the forces of a mode: the largest squared suspension frequency over
     /// the mode's, and the largest ratio allowed.

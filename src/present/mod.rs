@@ -32,9 +32,9 @@ pub enum PresentError {
     #[error(transparent)]
     Files(#[from] FileError),
     /// A figure that cannot be drawn.
-    #[error("figure {figure}: expected to draw it, found {found}")]
+    #[error("cannot draw figure {figure}: {found}")]
     Drawing { figure: String, found: String },
     /// A document that cannot be written as JSON.
-    #[error("JSON: expected to write the document, found an error: {0}")]
+    #[error("cannot write the JSON document: {0}")]
     Json(#[from] serde_json::Error),
 }

@@ -39,12 +39,8 @@ fn case_number(word: &str) -> Result<usize, String> {
         Some(command) => format!("; did you mean corfem {command}?"),
         None => String::new(),
     };
-    word.parse().map_err(|_| {
-        format!(
-            "expected the number of a case, 1 to 4, found {word}{}",
-            meant()
-        )
-    })
+    word.parse()
+        .map_err(|_| format!("{word} is not the number of a case, 1 to 4{}", meant()))
 }
 
 /// The cases asked for, each once.

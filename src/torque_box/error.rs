@@ -12,20 +12,20 @@ pub enum CaseError {
     #[error(transparent)]
     Method(#[from] crate::method::error::Error),
     /// A case that the paper does not have.
-    #[error("case: expected 1, 2, 3 or 4, found {found}")]
+    #[error("there is no case {found}; choose 1 to 4")]
     UnknownCase { found: usize },
     /// A torque box lacks one of its grid points.
-    #[error("torque box: expected grids 1 to {count}, found none with number {grid}")]
+    #[error("torque box: grid {grid} of 1 to {count} is missing")]
     MissingGrid { grid: usize, count: usize },
     /// Data that does not read as TOML of the expected form.
-    #[error("{name}: expected {expected}, found an error: {source}")]
+    #[error("{name} is not {expected}: {source}")]
     Toml {
         name: String,
         expected: &'static str,
         source: Box<toml::de::Error>,
     },
     /// A table that does not read as CSV of the expected form.
-    #[error("{name}: expected {expected}, found {found}")]
+    #[error("{name}: {found} instead of {expected}")]
     Table {
         name: String,
         expected: String,

@@ -46,7 +46,7 @@ fn text_of_another_form_is_refused_by_the_files_name() {
         assert!(named, "{refused:?}");
         let message = refused.to_string();
         assert!(
-            message.starts_with("box.toml: expected a torque box") && message.contains(says),
+            message.starts_with("box.toml is not a torque box") && message.contains(says),
             "{message}"
         );
     }
@@ -94,7 +94,7 @@ fn missing_masses_and_grids_are_refused_by_count_and_number() {
     );
     assert_eq!(
         refused.to_string(),
-        "torque box: expected grids 1 to 16, found none with number 16"
+        "torque box: grid 16 of 1 to 16 is missing"
     );
     let mut data = Reconstruction::embedded().unwrap();
     data.grids.remove(&6);

@@ -275,12 +275,12 @@ fn numbers_beyond_the_range_are_refused() {
         (
             "1.+306",
             "1.-6",
-            "squared frequency of mode 1: expected a positive finite number, found inf",
+            "squared frequency of mode 1 is inf; it must be positive and finite",
         ),
         (
             "1.-303",
             "1.+300",
-            "deflections: expected finite numbers, found inf at entry (0, 0)",
+            "deflections: inf at entry (0, 0) is not a finite number",
         ),
         (
             "1.+300",
@@ -302,7 +302,7 @@ fn numbers_beyond_the_range_are_refused() {
         .to_string();
     assert_eq!(
         error,
-        "generalized mass of mode 1: expected a positive finite number, found inf"
+        "generalized mass of mode 1 is inf; it must be positive and finite"
     );
 }
 

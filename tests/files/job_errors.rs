@@ -198,7 +198,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower_size = 0.2\nupper_size = 0.3",
-            "a: expected limits that hold its start, 1, found 2 to ",
+            "a: bounds 2 to ",
         ),
         (
             A,
@@ -208,17 +208,17 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower = 1.5\nupper = 2.0",
-            "a: expected limits that hold its start, 1, found 1.5 to 2",
+            "a: bounds 1.5 to 2 exclude the starting factor 1",
         ),
         (
             A,
             "elements = [1]\nlower = 2.0\nupper = 0.5",
-            "expected a positive lower limit below a finite upper one",
+            "is no range; the lower limit must be positive",
         ),
         (
             A,
             "elements = [\"1-2\"]",
-            "element 2: expected in one parameter at most, found in a and in b",
+            "element 2 is in two parameters, a and b; it may be in one",
         ),
         (
             "\"b\"",
@@ -432,17 +432,17 @@ fn test_modes_are_there_and_named_once() {
             &modes("[2, 1, 2]"),
             "expected every mode of test.modes once, found 2 again",
         ),
+        (FILE, &modes("[]"), "test modes: at least one is needed"),
+        (COMPARE, "[compare]\nanalysis_modes = 0", "at least one"),
         (
-            FILE,
-            &modes("[]"),
-            "test modes: expected at least one, found none",
+            COMPARE,
+            "[compare]\nanalysis_modes = 4",
+            "but there are only",
         ),
-        (COMPARE, "[compare]\nanalysis_modes = 0", "expected"),
-        (COMPARE, "[compare]\nanalysis_modes = 4", "expected at most"),
         (
             COMPARE,
             "[compare]\nstarts = 0",
-            "starts: expected at least one, found none",
+            "starts: at least one is needed",
         ),
         (
             "method = \"gauss_newton\"",
@@ -540,17 +540,17 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         (
             COMPARE,
             "[compare]\nfrequency_weights = [1, -1, 1]",
-            "weight: expected a finite number from zero up",
+            "it must be a finite number from zero up",
         ),
         (
             COMPARE,
             "[compare]\nshape_deviation = 0.0",
-            "weight: expected a finite number from zero up",
+            "it must be a finite number from zero up",
         ),
         (
             COMPARE,
             "[compare]\nfrequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
-            "one of them positive, found 0",
+            "weight is 0; it must be a finite number from zero up, one of them positive",
         ),
     ]);
     let frequencies = with(
@@ -625,5 +625,8 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     let none = said(&paper(
         "frequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
     ));
-    assert!(none.contains("one of them positive, found 0"), "{none}");
+    assert!(
+        none.contains("weight is 0; it must be a finite number from zero up, one of them positive"),
+        "{none}"
+    );
 }

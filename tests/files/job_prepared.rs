@@ -81,7 +81,7 @@ fn a_model_without_a_vibration_has_no_modes_to_take() {
     files[2].1 = "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 60\n".to_owned();
     assert_eq!(
         said(&files),
-        "modes of finite frequency: expected at most 0, found 2"
+        "modes of finite frequency: 2 asked for, but there are only 0"
     );
 }
 

@@ -36,19 +36,19 @@ fn errors_name_the_offender() {
             refused(|data| data.shapes.column_mut(1).fill(0.0)),
         ),
         (
-            "found inf at entry (2, 1)",
+            "inf at entry (2, 1) is not a finite number",
             refused(|data| data.shapes[(2, 1)] = f64::INFINITY),
         ),
         (
-            "test mode shapes: expected 4 x 2, found 4 x 1",
+            "test mode shapes: 4 x 1 instead of 4 x 2",
             refused(|data| data.shapes = DMatrix::identity(4, 1)),
         ),
         (
-            "sensor z 12: expected each sensor z once",
+            "sensor z 12 is defined twice",
             refused(|data| data.sensors[2].direction = 2),
         ),
         (
-            "direction: expected at most 5, found 6",
+            "direction: 6 asked for, but there are only 5",
             refused(|data| data.sensors[3].direction = 6),
         ),
         (
@@ -56,7 +56,7 @@ fn errors_name_the_offender() {
             refused(|data| data.shape_deviation = Some(vec![0.1, 0.0])),
         ),
         (
-            "phase collinearity: expected 2 x 1, found 1 x 1",
+            "phase collinearity: 1 x 1 instead of 2 x 1",
             refused(|data| data.phase_collinearity = vec![0.5]),
         ),
     ];

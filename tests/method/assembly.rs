@@ -260,6 +260,6 @@ fn bad_geometry_is_refused_by_its_element() {
     });
     assert_eq!(
         refused.unwrap_err().to_string(),
-        "element 3: expected a rod with length, found length 0.000e0 between its ends"
+        "element 3: the rod has no length (0.000e0 between its ends)"
     );
 }

@@ -117,8 +117,7 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
     let refused = LoadDistribution::new(3, vec![vec![(0, 1.0)], vec![(3, 1.0)]]).unwrap_err();
     assert_eq!(
         refused.to_string(),
-        "dynamic degree of freedom 1 (from zero): expected an existing row of the load distribution, found row of the load \
-         distribution 3, which is not defined"
+        "dynamic degree of freedom 1 (from zero): there is no row of the load distribution 3"
     );
     let refused = LoadDistribution::new(3, vec![vec![(2, f64::NAN)]]).unwrap_err();
     assert!(

@@ -139,7 +139,7 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
         );
         assert_eq!(
             refused.unwrap_err().to_string(),
-            format!("test matrix: expected finite numbers, found {value} at entry (1, 2)")
+            format!("test matrix: {value} at entry (1, 2) is not a finite number")
         );
         let mut square = DMatrix::identity(3, 3);
         square[(2, 1)] = value;

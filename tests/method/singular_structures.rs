@@ -88,7 +88,7 @@ fn a_dof_without_stiffness_is_refused_by_name() {
         factorized(&free_end([0.0, 1.0, 1.0]))
             .unwrap_err()
             .to_string(),
-        "stiffness: expected no free motion, found grid 12 free along y (ratio 0.0e0)"
+        "nothing holds grid 12 along y (stiffness ratio 0.0e0)"
     );
 }
 

@@ -160,10 +160,7 @@ fn an_unknown_grid_is_refused_with_the_element_that_asks_for_it() {
         matches!(&refused, Error::Unknown { owner, what: "grid", label: 8 } if owner == "element 4"),
         "{refused:?}"
     );
-    assert_eq!(
-        refused.to_string(),
-        "element 4: expected an existing grid, found grid 8, which is not defined"
-    );
+    assert_eq!(refused.to_string(), "element 4: there is no grid 8");
 }
 
 #[test]
@@ -219,7 +216,7 @@ fn a_gage_or_area_that_is_not_positive_is_refused_by_its_element() {
     }
     assert_eq!(
         refusal(|_, elements| elements[0].size = -0.5).to_string(),
-        "area of element 9: expected a positive finite number, found -0.5"
+        "area of element 9 is -0.5; it must be positive and finite"
     );
 }
 
@@ -234,14 +231,14 @@ fn a_material_that_cannot_be_is_refused_by_its_element() {
         refused.to_string()
     };
     let message =
-        "element 4: Young's modulus of the material: expected a positive finite number, found NaN";
+        "element 4: Young's modulus of the material is NaN; it must be positive and finite";
     assert_eq!(with(|material| material.youngs_modulus = f64::NAN), message);
-    let message = "element 4: shear modulus of the material: expected a positive finite number, found -4000000";
-    assert_eq!(with(|material| material.shear_modulus = -4e6), message);
     let message =
-        "element 4: density of the material: expected a positive finite number, found -0.5";
+        "element 4: shear modulus of the material is -4000000; it must be positive and finite";
+    assert_eq!(with(|material| material.shear_modulus = -4e6), message);
+    let message = "element 4: density of the material is -0.5; it must be positive and finite";
     assert_eq!(with(|material| material.density = -0.5), message);
-    let message = "element 4: Poisson's ratio: expected more than -1 and at most 0.5, found 0.6";
+    let message = "element 4: Poisson's ratio is 0.6; it must be more than -1 and at most 0.5";
     assert_eq!(with(|material| material.poissons_ratio = 0.6), message);
 }
 

@@ -160,7 +160,7 @@ fn bad_input_is_exit_status_2_and_leaves_nothing_behind() {
     let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
     let unknown = corfem(&["cases", "7"]);
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(text(&unknown.stderr).contains("expected 1, 2, 3 or 4, found 7"));
+    assert!(text(&unknown.stderr).contains("there is no case 7; choose 1 to 4"));
     assert!(unknown.stdout.is_empty());
     assert_eq!(corfem(&["cases", "--format", "pdf"]).status.code(), Some(2));
     assert_eq!(

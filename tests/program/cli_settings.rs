@@ -86,14 +86,14 @@ fn settings_out_of_range_are_refused_by_their_names() {
             "the step rule sum is gone; choose matrix, own, relative or gage",
         ),
         (["--limits", "1.5,0.5"], "--limits"),
-        (["--limits", "0.5"], "--limits: expected 2 x 1, found 1 x 1"),
+        (["--limits", "0.5"], "--limits: 1 x 1 instead of 2 x 1"),
         (
             ["--relaxation", "0,1"],
-            "first_relaxation: expected a positive finite number, found 0",
+            "first_relaxation is 0; it must be a positive finite number",
         ),
         (
             ["--tolerance", "nan,1"],
-            "tolerance: expected a positive finite number, found NaN",
+            "tolerance is NaN; it must be a positive finite number",
         ),
         (["--iterations", "0"], "--iterations"),
     ] {

@@ -255,19 +255,16 @@ fn a_path_that_cannot_be_written_is_refused_before_the_work() {
 #[test]
 fn what_was_meant_is_suggested() {
     for (arguments, said) in [
-        (&["case", "1"][..], "found case; did you mean corfem cases?"),
+        (
+            &["case", "1"][..],
+            "case is not the number of a case, 1 to 4; did you mean corfem cases?",
+        ),
         (
             &["-q", "cases", "1"],
-            "found cases; a command comes first: corfem cases",
+            "cases is not the number of a case, 1 to 4; a command comes first: corfem cases",
         ),
-        (
-            &["qqqqqq"],
-            "expected the number of a case, 1 to 4, found qqqqqq\n",
-        ),
-        (
-            &["cases", "2", "1", "2"],
-            "corfem: case 2: expected each case once",
-        ),
+        (&["qqqqqq"], "qqqqqq is not the number of a case, 1 to 4\n"),
+        (&["cases", "2", "1", "2"], "corfem: case 2 is defined twice"),
         (&["cases", "1", "--nastran", "x"], "--solver <SOLVER>"),
         (&["cases", "1", "--time-limit", "9"], "--solver <SOLVER>"),
         (

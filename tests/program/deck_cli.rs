@@ -191,7 +191,7 @@ fn shapes_are_split_into_tables_of_nine_modes() {
     assert_eq!(more.status.code(), Some(2));
     assert_eq!(
         text(&more.stderr),
-        "corfem: modes of finite frequency: expected at most 11, found 12\n"
+        "corfem: modes of finite frequency: 12 asked for, but there are only 11\n"
     );
 }
 
@@ -204,11 +204,11 @@ fn bad_input_is_exit_status_2() {
     for (arguments, message) in [
         (
             vec!["deck", "7"],
-            "corfem: case: expected 1, 2, 3 or 4, found 7\n".to_owned(),
+            "corfem: there is no case 7; choose 1 to 4\n".to_owned(),
         ),
         (
             vec!["deck", "4", "--pass", "2"],
-            "corfem: pass: expected at most 1, found 2\n".to_owned(),
+            "corfem: pass: 2 asked for, but there are only 1\n".to_owned(),
         ),
         (
             vec!["modes", path],
