@@ -8,6 +8,8 @@
 #[path = "../../tests/common/known/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]
 mod known;
+#[path = "../../tests/common/fill.rs"]
+mod fill;
 mod machine;
 mod memory;
 mod numpy;

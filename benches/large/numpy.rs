@@ -98,13 +98,7 @@ pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()
             of_kind().map(|((row, _), _)| group_of[row]),
         )?;
     }
-    let columns = model.load_distribution().columns();
-    let entries = || {
-        columns
-            .iter()
-            .enumerate()
-            .flat_map(|(j, terms)| terms.iter().map(move |&(i, value)| (i, j, value)))
-    };
+    let entries = || model.load_distribution().entries().iter().copied();
     let count = entries().count();
     integers(
         &at("t_place"),

@@ -1,5 +1,6 @@
 //! What is timed: a correlation's stages one by one, each through the library's own functions.
 
+use crate::fill;
 use crate::known::delta_wing::correlation;
 use crate::known::wing::Wing;
 use crate::known::{Known, planted};
@@ -14,7 +15,6 @@ use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
 use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::sparse::load_distribution::LoadDistribution;
 use corfem::sparse::{SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use std::hint::black_box;
@@ -128,8 +128,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
-    (stages.factor_entries, stages.factor_operations) =
-        (plan.factor_entries(), plan.factor_operations());
+    (stages.factor_entries, stages.factor_operations) = fill::of_factor(&plan, elements);
     let factorize =
         || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
@@ -211,10 +210,10 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     drop(now.time("K_D", || {
         stiffness.clone().cholesky().expect("definite").inverse()
     }));
-    let t = model.load_distribution().dense();
-    let loads = LoadDistribution::of(&t).expect("finite");
+    let loads = model.load_distribution();
+    let t = loads.dense();
     drop(now.time("B", || {
-        let flexibility = structural.flexibility(&loads).expect("a flexibility");
+        let flexibility = structural.flexibility(loads).expect("a flexibility");
         let stiffness = flexibility.cholesky().expect("definite").inverse();
         structural.solve(&(&t * stiffness)).expect("deflections")
     }));

@@ -41,17 +41,6 @@ pub enum FileError {
         .cards.iter().map(|unread| unread.card.as_str()).collect::<Vec<_>>().join(",")
     )]
     DeckCards { file: String, cards: Vec<Unread> },
-    /// More masses than memory has room for, which is in GiB.
-    #[error(
-        "modes: expected dense matrices of at most {most:.1} GiB, found {needed:.1} GiB for {masses} degrees of \
-         freedom with mass among {free} free ones"
-    )]
-    TooManyMasses {
-        most: f64,
-        needed: f64,
-        masses: usize,
-        free: usize,
-    },
     /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness
     /// matrix, lbf/in, with its number.
     #[error(

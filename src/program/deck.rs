@@ -16,6 +16,9 @@ use std::path::PathBuf;
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
 const RANGE: [f64; 2] = [0.9, 1.1];
 
+/// Modes of a deck when their number is not given.
+const USUAL_COUNT: usize = 100;
+
 #[derive(Debug, Args)]
 pub struct DeckArguments {
     /// Which case
@@ -39,7 +42,7 @@ pub struct ModesArguments {
     deck: PathBuf,
     #[command(flatten)]
     output: OutputArguments,
-    /// How many modes, from the lowest; all with a finite frequency if not given
+    /// How many modes, from the lowest; 100 if not given, or all with a finite frequency if there are fewer
     #[arg(short, long, value_name = "N")]
     count: Option<NonZeroUsize>,
     /// Leave out cards of these names that are not understood; the report repeats them
@@ -89,7 +92,10 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
     for card in &deck.unread {
         say(format_args!("corfem: {name}: {}", not_read(card)));
     }
-    let modes = deck::modes(&deck.model)?;
+    let modes = deck::modes(
+        &deck.model,
+        arguments.count.map_or(USUAL_COUNT, NonZeroUsize::get),
+    )?;
     let found = modes.modes.len();
     let count = arguments.count.map_or(found, NonZeroUsize::get);
     if count > found {

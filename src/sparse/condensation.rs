@@ -10,9 +10,9 @@ use crate::method::model::{
 };
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
+use crate::sparse::SparseMatrix;
 use crate::sparse::add_squares;
 use crate::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
-use crate::sparse::load_distribution::LoadDistribution;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ const AMPLITUDES_AT_ONCE: usize = 256;
 #[derive(Debug, Clone)]
 pub struct LargeModel {
     scaled: ScaledStructure,
-    load_distribution: LoadDistribution,
+    load_distribution: SparseMatrix,
     plan: Arc<FactorizationPlan>,
 }
 
@@ -46,7 +46,7 @@ impl LargeModel {
     /// Those of [`ScaledStructure::new`] and [`FactorizationPlan::new`]; [`Error::WrongShape`] for a $T$ of another size.
     pub fn new(
         structure: Structure,
-        load_distribution: LoadDistribution,
+        load_distribution: SparseMatrix,
         mass: DMatrix<f64>,
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
@@ -55,7 +55,7 @@ impl LargeModel {
             load_distribution.rows(),
             structure.free_dof().len(),
         )?;
-        let dynamic = load_distribution.columns().len();
+        let dynamic = load_distribution.columns();
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;
         Self::planned(
             ScaledStructure::new(structure, mass, parameters)?,
@@ -71,14 +71,11 @@ impl LargeModel {
         let scaled: &ScaledStructure = model;
         Self::planned(
             scaled.clone(),
-            LoadDistribution::of(model.load_distribution())?,
+            SparseMatrix::of_dense("load distribution", model.load_distribution())?,
         )
     }
 
-    fn planned(
-        scaled: ScaledStructure,
-        load_distribution: LoadDistribution,
-    ) -> Result<Self, Error> {
+    fn planned(scaled: ScaledStructure, load_distribution: SparseMatrix) -> Result<Self, Error> {
         let plan = FactorizationPlan::new(scaled.structure(), scaled.element_matrices())?;
         Ok(Self {
             scaled,
@@ -88,7 +85,7 @@ impl LargeModel {
     }
 
     /// The load distribution $T$ (free SDOF × d).
-    pub fn load_distribution(&self) -> &LoadDistribution {
+    pub fn load_distribution(&self) -> &SparseMatrix {
         &self.load_distribution
     }
 
@@ -107,7 +104,7 @@ impl LargeModel {
             .iter()
             .any(|element| element.unit_mass.amax() > 0.0)
         {
-            let b = structural.solve_transposed(&loads.times(&stiffness))?;
+            let b = structural.solve_transposed(&loads.times(&stiffness)?)?;
             mass += sum_of_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
         }
         let mass = finite("dynamic mass", mass)?;
@@ -190,7 +187,7 @@ pub struct LargeCondensation {
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
     structural: FactorizedStiffness,
-    loads: LoadDistribution,
+    loads: SparseMatrix,
 }
 
 impl LargeCondensation {
@@ -212,7 +209,7 @@ impl LargeCondensation {
 
     fn transposed_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         self.structural
-            .solve_transposed(&self.loads.times(&(&self.stiffness * shapes)))
+            .solve_transposed(&self.loads.times(&(&self.stiffness * shapes))?)
     }
 }
 
@@ -280,14 +277,17 @@ pub(crate) fn sum_of_stiffness<'a>(
 }
 
 /// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
-fn take_deformation(
+pub(super) fn take_deformation(
     matrix: &mut [f64],
     order: usize,
     smallest: f64,
     column: &mut Vec<f64>,
 ) -> Option<f64> {
     let diagonal = |at: usize| matrix[at * (order + 1)];
-    let pivot = (0..order).max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
+    // Ties go to the first.
+    let pivot = (0..order)
+        .rev()
+        .max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
     let value = Some(diagonal(pivot)).filter(|value| *value > smallest && value.is_finite())?;
     column.clear();
     column.extend_from_slice(&matrix[pivot * order..][..order]);

@@ -41,7 +41,7 @@ impl WholeModel {
         let (elements, structure, t) = (
             model.element_matrices(),
             model.structure(),
-            model.load_distribution().columns(),
+            model.load_distribution(),
         );
         let (count, points) = (
             structure.free_dof().len(),
@@ -50,7 +50,9 @@ impl WholeModel {
         let size = |row: usize| structure.elements()[row].size;
         let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
         let lumped = |row: usize| mass_entries(&elements[row], size(row));
-        let moving = |(i, j): (usize, usize)| moving_mass_entries(&t[i], &t[j], points[(i, j)]);
+        let moving = |(i, j): (usize, usize)| {
+            moving_mass_entries(&t.motion(i), &t.motion(j), points[(i, j)])
+        };
         let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
         let parameters = model
             .parameters()
@@ -76,8 +78,8 @@ impl WholeModel {
                 range,
             })
         });
-        let couplings = (0..t.len())
-            .flat_map(|i| (0..t.len()).map(move |j| (i, j)))
+        let couplings = (0..t.columns())
+            .flat_map(|i| (0..t.columns()).map(move |j| (i, j)))
             .filter(|&at| points[at] != 0.0);
         let mass = (0..elements.len())
             .flat_map(lumped)
@@ -86,13 +88,6 @@ impl WholeModel {
         let stiffness = (0..elements.len()).flat_map(stiffness).collect();
         let (stiffness, mass) = (sparse("stiffness", stiffness)?, sparse("mass", mass)?);
         let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?;
-        let sensors = t
-            .iter()
-            .enumerate()
-            .flat_map(|(i, terms)| terms.iter().map(move |&(dof, term)| (i, dof, term)));
-        Ok((
-            whole,
-            SparseMatrix::new("sensors", t.len(), count, sensors.collect())?,
-        ))
+        Ok((whole, t.transposed()))
     }
 }

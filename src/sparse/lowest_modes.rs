@@ -1,14 +1,20 @@
-//! The lowest modes of a sparse pencil, none of them missed.
+//! The lowest modes of a sparse pencil, none of them missed: of structures on supports and of those that hang free, as an aircraft in
+//! its test, and where degrees of freedom have no mass. Zero and infinite eigenvalues are neither lost nor counted as vibrations.
 
+use super::condensation::take_deformation;
+use super::matrix::GIVEN;
 use super::{Factor, SparseMatrix};
-use crate::method::error::Error;
-use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::error::{Error, at_least_one};
+use crate::method::linear_algebra::{
+    check_length, cholesky, finite_list, solve_lower, symmetric_eigen, symmetric_part,
+};
 use crate::method::modes::{ModeSet, check_count};
-use crate::sparse::free_modes::{CountedModes, counted_modes};
+use crate::sparse::factorization::FactorizationPlan;
 use crate::sparse::random::split_mix_64;
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
-/// Most rows of a pencil that is solved as dense matrices.
+/// Most rows of a pencil whose modes are all found at once: a full decomposition of that order takes a few milliseconds.
 pub const MOST_DENSE_ROWS: usize = 150;
 /// What there are too few of when more modes are asked for than have a frequency.
 pub const FINITE: &str = "modes of finite frequency";
@@ -21,27 +27,43 @@ const RESTARTS: usize = 200;
 /// Residual of a mode relative to its root at which it counts as found, and that of the estimate which only places a shift.
 const FOUND: f64 = 1e-10;
 const ESTIMATED: f64 = 0.1;
-/// Pivot of the unit-diagonal stiffness below which it is shifted; a shift does no harm where none is needed.
-const SMALLEST_PIVOT: f64 = 1e-10;
-/// Squared frequency relative to the shift below which a motion is a rigid-body mode.
+/// Root relative to the largest below which it is lost: a decomposition finds each to some tens of roundings of the largest, so that
+/// three digits are left at a frequency three million times the lowest.
+const SMALLEST_ROOT: f64 = 1e-13;
+/// Squared frequency relative to the shift below which a motion that does not strain is a rigid-body mode.
 const RIGID: f64 = 1e-6;
 /// Distance of two neighbors relative to the higher between which modes can be counted.
 const APART: f64 = 1e-5;
 
+/// Modes of a pencil, the rigid-body modes apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CountedModes {
+    /// Motions without strain, of unit generalized mass and orthogonal to each other (d × r).
+    pub rigid_body: DMatrix<f64>,
+    /// Vibrations of finite frequency, ascending, of unit generalized mass.
+    pub vibrations: ModeSet,
+}
+
 /// The `count` lowest vibrations of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), with all
 /// rigid-body modes.
 ///
-/// A block of directions $X$ is multiplied by $A = (K + \sigma M)^{-1} M$ again and again, each new one made orthogonal to those
-/// before it in $M$; in the subspace that they span the modes are those of a small matrix, and the best of them begin the next
-/// subspace. The shift $\sigma$ is zero unless the structure hangs free. A factorization of $K - b M$ with $b$ just above the modes
-/// found must have as many negative pivots as there are modes below. Pencils of [`MOST_DENSE_ROWS`] go through [`counted_modes`].
+/// They have the largest roots $\mu$ of
+///
+/// $$ (K + \sigma M)^{-1} M v = \mu v, \qquad \omega^2 = \frac{1}{\mu} - \sigma, $$
+///
+/// where the shift $\sigma$ is zero unless the structure hangs free. A block of directions is multiplied by this matrix again and
+/// again, each new one made orthogonal to those before it in $M$; in the subspace that they span the modes are those of a small
+/// matrix, and the best of them begin the next subspace. Pencils of [`MOST_DENSE_ROWS`], and those of which the subspace would be
+/// the whole, have all their modes found at once. A factorization of $K - b M$ with $b$ just above the modes found must have as many
+/// negative pivots as there are modes below: Sylvester's law of inertia.
 ///
 /// # Errors
-/// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::NotPositiveDefinite`] for a motion that has neither stiffness
-/// nor mass; [`Error::Miscounted`]; [`Error::NoConvergence`]; those of [`SparseMatrix::check_symmetric`].
+/// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a motion
+/// that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Miscounted`]; [`Error::NoConvergence`]; those of
+/// [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of two sizes.
 ///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
-/// chapters 3 and 13.
+/// chapters 3, 13 and 15.
 pub fn lowest_modes(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
@@ -49,90 +71,159 @@ pub fn lowest_modes(
 ) -> Result<CountedModes, Error> {
     stiffness.check_symmetric("stiffness")?;
     mass.check_symmetric("mass")?;
+    check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, stiffness.rows())?;
-    if stiffness.rows() <= MOST_DENSE_ROWS {
-        let all = counted_modes(&stiffness.dense(), &mass.dense())?;
-        check_count(FINITE, count, all.vibrations.len())?;
-        return Ok(CountedModes {
-            vibrations: CountedModes::of(&all.vibrations, 0, count).vibrations,
-            ..all
-        });
-    }
-    let factor_at = factors(stiffness, mass)?;
+    let found = modes_at_most(stiffness, mass, count)?;
+    check_count(FINITE, count, found.vibrations.len())?;
+    Ok(found)
+}
+
+/// The same of symmetric matrices of one size, or all modes where they are fewer than `most`.
+pub(crate) fn modes_at_most(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    most: usize,
+) -> Result<CountedModes, Error> {
+    let count = most.min(stiffness.rows());
+    at_least_one("modes", count)?;
+    at_least_one("degrees of freedom with mass", mass.entries().len())?;
+    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
+    let factor_at = |what, shift| Factor::of_sum(&plan, what, &[(1.0, stiffness), (shift, mass)]);
     let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
-    let mut wanted = count + BEYOND;
+    let sizes = stiffness.entries().iter().map(|entry| entry.2.abs());
+    let (stiffest, mut wanted) = (sizes.fold(0.0, f64::max), count + BEYOND);
     loop {
-        let (_, shapes, is_all) = subspace(&factor, mass, wanted, FOUND)?;
-        let omega_squared = squared_frequencies(stiffness, &shapes)?;
-        let rigid = omega_squared
-            .iter()
-            .take_while(|value| **value < RIGID * shift)
-            .count();
-        if shapes.ncols() == wanted && wanted < count + rigid + BEYOND {
+        let found = largest(&factor, mass, wanted, FOUND)?;
+        let is_all = found.is_all;
+        let (omega_squared, shapes) = frequencies(stiffness, mass, found, shift)?;
+        // The strain energy of a motion of unit generalized mass is within the digits that are given of the largest stiffness.
+        let is_rigid = |&mode: &usize| {
+            let given = GIVEN * stiffest * shapes.column(mode).norm_squared();
+            omega_squared[mode] < given.min(RIGID * shift)
+        };
+        let rigid = (0..omega_squared.len()).take_while(is_rigid).count();
+        if !is_all && wanted < count + rigid + BEYOND {
             wanted = count + rigid + BEYOND;
             continue;
         }
-        check_count(FINITE, count, omega_squared.len() - rigid)?;
-        check_number(&factor_at, &omega_squared, rigid + count, is_all)?;
-        return Ok(CountedModes::of(
-            &ModeSet {
+        let needed = omega_squared.len().min(rigid + count);
+        if needed > 0 {
+            check_number(&factor_at, &omega_squared, needed, is_all.then_some(shift))?;
+        }
+        let vibrations: Vec<usize> = (rigid..needed).collect();
+        return Ok(CountedModes {
+            rigid_body: shapes.columns(0, rigid).into_owned(),
+            vibrations: ModeSet {
                 omega_squared,
                 shapes,
-            },
-            rigid,
-            count,
-        ));
+            }
+            .select(&vibrations),
+        });
     }
-}
-
-/// Factors of $K + \sigma M$ by one plan.
-fn factors<'a>(
-    stiffness: &'a SparseMatrix,
-    mass: &'a SparseMatrix,
-) -> Result<impl Fn(&'static str, f64) -> Result<Factor, Error>, Error> {
-    let plan = Factor::plan(&[stiffness, mass])?;
-    Ok(move |what, shift| Factor::planned(&plan, what, &[(1.0, stiffness), (shift, mass)]))
 }
 
 /// The factor of $K + \sigma M$, named, for $\sigma$.
 type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 
-/// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies.
+/// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies. A structure
+/// whose smallest eigenvalue the given digits do not tell from zero is shifted too, which does no harm where none is needed.
 fn shifted(
     factor: At,
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
 ) -> Result<(Factor, f64), Error> {
     if let Ok(factor) = factor("stiffness", 0.0)
-        && factor.smallest_pivot().0 > SMALLEST_PIVOT
+        && factor.is_above(GIVEN)
     {
         return Ok((factor, 0.0));
     }
     let what = "stiffness shifted by the mass";
     let factor_at = |shift: f64| factor(what, shift)?.check_positive(what);
     let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
-    let (roots, ..) = subspace(&factor_at(first)?, mass, BLOCK, ESTIMATED)?;
-    let highest = roots
-        .iter()
-        .map(|root| 1.0 / root - first)
-        .fold(1e-4 * first, f64::max);
-    Ok((factor_at(highest)?, highest))
+    let roots = largest(&factor_at(first)?, mass, BLOCK, ESTIMATED)?.roots;
+    let lower = roots.iter().take(BLOCK).map(|root| 1.0 / root - first);
+    let shift = lower.fold(1e-4 * first, f64::max);
+    Ok((factor_at(shift)?, shift))
 }
 
-/// Roots, shapes, and whether there are no others.
-type Found = (Vec<f64>, DMatrix<f64>, bool);
+/// The largest roots of $(K + \sigma M)^{-1} M$, descending, their shapes (rows × m), the forces $(K + \sigma M) v$ that these were
+/// found from, and whether there are no others.
+struct Found {
+    roots: DVector<f64>,
+    shapes: DMatrix<f64>,
+    forces: DMatrix<f64>,
+    is_all: bool,
+}
 
-/// The `wanted` largest roots of $A = (K + \sigma M)^{-1} M$, or all if there are fewer, descending, with their shapes (rows × m) of
-/// unit generalized mass.
-fn subspace(
+/// The `wanted` largest roots, or all if there are fewer or all are as easily found.
+fn largest(
     factor: &Factor,
     mass: &SparseMatrix,
     wanted: usize,
     tolerance: f64,
 ) -> Result<Found, Error> {
-    let times = |block: &DMatrix<f64>| factor.solve(&mass.times(block)?);
     let keep = wanted + BLOCK;
     let most = keep + keep.max(4 * BLOCK);
+    if mass.rows() <= most.max(MOST_DENSE_ROWS) {
+        all(factor, mass)
+    } else {
+        subspace(factor, mass, wanted, [keep, most], tolerance)
+    }
+}
+
+/// All roots: with $M = F F^t$ they are those of $F^t (K + \sigma M)^{-1} F y = \mu y$, and $v = (K + \sigma M)^{-1} F y$.
+fn all(factor: &Factor, mass: &SparseMatrix) -> Result<Found, Error> {
+    let f = root(mass)?;
+    let deflections = factor.solve(&f)?;
+    let flexibility = symmetric_part(&f.tr_mul(&deflections));
+    let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &flexibility)?;
+    let smallest = SMALLEST_ROOT * roots.max();
+    let kept = (0..roots.len()).rev().filter(|&at| roots[at] > smallest);
+    let kept: Vec<usize> = kept.collect();
+    Ok(Found {
+        roots: roots.select_rows(&kept),
+        shapes: deflections * vectors.select_columns(&kept),
+        forces: f * vectors.select_columns(&kept),
+        is_all: true,
+    })
+}
+
+/// $F$ (rows × rank) of a semidefinite $M = F F^t$ by Cholesky steps with pivots of the matrix scaled to unit diagonal, so that a mass
+/// may be as small as it likes beside others; what is left must be within the digits that are given.
+fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
+    let dense = mass.dense();
+    let size = |entry: f64| {
+        if entry == 0.0 {
+            1.0
+        } else {
+            entry.abs().sqrt()
+        }
+    };
+    let (scale, rows) = (dense.diagonal().map(size), mass.rows());
+    let mut rest = dense.component_div(&(&scale * scale.transpose()));
+    let (mut columns, mut column) = (Vec::new(), Vec::new());
+    while let Some(pivot) = take_deformation(rest.as_mut_slice(), rows, GIVEN, &mut column) {
+        let scaled = column.iter().zip(&scale);
+        columns.extend(scaled.map(|(entry, scale)| entry * scale / pivot.sqrt()));
+    }
+    match rest.iter().position(|entry| entry.abs() > GIVEN) {
+        None => Ok(DMatrix::from_vec(rows, columns.len() / rows, columns)),
+        Some(at) => Err(Error::NotPositiveDefinite {
+            what: "mass",
+            dof: at % rows,
+        }),
+    }
+}
+
+/// The `wanted` largest roots by subspaces of at most so many directions, of which so many are kept.
+fn subspace(
+    factor: &Factor,
+    mass: &SparseMatrix,
+    wanted: usize,
+    [keep, most]: [usize; 2],
+    tolerance: f64,
+) -> Result<Found, Error> {
+    let times = |block: &DMatrix<f64>| factor.solve(&mass.times(block)?);
     let (mut basis, mut images) = (
         DMatrix::zeros(mass.rows(), 0),
         DMatrix::zeros(mass.rows(), 0),
@@ -149,7 +240,7 @@ fn subspace(
             images.extend(image.column_iter());
             next = orthonormal(mass, &basis, image)?;
         }
-        let is_all = next.ncols() == 0;
+        let is_whole = next.ncols() == 0;
         let small = symmetric_part(&basis.tr_mul(&mass.times(&images)?));
         let (values, vectors) = symmetric_eigen("subspace", &small)?;
         let largest: Vec<usize> = (0..values.len()).rev().take(keep).collect();
@@ -168,15 +259,16 @@ fn subspace(
                 .sqrt();
             residual <= tolerance * roots[mode] + 100.0 * f64::EPSILON * roots[0]
         };
-        let count = wanted.min(roots.len());
-        if is_all || (0..count).all(is_found) {
+        let is_all = is_whole && values.len() <= keep;
+        let count = if is_all { values.len() } else { wanted };
+        if is_whole || (0..count).all(is_found) {
             // The image has the massless motions right too.
-            let mut shapes = images.columns(0, count).into_owned();
-            shapes
-                .column_iter_mut()
-                .zip(&roots)
-                .for_each(|(mut shape, root)| shape /= *root);
-            return Ok((roots.iter().take(count).copied().collect(), shapes, is_all));
+            return Ok(Found {
+                roots: roots.rows(0, count).into_owned(),
+                shapes: images.columns(0, count).into_owned(),
+                forces: mass.times(&basis.columns(0, count).into_owned())?,
+                is_all,
+            });
         }
         let open: Vec<usize> = (0..roots.len())
             .filter(|&mode| !is_found(mode))
@@ -227,15 +319,29 @@ fn orthonormal(
     Ok(block)
 }
 
-/// Rayleigh's quotient of every shape of unit generalized mass, which a shift has taken no digits from.
-fn squared_frequencies(
+/// Squared frequencies and shapes of unit generalized mass, each shape made orthogonal to those before it: what round-off leaves of a
+/// lower mode in a higher one goes. Frequencies are Rayleigh's quotients $v^t K v$, from the forces where these are $K v$, or else from
+/// which a shift has taken no digits.
+fn frequencies(
     stiffness: &SparseMatrix,
-    shapes: &DMatrix<f64>,
-) -> Result<DVector<f64>, Error> {
-    let forces = stiffness.times(shapes)?;
-    Ok(DVector::from_fn(shapes.ncols(), |mode, _| {
-        shapes.column(mode).dot(&forces.column(mode)).max(0.0)
-    }))
+    mass: &SparseMatrix,
+    found: Found,
+    shift: f64,
+) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+    let unit = found.shapes.column_iter().map(|shape| 1.0 / shape.amax());
+    let unit = DMatrix::from_diagonal(&DVector::from_iterator(found.roots.len(), unit));
+    let (shapes, forces) = (found.shapes * &unit, found.forces * unit);
+    let gram = symmetric_part(&shapes.tr_mul(&mass.times(&shapes)?));
+    let lower = cholesky("generalized mass", &gram, 0.0)?;
+    let orthogonal = |columns: DMatrix<f64>| solve_lower(&lower, columns.transpose()).transpose();
+    let (shapes, mut forces) = (orthogonal(shapes), orthogonal(forces));
+    if shift > 0.0 {
+        forces = stiffness.times(&shapes)?;
+    }
+    let quotient = |mode: usize| shapes.column(mode).dot(&forces.column(mode)).max(0.0);
+    let quotients = (0..shapes.ncols()).map(quotient).collect();
+    let omega_squared = finite_list("squared frequencies", quotients)?;
+    Ok((DVector::from_vec(omega_squared), shapes))
 }
 
 /// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
@@ -243,25 +349,27 @@ fn check_number(
     factor: At,
     omega_squared: &DVector<f64>,
     needed: usize,
-    is_all: bool,
+    all: Option<f64>,
 ) -> Result<(), Error> {
     let last = omega_squared.len();
     let gap = |place: &usize| {
         omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place]
     };
     let found = (needed..last).find(gap).unwrap_or(last);
-    let next = match found {
+    let next = match all {
         _ if found < last => omega_squared[found],
-        _ if is_all => 3.0 * omega_squared[last - 1],
+        Some(shift) => 3.0 * omega_squared[last - 1].max(shift),
         // Neighbors so close that none of them can be left out: the bound stands just above the last.
-        _ => (1.0 + 2.0 * APART) * omega_squared[last - 1],
+        None => (1.0 + 2.0 * APART) * omega_squared[last - 1],
     };
     let bound = |part: f64| omega_squared[found - 1] + part * (next - omega_squared[found - 1]);
     let factor_at = |bound: f64| {
         factor("pencil at a bound on its frequencies", -bound).map(|factor| (bound, factor))
     };
     // Nothing is exchanged in this factorization: at one place a part of the structure may vibrate by itself, and no other at another.
-    let (bound, factor) = factor_at(bound(0.5)).or_else(|_| factor_at(bound(0.4)))?;
+    let (bound, factor) = factor_at(bound(0.5))
+        .or_else(|_| factor_at(bound(0.4)))
+        .or_else(|_| factor_at(bound(0.6)))?;
     let counted = factor.negative_count();
     if counted == found {
         Ok(())

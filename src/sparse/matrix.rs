@@ -5,9 +5,9 @@ use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
 use crate::method::modes::check_count;
 use nalgebra::{DMatrix, DVector};
 
-/// Largest difference between two entries that should be equal, relative to the largest of the matrix: what a file's twelve
-/// digits leave.
-const SYMMETRY: f64 = 1e-11;
+/// Largest difference between two entries that should be equal, relative to the largest of the matrix: what the twelve digits leave
+/// that are given in a file.
+pub(super) const GIVEN: f64 = 1e-11;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
@@ -32,17 +32,9 @@ impl SparseMatrix {
         mut entries: Vec<(usize, usize, f64)>,
     ) -> Result<Self, Error> {
         at_least_one(what, rows.min(columns))?;
-        for &(row, column, value) in &entries {
+        for &(row, column, _) in &entries {
             check_count("rows of a matrix", row.saturating_add(1), rows)?;
             check_count("columns of a matrix", column.saturating_add(1), columns)?;
-            if !value.is_finite() {
-                return Err(Error::NotFinite {
-                    what,
-                    row,
-                    column,
-                    value,
-                });
-            }
         }
         entries.sort_by_key(|&(row, column, _)| (column, row));
         entries.dedup_by(|next, kept| {
@@ -54,11 +46,46 @@ impl SparseMatrix {
         });
         entries.retain(|entry| entry.2 != 0.0);
         entries.shrink_to_fit();
-        Ok(Self {
-            rows,
-            columns,
-            entries,
-        })
+        match entries.iter().find(|entry| !entry.2.is_finite()) {
+            None => Ok(Self {
+                rows,
+                columns,
+                entries,
+            }),
+            Some(&(row, column, value)) => Err(Error::NotFinite {
+                what,
+                row,
+                column,
+                value,
+            }),
+        }
+    }
+
+    /// The same of the rows and values of every column.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn of_columns(
+        what: &'static str,
+        rows: usize,
+        columns: &[Vec<(usize, f64)>],
+    ) -> Result<Self, Error> {
+        let all = columns.iter().enumerate();
+        let entries =
+            all.flat_map(|(j, column)| column.iter().map(move |&(i, value)| (i, j, value)));
+        Self::new(what, rows, columns.len(), entries.collect())
+    }
+
+    /// The same of a dense matrix.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn of_dense(what: &'static str, matrix: &DMatrix<f64>) -> Result<Self, Error> {
+        let columns: Vec<_> = matrix
+            .column_iter()
+            .map(|column| column.iter().copied().enumerate().collect())
+            .collect();
+        Self::of_columns(what, matrix.nrows(), &columns)
     }
 
     /// Number of rows.
@@ -87,7 +114,13 @@ impl SparseMatrix {
         *self == self.transposed()
     }
 
-    fn transposed(&self) -> Self {
+    /// The rows and values of one column.
+    pub(super) fn motion(&self, column: usize) -> Vec<(usize, f64)> {
+        let entries = self.column(column).iter();
+        entries.map(|&(row, _, value)| (row, value)).collect()
+    }
+
+    pub(super) fn transposed(&self) -> Self {
         let mut entries: Vec<_> = self
             .entries
             .iter()
@@ -158,7 +191,7 @@ impl SparseMatrix {
             .entries
             .iter()
             .fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
-        let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > SYMMETRY * largest;
+        let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > GIVEN * largest;
         match difference.entries.iter().find(is_apart) {
             Some(&(row, column, difference)) => Err(Error::NotSymmetric {
                 what,

@@ -5,12 +5,8 @@
 
 mod checks;
 mod condensation;
-mod condensation_error;
 pub(crate) mod elements;
-mod factor;
 pub mod factorization;
-pub mod free_modes;
-pub mod load_distribution;
 mod lowest_modes;
 mod matrix;
 mod ordering;
@@ -22,8 +18,7 @@ pub use checks::check_solution;
 pub(crate) use checks::{add_squares, start_vector};
 pub(crate) use condensation::sum_of_stiffness;
 pub use condensation::{LargeCondensation, LargeModel};
-pub use condensation_error::{CondensationError, LARGEST_CONDENSATION_ERROR};
-pub use factor::Factor;
-pub use lowest_modes::{FINITE, MOST_DENSE_ROWS, lowest_modes};
+pub use factorization::Factor;
+pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use whole_model::{WholeModel, WholeParameter, WholeShare};

@@ -1,15 +1,15 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
+use super::lowest_modes::{CountedModes, FINITE, modes_at_most};
 use super::sum_of_stiffness;
-use super::{Factor, SparseMatrix, lowest_modes};
+use super::{Factor, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
 use crate::method::model::{ModalModel, Pair, Range, Share};
-use crate::method::modes::{ModeSet, Modes};
+use crate::method::modes::{ModeSet, Modes, check_count};
 use crate::method::structure::positive;
-use crate::sparse::free_modes::CountedModes;
 use nalgebra::DMatrix;
 
 /// What one parameter holds of the whole model's matrices.
@@ -142,10 +142,13 @@ impl WholeModel {
     /// The `count` lowest vibrations at the given factors, and the rigid-body modes.
     ///
     /// # Errors
-    /// Those of [`Self::at`] and [`lowest_modes`].
+    /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        lowest_modes(&stiffness, &mass, count)
+        check_count("modes", count, self.dof_count())?;
+        let found = modes_at_most(&stiffness, &mass, count)?;
+        check_count(FINITE, count, found.vibrations.len())?;
+        Ok(found)
     }
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
@@ -206,29 +209,6 @@ impl WholeModel {
             },
             mass,
         ))
-    }
-
-    /// The paper's way to the same as [`Self::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.
-    ///
-    /// # Errors
-    /// Those of [`Self::condensed`] and [`crate::method::modes::solve`].
-    pub fn analyze_condensed(
-        &self,
-        factors: &[f64],
-        sensors: &SparseMatrix,
-        test: &ModeSet,
-        count: Option<usize>,
-    ) -> Result<ModalModel, Error> {
-        let (
-            Condensed {
-                stiffness,
-                transformation,
-            },
-            mass,
-        ) = self.condensed(factors, sensors)?;
-        ModalModel::new(&stiffness, &mass, test, count, |shapes| {
-            self.shares(factors, &(&transformation * shapes))
-        })
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.

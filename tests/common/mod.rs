@@ -6,6 +6,7 @@ pub mod blocks;
 pub mod close_roots;
 pub mod closed_forms;
 pub mod complex_pencils;
+pub mod condensed;
 pub mod counting_allocator;
 pub mod decks;
 pub mod double_double;
@@ -14,6 +15,7 @@ pub mod drawings;
 pub mod draws;
 #[cfg(unix)]
 pub mod fake_solver;
+pub mod fill;
 pub mod golden;
 pub mod ground_tests;
 pub mod hostile;

@@ -1,8 +1,36 @@
 //! Whole models of springs and masses as sparse matrices.
 
 use crate::common::closed_forms::analytical::ChainEnds;
+use corfem::method::error::Error;
 use corfem::method::model::Range;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::sparse::{
+    CountedModes, FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
+};
+use nalgebra::DMatrix;
+
+/// A matrix by the entries that are not zero.
+///
+/// # Errors
+/// Those of [`SparseMatrix::new`].
+pub fn sparse(matrix: &DMatrix<f64>) -> Result<SparseMatrix, Error> {
+    SparseMatrix::of_dense("matrix", matrix)
+}
+
+/// All modes of finite frequency.
+///
+/// # Errors
+/// Those of [`lowest_modes`].
+pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<CountedModes, Error> {
+    let (stiffness, mass) = (sparse(stiffness)?, sparse(mass)?);
+    match lowest_modes(&stiffness, &mass, stiffness.rows()) {
+        Err(Error::TooMany {
+            what: FINITE,
+            available,
+            ..
+        }) => lowest_modes(&stiffness, &mass, available),
+        found => found,
+    }
+}
 
 /// The stiffness of springs between degrees of freedom (two, or one and the ground).
 pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseMatrix {

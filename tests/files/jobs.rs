@@ -1,5 +1,6 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
+use crate::common::condensed::analyze_condensed;
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{
     Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth,
@@ -93,7 +94,7 @@ fn condensed(
     let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let analyze = |job: &Prepared, factors: &[f64]| {
         let whole = &job.source.whole;
-        whole.analyze_condensed(factors, &job.sensors, &job.test, None)
+        analyze_condensed(whole, factors, &job.sensors, &job.test, None)
     };
     (prepared, analyze)
 }

@@ -1,5 +1,6 @@
 //! The plan of a factorization, flexibility by half a solution, and shares of elements that no theory of elasticity made.
 
+use crate::common::fill;
 use crate::common::log_log_slope;
 use crate::common::matrices::relative_distance;
 use crate::common::strategies::symmetric;
@@ -8,8 +9,8 @@ use crate::common::tolerances::{CONDITIONED_ROUND_OFF, FILL_ORDER, MATRIX_ROUND_
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::SparseMatrix;
 use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::sparse::load_distribution::LoadDistribution;
 use corfem::torque_box::Case;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
@@ -54,13 +55,18 @@ fn plan(structure: &Structure) -> Arc<FactorizationPlan> {
     Arc::new(FactorizationPlan::new(structure, &elements).expect("a plan"))
 }
 
+fn fill_of(structure: &Structure) -> (usize, f64) {
+    let elements = element_matrices(structure).expect("elements");
+    fill::of_factor(&plan(structure), &elements)
+}
+
 /// George (1973): by nested dissection the factor of an n × n net has of the order of n² log n entries, and n³ row by row. Between
 /// 16 and 128 cells n² log n has the slope 2.3.
 #[test]
 fn fill_grows_as_nested_dissection_promises() {
     let cells = [16_usize, 32, 64, 128];
     let points: Vec<(f64, f64)> = cells
-        .map(|n| (n as f64, plan(&net(n)).factor_entries() as f64))
+        .map(|n| (n as f64, fill_of(&net(n)).0 as f64))
         .to_vec();
     let found = log_log_slope(&points);
     assert!((found - 2.3).abs() <= FILL_ORDER, "{found}: {points:?}");
@@ -70,8 +76,8 @@ fn fill_grows_as_nested_dissection_promises() {
 /// membrane of a net of one cell couples its four DOF, whose columns have four numbers and less.
 #[test]
 fn work_grows_as_nested_dissection_promises() {
-    assert_eq!(plan(&net(1)).factor_operations(), 30.0);
-    let points = [64_usize, 128].map(|n| (n as f64, plan(&net(n)).factor_operations()));
+    assert_eq!(fill_of(&net(1)).1, 30.0);
+    let points = [64_usize, 128].map(|n| (n as f64, fill_of(&net(n)).1));
     let found = log_log_slope(&points);
     assert!((found - 3.0).abs() <= FILL_ORDER, "{found}: {points:?}");
 }
@@ -114,12 +120,15 @@ fn a_plan_of_other_elements_is_refused() {
 
 #[test]
 fn a_load_distribution_says_what_is_wrong_with_it() {
-    let refused = LoadDistribution::new(3, vec![vec![(0, 1.0)], vec![(3, 1.0)]]).unwrap_err();
+    let columns = |columns: &[Vec<(usize, f64)>]| {
+        SparseMatrix::of_columns("load distribution", 3, columns).unwrap_err()
+    };
+    let refused = columns(&[vec![(0, 1.0)], vec![(3, 1.0)]]);
     assert_eq!(
         refused.to_string(),
-        "dynamic degree of freedom 1 (from zero): there is no row of the load distribution 3"
+        "rows of a matrix: 4 asked for, but there are only 3"
     );
-    let refused = LoadDistribution::new(3, vec![vec![(2, f64::NAN)]]).unwrap_err();
+    let refused = columns(&[vec![(2, f64::NAN)]]);
     assert!(
         matches!(
             refused,
@@ -133,8 +142,8 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
         "{refused:?}"
     );
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
-    let sparse = LoadDistribution::of(&t).expect("finite");
-    assert_eq!(sparse.columns(), [vec![(0, 1.0), (2, 0.5)], vec![(2, 2.0)]]);
+    let sparse = SparseMatrix::of_dense("load distribution", &t).expect("finite");
+    assert_eq!(sparse.entries(), [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]);
     assert_eq!((sparse.dense(), sparse.rows()), (t, 3));
 }
 
@@ -151,7 +160,7 @@ proptest! {
         let (structure, elements) = (model.structure(), model.element_matrices());
         let sizes: Vec<f64> = sizes(structure).iter().zip(&factors).map(|(size, factor)| size * factor).collect();
         let factor = FactorizedStiffness::planned(&plan(structure), elements, &sizes, structure.free_dof()).unwrap();
-        let loads = LoadDistribution::new(36, t).unwrap();
+        let loads = SparseMatrix::of_columns("load distribution", 36, &t).unwrap();
         let found = factor.flexibility(&loads).unwrap();
         let stiffness = dense_stiffness(elements, &sizes, 36).unwrap();
         let deflections = stiffness.clone().cholesky().unwrap().solve(&loads.dense());

@@ -11,7 +11,7 @@ fn a_structure_that_hangs_free_says_how_many_modes_are_not_listed() {
         held.replace("GRID,1,,0.,0.,0.,,123456", "GRID,1,,0.,0.,0.,,23456") + "CMASS2,11,1.,1,1\n";
     let notes = |text: &str| {
         let deck = deck::read("deck", text.as_bytes(), &[]).expect("a deck");
-        let modes = deck::modes(&deck.model).expect("modes");
+        let modes = deck::modes(&deck.model, usize::MAX).expect("modes");
         deck_tables(&deck, &modes, 2)[0].notes.join(" ")
     };
     assert!(

@@ -1,6 +1,7 @@
 //! What condensation to the measured DOF costs, and that the test is not blamed for it: a bar of ten rods measured at five joints.
 
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
+use crate::common::condensed::{LARGEST_CONDENSATION_ERROR, condensation_errors, seen_modes};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
 use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
@@ -9,9 +10,7 @@ use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::LargeModel;
-use corfem::sparse::{
-    FINITE, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-};
+use corfem::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -68,7 +67,7 @@ proptest! {
         }
         let (omega_squared, shapes) = modes_by_nalgebra(&stiffness, &DMatrix::from_diagonal(&lumped));
         let (whole, joints) = whole(&model);
-        let found = whole.seen_modes(&ONES, &joints, 5).expect("modes");
+        let found = seen_modes(&whole, &ONES, &joints, 5).expect("modes");
         for mode in 0..5 {
             prop_assert!((found.omega_squared()[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
             let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
@@ -84,7 +83,7 @@ proptest! {
         let model = bar(&areas, &FIVE);
         let condensed = model.modes(&ONES).expect("modes").frequencies_hz();
         let (whole, joints) = whole(&model);
-        let whole = whole.seen_modes(&ONES, &joints, 5).expect("modes").frequencies_hz();
+        let whole = seen_modes(&whole, &ONES, &joints, 5).expect("modes").frequencies_hz();
         for (condensed, whole) in condensed.iter().zip(whole) {
             prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
         }
@@ -94,7 +93,7 @@ proptest! {
     fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         let all: Vec<usize> = (1..=RODS).collect();
         let (whole, joints) = whole(&bar(&areas, &all));
-        for error in whole.condensation_errors(&ONES, &joints, RODS).expect("errors") {
+        for error in condensation_errors(&whole, &ONES, &joints, RODS).expect("errors") {
             prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
         }
     }
@@ -103,9 +102,7 @@ proptest! {
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
     let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
-    let errors = model
-        .condensation_errors(&ONES, &joints, 5)
-        .expect("errors");
+    let errors = condensation_errors(&model, &ONES, &joints, 5).expect("errors");
     // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
     assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
     assert!(errors[4].frequency > 0.03, "{errors:?}");
@@ -138,7 +135,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
         let sensors = sensors_at(&[1], 3);
         let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
         for count in [1, 2] {
-            let found = model.seen_modes(&[1.0], &sensors, count).expect("modes");
+            let found = seen_modes(&model, &[1.0], &sensors, count).expect("modes");
             for (found, expected) in found.omega_squared().iter().zip([roots[0], roots[2]]) {
                 assert!(
                     (found / expected - 1.0).abs() < MATRIX_ROUND_OFF,
@@ -147,7 +144,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
             }
             assert_eq!(found.len(), count);
         }
-        let refused = model.seen_modes(&[1.0], &sensors, 3);
+        let refused = seen_modes(&model, &[1.0], &sensors, 3);
         assert!(
             matches!(
                 refused,
@@ -164,9 +161,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
             springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]),
             &[mass; 2],
         );
-        let found = alone
-            .seen_modes(&[1.0], &sensors_at(&[1], 2), 1)
-            .expect("a mode");
+        let found = seen_modes(&alone, &[1.0], &sensors_at(&[1], 2), 1).expect("a mode");
         assert!((found.omega_squared()[0] / (4.0 * spring / mass) - 1.0).abs() < MATRIX_ROUND_OFF);
     }
 }
@@ -175,7 +170,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
 fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
     // One mass, and a point without that hangs on it.
     let model = of_matrices(chain_of_springs(ChainEnds::FreeFree, 2, 1.0), &[1.0, 0.0]);
-    let refused = model.seen_modes(&[1.0], &sensors_at(&[0], 2), 1);
+    let refused = seen_modes(&model, &[1.0], &sensors_at(&[0], 2), 1);
     assert!(
         matches!(
             refused,
@@ -193,7 +188,7 @@ fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
 fn more_modes_than_there_are_is_an_error() {
     let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
     assert!(matches!(
-        model.seen_modes(&ONES, &joints, 11),
+        seen_modes(&model, &ONES, &joints, 11),
         Err(Error::TooMany {
             available: 10,
             requested: 11,
@@ -201,11 +196,11 @@ fn more_modes_than_there_are_is_an_error() {
         })
     ));
     assert!(matches!(
-        model.seen_modes(&ONES, &joints, 0),
+        seen_modes(&model, &ONES, &joints, 0),
         Err(Error::Empty { .. })
     ));
     assert!(matches!(
-        model.condensation_errors(&ONES, &joints, 6),
+        condensation_errors(&model, &ONES, &joints, 6),
         Err(Error::TooMany { .. })
     ));
 }

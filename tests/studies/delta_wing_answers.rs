@@ -154,7 +154,7 @@ fn wing_to_deck_to_wing_is_the_identity() {
     assert_eq!(read.model, model);
     assert!(read.unread.is_empty());
     assert_eq!(
-        deck::modes(&read.model).expect("modes"),
+        deck::modes(&read.model, usize::MAX).expect("modes"),
         wing().modes().expect("modes")
     );
 }

@@ -3,8 +3,7 @@
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
-use crate::common::whole_models::{chain_of_springs as chain, masses, springs};
-use corfem::sparse::free_modes::counted_modes;
+use crate::common::whole_models::{chain_of_springs as chain, counted_modes, masses, springs};
 use corfem::sparse::{Factor, MOST_DENSE_ROWS, SparseMatrix, lowest_modes};
 use nalgebra::DMatrix;
 

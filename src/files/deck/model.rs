@@ -6,21 +6,15 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
+use crate::sparse::SparseMatrix;
 use crate::sparse::whole_modes::MassDof;
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
 /// Direction of the DOF that stands for a dynamic point: z.
 const DYNAMIC_DIRECTION: usize = 2;
 /// Numbers made up here start after the next multiple of this, so that a reader tells them from those given.
 const LABEL_STEP: usize = 100;
-/// Most memory for the dense matrices of an eigensolution, GiB: half of what a computer with 8 has.
-const MOST_MEMORY: f64 = 4.0;
-/// Dense matrices, of as many rows as free DOF or DOF with mass and as many columns as the latter, that exist at once:
-/// 8.2 to 10 of them fill the memory that chains of 4000 to 1000 masses take. The limit is at some 7300 masses.
-const DENSE_MATRICES: f64 = 10.0;
-const BYTES_PER_GIB: f64 = 1024.0 * 1024.0 * 1024.0;
-
 /// One MPC equation, $a_m u_m + \sum_j a_j u_j = 0$, which makes the DOF $m$ follow the others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tie {
@@ -215,27 +209,24 @@ impl BulkData {
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
     ///
     /// # Errors
-    /// [`Error::Empty`] when no mass can move; [`FileError::TooManyMasses`] for more than memory has room for.
+    /// [`Error::Empty`] when no mass can move.
     pub fn mass_dof(
         &self,
         structure: &Structure,
         elements: &[ElementMatrix],
     ) -> Result<MassDof, FileError> {
-        let free = structure.free_dof();
         let moving = self.moving_masses(structure, elements)?;
-        check_memory(moving.len(), free.len())?;
-        let mut t = DMatrix::zeros(free.len(), moving.len());
-        for (column, point) in moving.iter().enumerate() {
-            point
-                .motion
-                .iter()
-                .for_each(|&(row, coefficient)| t[(row, column)] += coefficient);
-        }
-        let mass = DVector::from_iterator(moving.len(), moving.iter().map(|point| point.mass));
         Ok(MassDof {
             dof: moving.iter().map(|point| point.dof).collect(),
-            load_distribution: t,
-            mass,
+            mass: DVector::from_iterator(moving.len(), moving.iter().map(|point| point.mass)),
+            load_distribution: SparseMatrix::of_columns(
+                "load distribution",
+                structure.free_dof().len(),
+                &moving
+                    .into_iter()
+                    .map(|point| point.motion)
+                    .collect::<Vec<_>>(),
+            )?,
         })
     }
 
@@ -307,22 +298,5 @@ impl BulkData {
 
     pub(super) fn sizes(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.size).collect()
-    }
-}
-
-/// Refuses dense matrices that memory does not hold, before they are made.
-fn check_memory(masses: usize, free: usize) -> Result<(), FileError> {
-    let entries = masses as f64 * masses.max(free) as f64;
-    let needed = DENSE_MATRICES * entries * size_of::<f64>() as f64 / BYTES_PER_GIB;
-    let refused = FileError::TooManyMasses {
-        most: MOST_MEMORY,
-        needed,
-        masses,
-        free,
-    };
-    if needed <= MOST_MEMORY {
-        Ok(())
-    } else {
-        Err(refused)
     }
 }

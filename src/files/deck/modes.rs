@@ -1,14 +1,15 @@
-//! The modes of a deck, refused where neither memory nor double precision suffices for them.
+//! The modes of a deck, refused where double precision does not suffice for them.
 
 use super::model::BulkData;
 use crate::files::error::FileError;
-use crate::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
+use crate::method::assembly::{ElementMatrix, element_matrices, stiffness_entries};
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
-use crate::method::structure::{DIRECTIONS, Structure, positive};
+use crate::method::structure::{DIRECTIONS, Structure};
+use crate::sparse::SparseMatrix;
 use crate::sparse::factorization::FactorizedStiffness;
-use crate::sparse::whole_modes::{MassDof, WholeModes, free_whole_modes, whole_modes};
+use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
 /// 1e10 six digits of the lowest frequency are left.
@@ -17,42 +18,31 @@ const LARGEST_RATIO: f64 = 1e10;
 /// that differ by one part in 1e5, far more than fields of 8 characters round.
 const INDEPENDENT: f64 = 1e-10;
 
-/// All vibrations of finite frequency of the model that a deck describes, held or free, at its DOF with mass ([`BulkData::mass_dof`]): as
-/// many as there are masses that move independently.
+/// The lowest vibrations of the model that a deck describes, held or free, at its DOF with mass ([`BulkData::mass_dof`]): `most` of them,
+/// or all of finite frequency, which are as many as there are masses that move independently.
 ///
 /// # Errors
-/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements and the factorization of $K_S$;
+/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements, the factorization of $K_S$ and [`whole_modes`];
 /// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
-/// [`Error::NotPositive`] for a squared frequency or a generalized mass beyond the range of numbers.
-pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
+/// [`Error::NotFinite`] for a squared frequency or a mass beyond the range of numbers.
+pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
     let elements = element_matrices(&structure)?;
     check_stiffness(&structure, &elements)?;
     let at = model.mass_dof(&structure, &elements)?;
     let (sizes, free) = (model.sizes(), structure.free_dof());
-    let found = match FactorizedStiffness::new(&elements, &sizes, free) {
-        Ok(stiffness) => whole_modes(&stiffness, at)?,
-        // It may hang free; a motion that has no mass either is refused by its grid.
-        Err(singular @ Error::SingularStiffness { .. }) => {
-            let dense = dense_stiffness(&elements, &sizes, free.len())?;
-            free_whole_modes(&dense, at).map_err(|error| match error {
-                Error::NotPositiveDefinite { .. } => singular,
-                other => other,
-            })?
-        }
-        Err(other) => return Err(other.into()),
-    };
-    if found.rigid_body == 0 && found.modes.len() < found.dof.len() {
+    let entries = elements.iter().zip(&sizes);
+    let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
+    let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
+    let found = whole_modes(&stiffness, at, most).map_err(|error| match error {
+        // What has neither stiffness nor mass has a grid.
+        Error::NotPositiveDefinite { .. } => FactorizedStiffness::new(&elements, &sizes, free)
+            .err()
+            .unwrap_or(error),
+        other => other,
+    })?;
+    if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
         check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
-    }
-    let (squared, shapes) = (
-        found.modes.omega_squared.iter(),
-        found.modes.shapes.column_iter(),
-    );
-    for (mode, (&squared, shape)) in squared.zip(shapes).enumerate() {
-        let owner = || format!("mode {}", mode + 1);
-        positive("squared frequency", owner, squared)?;
-        positive("generalized mass", owner, shape.amax().powi(-2))?;
     }
     Ok(found)
 }
@@ -97,11 +87,17 @@ fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
     };
     let [lightest, heaviest] =
         [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
-    let mut motions = at.load_distribution;
+    let mut motions = at.load_distribution.dense();
     for mut motion in motions.column_iter_mut() {
         motion.normalize_mut();
     }
-    let (values, _) = symmetric_eigen("motions of masses", &motions.tr_mul(&motions))?;
+    // The smaller of the two Gram matrices; what is not zero of their eigenvalues is the same.
+    let gram = if motions.nrows() < motions.ncols() {
+        &motions * motions.transpose()
+    } else {
+        motions.tr_mul(&motions)
+    };
+    let (values, _) = symmetric_eigen("motions of masses", &gram)?;
     let expected = values.iter().filter(|&&value| value > INDEPENDENT).count();
     if found >= expected {
         Ok(())

@@ -1,183 +1,127 @@
-//! Factorization of the structural stiffness: planned once, made anew for every set of sizes, solved many times.
+//! The one factorization: of the structural stiffness, and of every other symmetric matrix, with its inertia.
 //! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 mod plan;
+mod stiffness;
 
 pub use plan::FactorizationPlan;
+pub use stiffness::FactorizedStiffness;
 
-use crate::method::assembly::{ElementMatrix, check_elements, dense_stiffness};
-use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, cholesky, finite};
-use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
-use crate::sparse::load_distribution::LoadDistribution;
-use crate::sparse::{add_squares, check_solution, start_vector};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};
+use crate::sparse::{SparseMatrix, add_squares, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+    solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
 };
-use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
 use faer::{Accum, MatMut, MatRef, Par};
-use nalgebra::{DMatrix, DVector, Vector3};
-use plan::fingerprint;
+use nalgebra::{DMatrix, DVector, RowDVector};
 use std::sync::Arc;
 
 /// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
 /// smallest eigenvalues; when the matrix is singular the first step already gains ten decades.
 const INVERSE_ITERATIONS: usize = 4;
-/// A first estimate of the smallest eigenvalue by so much above round-off needs no second: it is too large by no more than one over
-/// the part that the start vector has in the weakest motion.
+/// If the first estimate of the smallest eigenvalue exceeds the limit by this factor, it is enough: it is too large by at most
+/// 1/(component of the start vector along the weakest motion).
 const CLEARLY_HELD: f64 = 1e6;
-/// Shift of the unit-diagonal stiffness that makes a singular one factorizable to find its free motion.
-const SINGULAR_SHIFT: f64 = 1e-10;
-
 /// Rows of $W$ that are multiplied at once: as many as a processor's cache holds.
 const PANEL: usize = 512;
 
-/// The structural stiffness, factorized once and solved many times.
+/// A symmetric matrix, factorized once and solved many times:
 ///
-/// Held as $K_S = S^{-1} L L^t S^{-1}$ with a sparse Cholesky factor $L$, where the diagonal $S$ scales $K_S$ to unit
-/// diagonal.
+/// $$ A = S^{-1} L D L^t S^{-1} $$
+///
+/// where the diagonal $S$ brings the diagonal of $A$ to one in size, $L$ has a unit diagonal and $D$ holds the pivots. Of a positive
+/// definite matrix this is Cholesky's factor $L D^{1/2}$.
+///
+/// Rows are not exchanged, so that the pivots of an indefinite matrix may be small with large numbers below them, which take digits
+/// from all that follows. Every factor therefore solves its own scaled matrix for a probe before it is handed out: the residual
+/// ([`check_solution`]) must be that of a matrix within $10^4 \varepsilon \sqrt n$ of it. No eigenvalue beyond that distance from zero
+/// changes its sign on the way from one matrix to the other, so that the signs of the pivots count them right.
 #[derive(Debug, Clone)]
-pub struct FactorizedStiffness {
+pub struct Factor {
     plan: Arc<FactorizationPlan>,
-    scale: DVector<f64>,
     values: Vec<f64>,
+    /// $S$ and $D$ in the order of elimination.
+    scale: DVector<f64>,
+    pivots: Vec<f64>,
 }
 
-impl FactorizedStiffness {
-    /// Assembles and factorizes $K_S = \sum_e s_e K_e$.
-    ///
-    /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
+impl Factor {
+    /// Factorizes a symmetric matrix (both triangles given), which may be indefinite.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a bad size;
-    /// [`Error::Empty`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
-    /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
-    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
-    /// factor does not solve its own matrix.
-    ///
-    /// # Example
-    ///
-    /// ```rust
-    /// use corfem::chain::rods;
-    /// use corfem::method::assembly::element_matrices;
-    /// use corfem::method::error::Error;
-    /// use corfem::sparse::factorization::FactorizedStiffness;
-    ///
-    /// // Held nowhere, the chain can move along x.
-    /// let free = rods(&[100.0, 50.0], [false, false])?;
-    /// let found = FactorizedStiffness::new(&element_matrices(&free)?, &[100.0, 50.0], free.free_dof());
-    /// assert!(matches!(found, Err(Error::SingularStiffness { direction: 'x', .. })));
-    /// # Ok::<(), corfem::method::error::Error>(())
-    /// ```
-    pub fn new(
-        elements: &[ElementMatrix],
-        sizes: &[f64],
-        free: &[StructuralDof],
+    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot
+    /// vanishes; [`Error::WrongSolution`] when the factor does not solve its own matrix.
+    pub fn new(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
+        matrix.check_symmetric(what)?;
+        let plan = Arc::new(FactorizationPlan::of_sum(&[matrix])?);
+        Self::of_sum(&plan, what, &[(1.0, matrix)])
+    }
+
+    /// As [`Self::new`] of a sum of matrices, each times its number, by their plan.
+    pub(super) fn of_sum(
+        plan: &Arc<FactorizationPlan>,
+        what: &'static str,
+        terms: &[(f64, &SparseMatrix)],
     ) -> Result<Self, Error> {
-        check_sizes(elements, sizes, free)?;
-        Self::planned(
-            &Arc::new(FactorizationPlan::of(elements, free, |_| Vector3::zeros())?),
-            elements,
-            sizes,
-            free,
+        let mut entries = plan.entries_of(terms);
+        let size = |entry: f64| if entry == 0.0 { 1.0 } else { entry.abs() };
+        let scale = plan.scale(&mut entries, size);
+        let factor = Self::of_entries(plan, what, &entries, scale)?;
+        factor.check(what, &entries)?;
+        Ok(factor)
+    }
+
+    /// The factor of scaled entries, not checked yet.
+    fn of_entries(
+        plan: &Arc<FactorizationPlan>,
+        what: &'static str,
+        entries: &[f64],
+        scale: DVector<f64>,
+    ) -> Result<Self, Error> {
+        let (values, zero) = plan.factor(entries)?;
+        let blocks = plan.blocks(&values).map(|block| block.val());
+        let pivots = blocks.flat_map(|block| (0..block.ncols()).map(move |at| block[(at, at)]));
+        let pivots: Vec<f64> = pivots.collect();
+        let is_none = |pivot: &f64| !pivot.is_finite() || *pivot == 0.0;
+        if let Some(at) = zero.or_else(|| pivots.iter().position(is_none)) {
+            return Err(Error::NotPositiveDefinite {
+                what,
+                dof: plan.order[at],
+            });
+        }
+        Ok(Self {
+            plan: Arc::clone(plan),
+            values,
+            scale,
+            pivots,
+        })
+    }
+
+    /// Refuses a factor that does not solve its own scaled matrix.
+    fn check(&self, what: &'static str, entries: &[f64]) -> Result<(), Error> {
+        check_solution(
+            what,
+            |x| self.plan.times(entries, x),
+            |right| self.solved(right.transpose()).transpose(),
+            &start_vector(self.scale.len()),
         )
     }
 
-    /// The same by a plan that was made for these elements.
+    /// $A^{-1} R$ for every column of $R$ (rows × m): of a stiffness (lbf/in) the deflections $q_S = K_S^{-1} Q_S$ (A.2) in inches
+    /// under loads in lbf.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::WrongShape`] for a plan of other elements.
-    pub fn planned(
-        plan: &Arc<FactorizationPlan>,
-        elements: &[ElementMatrix],
-        sizes: &[f64],
-        free: &[StructuralDof],
-    ) -> Result<Self, Error> {
-        check_sizes(elements, sizes, free)?;
-        let count = free.len();
-        check_length(
-            "degrees of freedom of the plan",
-            plan.pattern.ncols(),
-            count,
-        )?;
-        if plan.fingerprint != fingerprint(elements) {
-            check_length("elements of the plan", 0, elements.len())?;
-        }
-        let mut entries = plan.assembled(elements, sizes);
-        let singular = |dof: usize, ratio| {
-            let StructuralDof { grid, direction } = free[dof];
-            Err(Error::SingularStiffness {
-                grid,
-                direction: *DIRECTIONS.get(direction).unwrap_or(&'?'),
-                ratio,
-            })
-        };
-        let diagonal = &plan.pattern.col_ptr()[..count];
-        if let Some(dof) = (0..count).find(|&dof| entries[diagonal[plan.turn[dof]]] <= 0.0) {
-            return singular(dof, 0.0);
-        }
-        let scale = plan.scale(&mut entries, |entry| entry);
-        let round_off = 32.0 * f64::EPSILON * (count as f64).sqrt();
-        let start = start_vector(count);
-        // A stiffness that is not positive definite to working precision is shifted to find out which motion is free.
-        for shift in [0.0, SINGULAR_SHIFT] {
-            diagonal.iter().for_each(|&place| entries[place] += shift);
-            let (values, true) = plan.factor(&entries, true)? else {
-                continue;
-            };
-            let factor = Self {
-                plan: Arc::clone(plan),
-                scale: DVector::from_element(count, 1.0),
-                values,
-            };
-            let times = |x: &DVector<f64>| plan.times(&entries, x);
-            // The first step toward the weakest motion and the check pass through the factor together.
-            let both = factor.solved(DMatrix::from_rows(&[
-                start.transpose(),
-                times(&start).transpose(),
-            ]));
-            // Of a stiffness that had to be shifted the free motion is wanted, which takes every iteration.
-            let enough = if shift == 0.0 {
-                CLEARLY_HELD * round_off
-            } else {
-                f64::INFINITY
-            };
-            let (smallest, motion) = factor.weakest_motion(both.rows(0, 1).into_owned(), enough);
-            if shift == 0.0 && smallest > round_off {
-                check_solution(
-                    "structural stiffness",
-                    times,
-                    |_| both.row(1).transpose(),
-                    &start,
-                )?;
-                return Ok(Self { scale, ..factor });
-            }
-            let moved = |dof: usize| (motion[plan.turn[dof]] * scale[plan.turn[dof]]).abs();
-            // Of equal ones the first.
-            let most = (0..count)
-                .rev()
-                .max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
-            return singular(most.unwrap_or(0), smallest - shift);
-        }
-        let what = "structural stiffness";
-        cholesky(what, &dense_stiffness(elements, sizes, count)?, 0.0)
-            .and(Err(Error::NoConvergence(what)))
-    }
-
-    /// Deflections $q_S = K_S^{-1} Q_S$ (A.2) for every column of `loads` (lbf); inches.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] unless `loads` has one row per free DOF; [`Error::NotFinite`].
-    pub fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        check_shape("loads", loads, self.scale.len(), loads.ncols())?;
-        check_finite("loads", loads)?;
-        self.solve_transposed(loads)
+    /// [`Error::WrongShape`] unless $R$ has a row per row of the matrix; [`Error::NotFinite`].
+    pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        check_shape("loads", right, self.scale.len(), right.ncols())?;
+        check_finite("loads", right)?;
+        self.solve_transposed(right)
             .map(|deflections| deflections.transpose())
     }
 
-    /// The same transposed (m × free SDOF), so that the deflections of one DOF lie together.
+    /// The same transposed (m × rows), so that the deflections of one DOF lie together.
     pub(crate) fn solve_transposed(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         let (count, turn) = (loads.ncols(), &self.plan.turn);
         let (mut rows, mut is_reached) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
@@ -193,39 +137,32 @@ impl FactorizedStiffness {
         finite("deflections", DMatrix::from_fn(count, loads.nrows(), at))
     }
 
-    /// The flexibility $T^t K_S^{-1} T$ (A.5, d × d, in/lbf) by forward substitution alone:
+    /// The flexibility $T^t K_S^{-1} T$ (A.5, d × d, in/lbf) of a positive definite stiffness by forward substitution alone:
     ///
-    /// $$ T^t K_S^{-1} T = W^t W, \qquad W = L^{-1} S T $$
+    /// $$ T^t K_S^{-1} T = W^t W, \qquad W = D^{-1/2} L^{-1} S T $$
     ///
     /// Where no dynamic DOF's loads reach, $W$ is zero and nothing is done.
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
-    pub fn flexibility(&self, load_distribution: &LoadDistribution) -> Result<DMatrix<f64>, Error> {
-        check_length(
-            "load distribution",
-            load_distribution.rows(),
-            self.scale.len(),
-        )?;
-        let count = load_distribution.columns().len();
-        let (mut rows, mut is_reached) = (
-            vec![0.0; self.scale.len() * count],
-            vec![false; self.scale.len()],
-        );
-        for (column, terms) in load_distribution.columns().iter().enumerate() {
-            for &(dof, coefficient) in terms {
-                let turn = self.plan.turn[dof];
-                is_reached[turn] = true;
-                rows[turn * count + column] += coefficient * self.scale[turn];
-            }
+    pub fn flexibility(&self, load_distribution: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
+        let size = self.scale.len();
+        check_length("load distribution", load_distribution.rows(), size)?;
+        let count = load_distribution.columns();
+        let (mut rows, mut is_reached) = (vec![0.0; size * count], vec![false; size]);
+        for &(dof, column, coefficient) in load_distribution.entries() {
+            let turn = self.plan.turn[dof];
+            is_reached[turn] = true;
+            rows[turn * count + column] = coefficient * self.scale[turn];
         }
         self.forward(&mut rows, &mut is_reached);
         let mut sum = DMatrix::zeros(count, count);
-        for (rows, _) in rows
-            .chunks(PANEL * count)
-            .zip(is_reached.chunks(PANEL))
-            .filter(|(_, reached)| reached.contains(&true))
-        {
+        let panels = rows.chunks_mut(PANEL * count);
+        let reached = is_reached.chunks(PANEL).zip(self.pivots.chunks(PANEL));
+        for (rows, (_, pivots)) in panels.zip(reached).filter(|(_, at)| at.0.contains(&true)) {
+            for (row, pivot) in rows.chunks_mut(count).zip(pivots) {
+                row.iter_mut().for_each(|value| *value /= pivot.sqrt());
+            }
             add_squares(&mut sum, rows);
         }
         sum.fill_upper_triangle_with_lower_triangle();
@@ -236,7 +173,7 @@ impl FactorizedStiffness {
     /// reached are left alone.
     fn forward(&self, rows: &mut [f64], is_reached: &mut [bool]) {
         let (count, mut scratch) = (rows.len() / is_reached.len(), Vec::new());
-        for block in self.blocks() {
+        for block in self.plan.blocks(&self.values) {
             let end = block.start() + block.val().ncols();
             if !is_reached[block.start()..end].contains(&true) {
                 continue;
@@ -245,7 +182,7 @@ impl FactorizedStiffness {
             let own = &mut done[block.start() * count..];
             let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
             let (diagonal, below) = block.val().split_at_row(block.val().ncols());
-            solve_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
+            solve_unit_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
             scratch.resize(count * below.nrows(), 0.0);
             let mut change =
                 MatMut::from_column_major_slice_mut(&mut scratch, count, below.nrows());
@@ -269,10 +206,13 @@ impl FactorizedStiffness {
         }
     }
 
-    /// $L^{-t}$ times right-hand sides in the same way.
+    /// $L^{-t} D^{-1}$ times right-hand sides in the same way.
     fn backward(&self, rows: &mut [f64], count: usize) {
+        for (row, pivot) in rows.chunks_exact_mut(count.max(1)).zip(&self.pivots) {
+            row.iter_mut().for_each(|value| *value /= pivot);
+        }
         let mut scratch = Vec::new();
-        for block in self.blocks().rev() {
+        for block in self.plan.blocks(&self.values).rev() {
             let end = block.start() + block.val().ncols();
             let (before, later) = rows.split_at_mut(end * count);
             let own = &mut before[block.start() * count..];
@@ -285,52 +225,77 @@ impl FactorizedStiffness {
                 .for_each(|&row| scratch.extend_from_slice(&later[(row - end) * count..][..count]));
             let solved = MatRef::from_column_major_slice(&scratch, count, below.nrows());
             matmul(own.as_mut(), Accum::Add, solved, below, -1.0, Par::Seq);
-            solve_upper_triangular_in_place(diagonal.transpose(), own.transpose_mut(), Par::Seq);
+            solve_unit_upper_triangular_in_place(
+                diagonal.transpose(),
+                own.transpose_mut(),
+                Par::Seq,
+            );
         }
     }
 
-    /// The factor by blocks of columns with the same rows, which the plan always asks for.
-    fn blocks(&self) -> impl DoubleEndedIterator<Item = SupernodeRef<'_, usize, f64>> {
-        let factor = match self.plan.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                Some(SupernodalLltRef::new(symbolic, &self.values))
+    /// The solution of the scaled problem for a row of loads, both in the order of elimination.
+    fn solved(&self, mut row: RowDVector<f64>) -> RowDVector<f64> {
+        self.forward(row.as_mut_slice(), &mut vec![true; self.scale.len()]);
+        self.backward(row.as_mut_slice(), 1);
+        row
+    }
+
+    /// The number of negative pivots, which is that of the matrix's negative eigenvalues (Sylvester's law of inertia).
+    pub fn negative_count(&self) -> usize {
+        self.pivots.iter().filter(|pivot| **pivot < 0.0).count()
+    }
+
+    /// Refuses a matrix that is not positive definite beyond its [`round_off`].
+    ///
+    /// # Errors
+    /// [`Error::NotPositiveDefinite`] naming the row of the smallest pivot.
+    pub fn check_positive(self, what: &'static str) -> Result<Self, Error> {
+        if self.is_above(round_off(self.pivots.len())) {
+            Ok(self)
+        } else {
+            Err(self.not_positive(what))
+        }
+    }
+
+    /// The error that names the row of the smallest pivot.
+    fn not_positive(&self, what: &'static str) -> Error {
+        let rows = self.pivots.iter().zip(&self.plan.order);
+        let smallest = rows.min_by(|a, b| a.0.total_cmp(b.0));
+        Error::NotPositiveDefinite {
+            what,
+            dof: smallest.map_or(0, |(_, &dof)| dof),
+        }
+    }
+
+    /// Whether every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative.
+    ///
+    /// Small pivots tell nothing of that: after a small one the next is as wrong as round-off divided by it.
+    pub(super) fn is_above(&self, limit: f64) -> bool {
+        self.negative_count() == 0 && self.weakest_motion(CLEARLY_HELD * limit).0 > limit
+    }
+
+    /// Smallest eigenvalue and its vector of the scaled matrix, by inverse iteration; no more than its first estimate if that is above
+    /// `enough`.
+    fn weakest_motion(&self, enough: f64) -> (f64, RowDVector<f64>) {
+        let start = start_vector(self.scale.len());
+        let (mut motion, mut smallest) = (start.transpose(), 0.0);
+        for _ in 0..INVERSE_ITERATIONS {
+            if smallest <= enough {
+                motion = self.solved(motion);
+                smallest = 1.0 / motion.normalize_mut();
             }
-            SymbolicCholeskyRaw::Simplicial(_) => None,
-        };
-        factor.into_iter().flat_map(|factor| {
-            (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at))
-        })
-    }
-
-    /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
-    fn solved(&self, mut rows: DMatrix<f64>) -> DMatrix<f64> {
-        let count = rows.nrows();
-        self.forward(rows.as_mut_slice(), &mut vec![true; self.scale.len()]);
-        self.backward(rows.as_mut_slice(), count);
-        rows
-    }
-
-    /// Smallest eigenvalue and its vector (a row) of the scaled stiffness, by inverse iteration from the solution for a unit vector; no
-    /// more than its first estimates where these are above `enough`.
-    fn weakest_motion(&self, mut motion: DMatrix<f64>, enough: f64) -> (f64, DMatrix<f64>) {
-        let (mut smallest, mut left) = (1.0 / motion.normalize_mut(), INVERSE_ITERATIONS - 1);
-        while left > 0 && smallest <= enough {
-            motion = self.solved(motion);
-            (smallest, left) = (1.0 / motion.normalize_mut(), left - 1);
         }
         (smallest, motion)
     }
 }
 
-/// Refuses sizes that are not positive and a structure without DOF.
-fn check_sizes(
-    elements: &[ElementMatrix],
-    sizes: &[f64],
-    free: &[StructuralDof],
-) -> Result<(), Error> {
-    for (element, &size) in elements.iter().zip(sizes) {
-        positive("size", || format!("element {}", element.label), size)?;
-    }
-    at_least_one("free degrees of freedom", free.len())?;
-    check_elements(elements, sizes, free.len())
+/// What round-off leaves of a zero eigenvalue of a semidefinite matrix of $n$ rows with unit diagonal: $32 \varepsilon \sqrt n$.
+///
+/// The computed factor is the exact one of $A + E$. With unit diagonal $|L| D |L|^t$ has no entry above one, so that those of $E$ are
+/// below $\varepsilon$ times the number of products in a sum, of which there are $n$ at most; errors of either sign make it the root of
+/// their number. A structure's matrix has some 32 entries in a row, and no eigenvalue of $E$ exceeds the sum of a row: a matrix whose
+/// smallest eigenvalue is no larger may be singular for all that its numbers tell.
+/// Source: Higham, *Accuracy and Stability of Numerical Algorithms* (2002), theorem 10.3 and section 2.8.
+pub(crate) fn round_off(rows: usize) -> f64 {
+    32.0 * f64::EPSILON * (rows as f64).sqrt()
 }

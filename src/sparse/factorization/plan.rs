@@ -3,11 +3,12 @@
 use crate::method::assembly::{ElementMatrix, check_elements};
 use crate::method::error::Error;
 use crate::method::structure::{StructuralDof, Structure};
+use crate::sparse::SparseMatrix;
 use crate::sparse::ordering::Mesh;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::{SupernodalLdltRef, SupernodeRef};
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -21,25 +22,30 @@ use std::ops::Range;
 /// factor then has them.
 #[derive(Debug)]
 pub struct FactorizationPlan {
-    /// The DOF in the order of elimination, and when each is eliminated; everything below counts the DOF in that order.
-    pub(crate) order: Vec<usize>,
-    pub(crate) turn: Vec<usize>,
+    /// The DOF in the order of elimination.
+    pub order: Vec<usize>,
+    /// When each is eliminated; everything below counts the DOF in that order.
+    pub(super) turn: Vec<usize>,
     /// The lower triangle, column by column; the first entry of a column is the diagonal.
-    pub(super) pattern: SymbolicSparseColMat<usize>,
+    pattern: SymbolicSparseColMat<usize>,
     /// Place among the entries of every entry of every element's own lower triangle; none where a matrix is factorized.
     places: Vec<u32>,
-    pub(crate) symbolic: SymbolicCholesky<usize>,
-    /// Of the DOF that the elements had.
-    pub(super) fingerprint: u64,
+    symbolic: SymbolicCholesky<usize>,
+    /// That of the elements ([`dof_of`]).
+    dof: Vec<u32>,
 }
 
-/// A number that other DOF do not have, by the Fowler–Noll–Vo hash.
-pub(super) fn fingerprint(elements: &[ElementMatrix]) -> u64 {
-    let (offset, prime) = (0xcbf2_9ce4_8422_2325_u64, 0x0100_0000_01b3);
-    let all = elements
-        .iter()
-        .flat_map(|element| element.dof.iter().copied().chain([usize::MAX]));
-    all.fold(offset, |hash, dof| (hash ^ dof as u64).wrapping_mul(prime))
+/// The DOF of elements one behind the other, with a mark after each element.
+fn dof_of(elements: &[ElementMatrix]) -> impl Iterator<Item = u32> {
+    let of_element = |element: &ElementMatrix| {
+        element
+            .dof
+            .iter()
+            .map(|&dof| dof as u32)
+            .chain([u32::MAX])
+            .collect::<Vec<_>>()
+    };
+    elements.iter().flat_map(of_element)
 }
 
 impl FactorizationPlan {
@@ -84,9 +90,21 @@ impl FactorizationPlan {
         }
         Ok(Self {
             places,
-            fingerprint: fingerprint(elements),
+            dof: dof_of(elements).collect(),
             ..plan
         })
+    }
+
+    /// The plan for sums of square matrices of one size.
+    pub(in crate::sparse) fn of_sum(matrices: &[&SparseMatrix]) -> Result<Self, Error> {
+        let coupled = |row: usize| {
+            matrices
+                .iter()
+                .flat_map(|matrix| matrix.column(row))
+                .map(|entry| entry.0)
+                .collect()
+        };
+        Self::of_matrices(matrices[0].rows(), coupled, |_| Vector3::zeros())
     }
 
     /// The plan for symmetric matrices that couple every row to those listed, which have a position each. Neighbors coupled to the same
@@ -94,7 +112,7 @@ impl FactorizationPlan {
     ///
     /// # Errors
     /// Those of [`Self::new`].
-    pub(crate) fn of_matrices(
+    fn of_matrices(
         count: usize,
         coupled: impl Fn(usize) -> Vec<usize>,
         position: impl Fn(usize) -> Vector3<f64>,
@@ -179,7 +197,7 @@ impl FactorizationPlan {
             pattern,
             places: Vec::new(),
             symbolic,
-            fingerprint: 0,
+            dof: Vec::new(),
         })
     }
 
@@ -191,30 +209,30 @@ impl FactorizationPlan {
             .map(|place| range.start + place)
     }
 
-    /// How many numbers the factor holds.
-    pub fn factor_entries(&self) -> usize {
-        self.symbolic.len_val()
+    /// Whether it was made for elements at the same DOF.
+    pub(super) fn is_of(&self, elements: &[ElementMatrix]) -> bool {
+        dof_of(elements).eq(self.dof.iter().copied())
     }
 
-    /// How many multiplications and additions the factorization takes in its leading order: the squares of the lengths of the factor's
-    /// columns.
-    pub fn factor_operations(&self) -> f64 {
-        let SymbolicCholeskyRaw::Supernodal(blocks) = self.symbolic.raw() else {
-            return 0.0;
+    /// The places of the diagonal.
+    pub(super) fn diagonal(&self) -> &[usize] {
+        &self.pattern.col_ptr()[..self.order.len()]
+    }
+
+    /// The factor of given values by blocks of columns with the same rows, which the plan always asks for.
+    pub(super) fn blocks<'a>(
+        &'a self,
+        values: &'a [f64],
+    ) -> impl DoubleEndedIterator<Item = SupernodeRef<'a, usize, f64>> {
+        let factor = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                Some(SupernodalLdltRef::new(symbolic, values))
+            }
+            SymbolicCholeskyRaw::Simplicial(_) => None,
         };
-        let widths = blocks
-            .supernode_begin()
-            .iter()
-            .zip(blocks.supernode_end())
-            .map(|(begin, end)| end - begin);
-        let blocks = widths
-            .zip(blocks.col_ptr_for_val().windows(2))
-            .map(|(width, at)| (width, (at[1] - at[0]) / width));
-        blocks
-            .flat_map(|(width, length)| {
-                (0..width).map(move |column| ((length - column) as f64).powi(2))
-            })
-            .sum()
+        factor.into_iter().flat_map(|factor| {
+            (0..factor.symbolic().n_supernodes()).map(move |at| factor.supernode(at))
+        })
     }
 
     /// The lower triangle's entries of $\sum_e s_e K_e$.
@@ -231,30 +249,27 @@ impl FactorizationPlan {
         values
     }
 
-    /// Those of a symmetric matrix given by row, column and value; none where it has an entry that the plan has not.
-    pub(crate) fn entries_of(
-        &self,
-        matrix: impl Iterator<Item = (usize, usize, f64)>,
-    ) -> Option<Vec<f64>> {
+    /// Those of a sum of symmetric matrices, each times its number, for which it was made.
+    pub(super) fn entries_of(&self, terms: &[(f64, &SparseMatrix)]) -> Vec<f64> {
         let mut values = vec![0.0; self.pattern.row_idx().len()];
-        for (row, column, value) in
-            matrix.map(|(row, column, value)| (self.turn[row], self.turn[column], value))
-        {
-            if row >= column {
-                values[self.place(row, column)?] += value;
-            }
+        let all = terms
+            .iter()
+            .flat_map(|(number, matrix)| matrix.times_number(*number));
+        for (row, column, value) in all {
+            let place = self.place(self.turn[row], self.turn[column]);
+            place.into_iter().for_each(|place| values[place] += value);
         }
-        Some(values)
+        values
     }
 
     /// The rows of a column's entries and the range of their places.
-    pub(super) fn column(&self, column: usize) -> (&[usize], Range<usize>) {
+    fn column(&self, column: usize) -> (&[usize], Range<usize>) {
         let range = self.pattern.col_ptr()[column]..self.pattern.col_ptr()[column + 1];
         (&self.pattern.row_idx()[range.clone()], range)
     }
 
     /// The product of the matrix of given entries with a vector.
-    pub(crate) fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
+    pub(super) fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
         let mut product = DVector::zeros(x.len());
         for column in 0..x.len() {
             let (rows, range) = self.column(column);
@@ -269,12 +284,9 @@ impl FactorizationPlan {
     }
 
     /// Scales entries so that the given size of those of the diagonal becomes one, and says by what.
-    pub(crate) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
-        let starts = &self.pattern.col_ptr()[..self.turn.len()];
-        let scale = DVector::from_iterator(
-            starts.len(),
-            starts.iter().map(|&at| 1.0 / size(entries[at]).sqrt()),
-        );
+    pub(super) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
+        let sizes = self.diagonal().iter().map(|&at| size(entries[at]));
+        let scale = DVector::from_iterator(self.order.len(), sizes.map(|size| 1.0 / size.sqrt()));
         for column in 0..scale.len() {
             let (rows, range) = self.column(column);
             rows.iter()
@@ -284,41 +296,24 @@ impl FactorizationPlan {
         scale
     }
 
-    /// The factor of given entries, in one thread whatever the library's global setting: its parallel kernels have open reports of
-    /// wrong results on large matrices. Of a `definite` matrix $L$ of $L L^t$, else $L$ and $D$ of $L D L^t$; and whether there is
-    /// one to working precision.
-    pub(crate) fn factor(
-        &self,
-        entries: &[f64],
-        definite: bool,
-    ) -> Result<(Vec<f64>, bool), Error> {
-        let (symbolic, side, one) = (&self.symbolic, Side::Lower, Par::Seq);
+    /// $L$ and $D$ of given entries, and where a pivot is zero, in one thread whatever the library's global setting: its parallel kernels
+    /// have open reports of wrong results on large matrices.
+    pub(super) fn factor(&self, entries: &[f64]) -> Result<(Vec<f64>, Option<usize>), Error> {
+        let (symbolic, one) = (&self.symbolic, Par::Seq);
         let mut values = vec![0.0; symbolic.len_val()];
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(one, Spec::default());
-        let scratch =
-            scratch.or(symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default()));
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default());
         let mut memory = MemBuffer::try_new(scratch)
             .map_err(|_| Error::NoConvergence("sparse factorization"))?;
-        let stack = MemStack::new(&mut memory);
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), entries);
-        let (llt, ldlt) = (LltRegularization::default(), LdltRegularization::default());
-        let is_done = if definite {
-            symbolic
-                .factorize_numeric_llt(&mut values, matrix, side, llt, one, stack, Spec::default())
-                .is_ok()
-        } else {
-            symbolic
-                .factorize_numeric_ldlt(
-                    &mut values,
-                    matrix,
-                    side,
-                    ldlt,
-                    one,
-                    stack,
-                    Spec::default(),
-                )
-                .is_ok()
-        };
-        Ok((values, is_done))
+        let done = symbolic.factorize_numeric_ldlt(
+            &mut values,
+            SparseColMatRef::new(self.pattern.as_ref(), entries),
+            Side::Lower,
+            LdltRegularization::default(),
+            one,
+            MemStack::new(&mut memory),
+            Spec::default(),
+        );
+        let zero = done.err().map(|LdltError::ZeroPivot { index }| index);
+        Ok((values, zero))
     }
 }

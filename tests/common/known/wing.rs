@@ -7,7 +7,7 @@ use corfem::method::error::Error;
 use corfem::method::model::Parameter;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::LargeModel;
-use corfem::sparse::load_distribution::LoadDistribution;
+use corfem::sparse::SparseMatrix;
 use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
@@ -223,9 +223,10 @@ impl Wing {
         check_count("measured ribs", on_span, ribs)?;
         check_count("measured points of a rib", on_rib, chord + 1)?;
         let (structure, points) = (self.structure()?, self.points());
-        let loads = LoadDistribution::new(
+        let loads = SparseMatrix::of_columns(
+            "load distribution",
             structure.free_dof().len(),
-            self.load_distribution(&structure, &points),
+            &self.load_distribution(&structure, &points),
         )?;
         let mass = DMatrix::from_diagonal_element(
             points.len(),

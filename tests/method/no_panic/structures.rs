@@ -1,6 +1,7 @@
 //! Elements, structures and models.
 
 use super::{Entry, entries, modes};
+use crate::common::whole_models::sparse;
 use corfem::method::appendix_a;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::elements::membrane::triangle;
@@ -10,9 +11,7 @@ use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffn
 use corfem::method::model::{FiniteElementModel, Range, ScaledStructure};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::sparse::LargeModel;
-use corfem::sparse::WholeModel;
-use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
-use corfem::sparse::load_distribution::LoadDistribution;
+use corfem::sparse::factorization::{Factor, FactorizationPlan, FactorizedStiffness};
 use std::sync::Arc;
 
 pub const STRUCTURES: &[Entry] = &[
@@ -151,7 +150,7 @@ pub const STRUCTURES: &[Entry] = &[
         let (elements, sizes, free) = d.elements()?;
         FactorizedStiffness::new(&elements, &sizes, &free).map(|_| Vec::new())
     }),
-    ("FactorizedStiffness::solve", |d| {
+    ("Factor::solve", |d| {
         let (elements, sizes, free) = d.elements()?;
         let (rows, columns) = (d.about(free.len()), d.size());
         FactorizedStiffness::new(&elements, &sizes, &free)?
@@ -162,7 +161,7 @@ pub const STRUCTURES: &[Entry] = &[
         let structure = d.structure()?;
         let (elements, ..) = d.elements()?;
         FactorizationPlan::new(&structure, &elements)
-            .map(|plan| vec![plan.factor_entries() as f64, plan.factor_operations()])
+            .map(|plan| plan.order.iter().map(|&dof| dof as f64).collect())
     }),
     ("FactorizedStiffness::planned", |d| {
         let structure = d.structure()?;
@@ -173,24 +172,22 @@ pub const STRUCTURES: &[Entry] = &[
         let (elements, sizes, free) = d.elements()?;
         FactorizedStiffness::planned(&plan, &elements, &sizes, &free).map(|_| Vec::new())
     }),
-    ("FactorizedStiffness::flexibility", |d| {
+    ("Factor::flexibility", |d| {
         let (elements, sizes, free) = d.elements()?;
-        let loads = LoadDistribution::of(&d.load_distribution(free.len()))?;
+        let loads = sparse(&d.load_distribution(free.len()))?;
         FactorizedStiffness::new(&elements, &sizes, &free)?
             .flexibility(&loads)
             .map(|found| entries(&found))
     }),
-    ("LoadDistribution::new", |d| {
-        let terms = (0..d.size())
-            .map(|_| vec![(d.below(6), d.number())])
-            .collect();
-        LoadDistribution::new(d.size(), terms).map(|found| entries(&found.dense()))
+    ("Factor::new", |d| {
+        let size = d.size();
+        let matrix = sparse(&d.symmetric(size))?;
+        Factor::new("matrix", &matrix).map(|factor| vec![factor.negative_count() as f64])
     }),
-    ("LoadDistribution::of", |d| {
-        LoadDistribution::of(&d.load_distribution(6)).map(|_| Vec::new())
-    }),
-    ("LoadDistribution::dense", |d| {
-        LoadDistribution::of(&d.load_distribution(6)).map(|found| entries(&found.dense()))
+    ("Factor::check_positive", |d| {
+        let size = d.size();
+        let factor = Factor::new("matrix", &sparse(&d.symmetric(size))?)?;
+        factor.check_positive("matrix").map(|_| Vec::new())
     }),
     ("appendix_a::condense", |d| {
         let (elements, sizes, free) = d.elements()?;
@@ -213,8 +210,8 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("LargeModel::new", |d| {
         let structure = d.structure()?;
-        let loads = LoadDistribution::of(&d.load_distribution(structure.free_dof().len()))?;
-        let mass = d.symmetric(loads.columns().len());
+        let loads = sparse(&d.load_distribution(structure.free_dof().len()))?;
+        let mass = d.symmetric(loads.columns());
         LargeModel::new(structure, loads, mass, d.parameters()).map(|_| Vec::new())
     }),
     ("LargeCondensation::structural_shapes", |d| {
@@ -296,21 +293,5 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::modes", |d| {
         let (model, factors) = d.finite_element()?;
         model.modes(&factors).map(|found| modes(&found))
-    }),
-    ("WholeModel::seen_modes", |d| {
-        let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
-        whole
-            .seen_modes(&factors, &sensors, d.size())
-            .map(|found| modes(&found))
-    }),
-    ("WholeModel::condensation_errors", |d| {
-        let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
-        let found = whole.condensation_errors(&factors, &sensors, d.size())?;
-        Ok(found
-            .iter()
-            .flat_map(|error| [error.whole_hz, error.frequency, error.shape])
-            .collect())
     }),
 ];

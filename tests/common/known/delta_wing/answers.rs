@@ -1,9 +1,10 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::{DeltaWing, STATIONS, upper_grid};
-use corfem::method::assembly::{ElementMatrix, element_matrices, lumped_mass};
+use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::Structure;
+use corfem::sparse::SparseMatrix;
 use corfem::sparse::factorization::FactorizedStiffness;
 use corfem::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 use corfem::torque_box::error::CaseError;
@@ -38,16 +39,19 @@ impl DeltaWing {
     /// # Errors
     /// Those of [`Self::structure`], of the factorization and of [`whole_modes`].
     pub fn modes(&self) -> Result<WholeModes, Error> {
-        let (structure, elements, sizes, stiffness) = self.parts()?;
+        let (structure, elements, sizes, _) = self.parts()?;
         let dof = structure.free_dof().to_vec();
         let mass = lumped_mass(&elements, &sizes, dof.len())?;
+        let dense = dense_stiffness(&elements, &sizes, dof.len())?;
+        let t = DMatrix::identity(dof.len(), dof.len());
         whole_modes(
-            &stiffness,
+            &SparseMatrix::of_dense("stiffness", &dense)?,
             MassDof {
-                load_distribution: DMatrix::identity(dof.len(), dof.len()),
+                load_distribution: SparseMatrix::of_dense("load distribution", &t)?,
                 dof,
                 mass,
             },
+            usize::MAX,
         )
     }
 

@@ -22,7 +22,7 @@ use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
 use corfem::method::state::UpdateRule;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::method::structure::{Element, Material, Structure};
-use corfem::sparse::load_distribution::LoadDistribution;
+use corfem::sparse::SparseMatrix;
 use corfem::torque_box::BUILT_IN;
 use nalgebra::DMatrix;
 
@@ -141,7 +141,8 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
         .filter_map(column)
         .collect();
     let mass = DMatrix::zeros(columns.len(), columns.len());
-    let loads = LoadDistribution::new(structure.free_dof().len(), columns)?;
+    let rows = structure.free_dof().len();
+    let loads = SparseMatrix::of_columns("load distribution", rows, &columns)?;
     let parameters = GROUPS
         .iter()
         .map(|g| Parameter::group(g.name, g.elements))
