@@ -3,7 +3,7 @@
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, pencil_eigen,
+    check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
 };
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector, DVectorView};
@@ -41,13 +41,8 @@ impl ModeSet {
     /// positive or a shape that is zero.
     pub fn new(omega_squared: DVector<f64>, shapes: DMatrix<f64>) -> Result<Self, Error> {
         at_least_one("test modes", omega_squared.len())?;
-        check_shape(
-            "test mode shapes",
-            &shapes,
-            shapes.nrows(),
-            omega_squared.len(),
-        )?;
-        check_finite("test mode shapes", &shapes)?;
+        let (rows, modes) = (shapes.nrows(), omega_squared.len());
+        check_matrix("test mode shapes", &shapes, rows, modes)?;
         for (mode, (&square, shape)) in omega_squared.iter().zip(shapes.column_iter()).enumerate() {
             positive("squared frequency", || test_mode(mode), square)?;
             positive("largest component", || test_mode(mode), shape.amax())?;
@@ -189,7 +184,7 @@ impl Modes {
     }
 }
 
-/// Refuses to take none of something, or more of it than there is.
+/// Requires at least one and at most as many as there are.
 pub(crate) fn check_count(
     what: &'static str,
     requested: usize,

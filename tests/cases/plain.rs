@@ -39,7 +39,7 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
             let apart = (found - expected).abs() / (expected - 1.0).abs().max(1.0);
             assert!(apart <= SAME_ON_THE_WAY, "{what}: {apart:e}");
         }
-        let sizes = model.sizes(&expected.factors).expect("sizes");
+        let sizes = model.at(&expected.factors).expect("sizes").sizes;
         for (found, expected) in gages.iter().zip(sizes) {
             let apart = (found / expected - 1.0).abs();
             assert!(apart <= SAME_CORRELATION, "{what}: {apart:e}");

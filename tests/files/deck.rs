@@ -99,7 +99,7 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
         let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
         let modes =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
-        let sizes = model.sizes(&[1.0; 15]).expect("sizes");
+        let sizes = model.at(&[1.0; 15]).expect("sizes").sizes;
         let stiffness =
             corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, 36)
                 .expect("stiffness");
@@ -189,7 +189,7 @@ fn mpc_cards_are_the_load_distribution() {
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let elements = element_matrices(&structure).expect("elements");
+    let elements = element_matrices(&structure);
     let dynamic = read.mass_dof(&structure, &elements).expect("masses");
     assert_eq!(dynamic.load_distribution.shape(), (36, 9));
     for (read, meant) in dynamic

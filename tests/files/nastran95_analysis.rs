@@ -7,6 +7,7 @@ use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::files::deck::BulkData;
 use corfem::files::error::FileError;
 use corfem::files::nastran95::Matrices;
+use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Share};
 use corfem::torque_box::Case;
@@ -15,7 +16,7 @@ use tempfile::TempDir;
 
 /// What NASTRAN-95 would answer for a model if its elements were this crate's.
 fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
-    let sizes = model.sizes(factors).expect("sizes");
+    let sizes = model.at(factors).expect("sizes").sizes;
     let structure = model.structure();
     let free = structure.free_dof();
     let mut order: Vec<usize> = (0..free.len()).collect();
@@ -44,12 +45,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let mut kgg = DMatrix::zeros(start + 6 * corners, start + 6 * corners);
     for row in rows {
         let element = &structure.elements()[row];
-        let unit = corfem::method::elements::unit_stiffness(
-            element.kind,
-            &structure.corners(element),
-            &element.material,
-        )
-        .expect("stiffness");
+        let unit = unit_stiffness(&structure.geometry()[row], &element.material);
         for (a, b) in (0..unit.nrows()).flat_map(|a| (0..unit.nrows()).map(move |b| (a, b))) {
             let place = |dof: usize| start + 6 * (dof / 3) + dof % 3;
             kgg[(place(a), place(b))] = sizes[row] * unit[(a, b)];

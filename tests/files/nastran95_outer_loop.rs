@@ -8,8 +8,8 @@ use crate::common::tolerances::{
     NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
     NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
 };
-use corfem::method::elements::panel::mean_plane;
 use corfem::method::elements::shear::energy_coefficient;
+use corfem::method::geometry::mean_plane;
 use corfem::method::modes::solve;
 use corfem::method::structure::{ElementKind, Material};
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 /// Closed forms of a trapezoid; `None` where NASTRAN-95 sees no parallel sides, or rightly.
 fn snap_factor(corners: &[Vector3<f64>; 4], material: &Material) -> Option<f64> {
     let plane = mean_plane(corners).expect("a panel");
-    let [_, c2, c3, c4] = plane.corners;
+    let [_, c2, c3, c4] = plane.corners();
     let (x2, x3, y3, x4, y4) = (c2.x, c3.x, c3.y, c4.x, c4.y);
     let (base, side) = (
         (y3 - y4) / (x3 - x4),
@@ -49,7 +49,7 @@ fn snap_factor(corners: &[Vector3<f64>; 4], material: &Material) -> Option<f64> 
     };
     let [p1, p2, p3, p4] = distances;
     let [s, c] = cotangents;
-    let area = plane.area / (2.0 * material.shear_modulus);
+    let area = plane.area() / (2.0 * material.shear_modulus);
     let snapped = p1 * p2 / (p3 * p4) * area * (1.0 + 2.0 / 3.0 * m * (s * s + s * c + c * c));
     Some(energy_coefficient(&plane, material) / snapped)
 }

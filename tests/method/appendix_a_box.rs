@@ -75,7 +75,7 @@ proptest! {
     #[test]
     fn a_share_is_the_elements_stiffness_through_b(case in case(), factors in factors(39), row in 0..39_usize) {
         let model = with_every_element(&case);
-        let sizes = model.sizes(&factors).unwrap();
+        let sizes = model.at(&factors).unwrap().sizes;
         let (factor, _) = stiffness(&model, &sizes);
         let bt = condense(&factor, model.load_distribution()).unwrap().transformation;
         let element = &model.element_matrices()[row];

@@ -9,6 +9,7 @@ use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_O
 use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
+use corfem::method::geometry::Geometry;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::sparse::factorization::FactorizedStiffness;
 use corfem::torque_box::Case;
@@ -68,7 +69,7 @@ proptest! {
         let structure = square(&constrained);
         let mut whole = DMatrix::zeros(12, 12);
         for element in structure.elements() {
-            let unit = unit_stiffness(element.kind, &structure.corners(element), &element.material).unwrap();
+            let unit = unit_stiffness(&Geometry::new(element.kind, &structure.corners(element)).unwrap(), &element.material);
             for a in 0..unit.nrows() {
                 for b in 0..unit.ncols() {
                     let at = |k: usize| 3 * (element.grids[k / 3] - 1) + k % 3;
@@ -81,7 +82,7 @@ proptest! {
         let found = dense(&structure);
         prop_assert_eq!(found.shape(), expected.shape());
         prop_assert!((found - expected).amax() <= ROUND_OFF * whole.amax());
-        for (matrix, element) in element_matrices(&structure).unwrap().iter().zip(structure.elements()) {
+        for (matrix, element) in element_matrices(&structure).iter().zip(structure.elements()) {
             prop_assert_eq!(matrix.label, element.label);
             prop_assert_eq!(matrix.unit.shape(), (matrix.dof.len(), matrix.dof.len()));
         }
@@ -89,7 +90,7 @@ proptest! {
 
     #[test]
     fn stiffness_is_linear_in_gage_and_area(a in sizes_of(3), b in sizes_of(3), factor in 0.1..10.0_f64) {
-        let matrices = element_matrices(&square(&[false; 12])).unwrap();
+        let matrices = element_matrices(&square(&[false; 12]));
         let at = |sizes: &[f64]| dense_stiffness(&matrices, sizes, 12).unwrap();
         let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect();
         prop_assert!(relative_distance(&at(&mixed), &(at(&a) + factor * at(&b))) <= ROUND_OFF);
@@ -143,7 +144,7 @@ proptest! {
 #[test]
 fn wrong_sizes_and_loads_are_refused_by_name() {
     let structure = spring_chain(&[1.0, 2.0, 3.0], [true, false]);
-    let matrices = element_matrices(&structure).unwrap();
+    let matrices = element_matrices(&structure);
     let free = structure.free_dof();
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
         for refused in [
@@ -225,7 +226,7 @@ fn bad_geometry_is_refused_by_its_element() {
             size: 1.0,
             material: unit_material(),
         };
-        match element_matrices(&Structure::new(grids.collect(), vec![element]).unwrap()) {
+        match Structure::new(grids.collect(), vec![element]) {
             Err(Error::InElement { element: 8, source }) => *source,
             other => panic!("expected an error in element 8, found {other:?}"),
         }
@@ -254,10 +255,8 @@ fn bad_geometry_is_refused_by_its_element() {
             Error::NotConvex(2)
         ));
     }
-    let refused = element_matrices(&{
-        let grids = vec![grid(1, a, [true; 3]), grid(2, a, [false; 3])];
-        Structure::new(grids, vec![rod(3, [1, 2], 1.0)]).unwrap()
-    });
+    let grids = vec![grid(1, a, [true; 3]), grid(2, a, [false; 3])];
+    let refused = Structure::new(grids, vec![rod(3, [1, 2], 1.0)]);
     assert_eq!(
         refused.unwrap_err().to_string(),
         "element 3: the rod has no length (0.000e0 between its ends)"

@@ -4,9 +4,9 @@ use crate::common::matrices::{rank_of_semidefinite, relative_distance};
 use crate::common::panels::{Sample, sample};
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::ELEMENT_ROUND_OFF;
-use corfem::method::elements::{rod, unit_stiffness};
 use corfem::method::error::Error;
-use corfem::method::structure::{ElementKind, Material};
+use corfem::method::geometry::Geometry;
+use corfem::method::structure::ElementKind;
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -38,10 +38,6 @@ fn permuted(stiffness: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
         .flat_map(|&corner| 3 * corner..3 * corner + 3)
         .collect();
     stiffness.select_rows(&dof).select_columns(&dof)
-}
-
-fn steel() -> Material {
-    Material::isotropic(3e7, 0.3).unwrap()
 }
 
 proptest! {
@@ -132,7 +128,7 @@ fn the_wrong_number_of_corners_is_refused() {
         ElementKind::Membrane,
     ] {
         for count in (0..6).filter(|&count| count != kind.corner_count()) {
-            let refused = unit_stiffness(kind, &vec![Vector3::zeros(); count], &steel());
+            let refused = Geometry::new(kind, &vec![Vector3::zeros(); count]);
             assert!(
                 matches!(refused, Err(Error::WrongCornerCount { expected, found })
                     if expected == kind.corner_count() && found == count),
@@ -145,7 +141,12 @@ fn the_wrong_number_of_corners_is_refused() {
 #[test]
 fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
     let from = Vector3::new(1.0, 0.0, 0.0);
-    let along = |length: f64| rod([from, from + Vector3::new(length, 0.0, 0.0)], 1e7);
+    let along = |length: f64| {
+        Geometry::new(
+            ElementKind::Rod,
+            &[from, from + Vector3::new(length, 0.0, 0.0)],
+        )
+    };
     for length in [0.0, 1.5e-12, -1.5e-12, f64::NAN] {
         let refused = along(length);
         assert!(
@@ -155,7 +156,7 @@ fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
     }
     assert!(along(3e-12).is_ok());
     assert!(matches!(
-        rod([Vector3::zeros(); 2], 1e7),
+        Geometry::new(ElementKind::Rod, &[Vector3::zeros(); 2]),
         Err(Error::ZeroLength(0.0))
     ));
 }

@@ -37,7 +37,7 @@ proptest! {
                 each[element - 1] = *factor;
             }
         }
-        prop_assert_eq!(groups.sizes(&factors).unwrap(), single.sizes(&each).unwrap());
+        prop_assert_eq!(groups.at(&factors).unwrap().sizes, single.at(&each).unwrap().sizes);
         let (together, apart) = (groups.matrices(&factors).unwrap(), single.matrices(&each).unwrap());
         prop_assert_eq!(together.shares.len(), 4);
         prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
@@ -52,7 +52,7 @@ proptest! {
     #[test]
     fn sizes_are_first_sizes_times_factors(case in case(), factors in factors(15)) {
         let model = case.model().unwrap();
-        let sizes = model.sizes(&factors).unwrap();
+        let sizes = model.at(&factors).unwrap().sizes;
         prop_assert_eq!(sizes.len(), 39);
         for (panel, (size, factor)) in case.panels.iter().zip(sizes.iter().zip(&factors)) {
             prop_assert_eq!(*size, panel.gage * factor);
@@ -65,7 +65,7 @@ proptest! {
     fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
         let model = chain(vec![group("all", &[1, 2, 3], Some(Range { lower, upper }))]).unwrap();
         let range = model.factor_ranges().unwrap()[0].unwrap();
-        let within = |factor: f64| model.sizes(&[factor]).unwrap().iter().all(|&size| {
+        let within = |factor: f64| model.at(&[factor]).unwrap().sizes.iter().all(|&size| {
             size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
         });
         prop_assert!(within(range.lower) && within(range.upper));
@@ -102,7 +102,7 @@ fn a_model_keeps_what_it_was_made_of() {
     assert_eq!(labels, [1, 2, 3]);
     assert_eq!(model.load_distribution().clone(), DMatrix::identity(3, 3));
     assert_eq!(model.mass(), &DMatrix::identity(3, 3));
-    assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
+    assert_eq!(model.at(&[3.0, 0.5]).unwrap().sizes, [1.0, 12.0, 4.0]);
     // T and M the identity: K_D is K_S, and a spring's share its own matrix.
     let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
     let expected =

@@ -107,7 +107,7 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
     ])
     .unwrap();
     for factors in [vec![1.0], vec![1.0; 3]] {
-        let refused = model.sizes(&factors).unwrap_err();
+        let refused = model.at(&factors).unwrap_err();
         assert!(
             matches!(refused, Error::WrongShape {
                 what: "parameter factors", expected_rows: 2, expected_columns: 1, rows, columns: 1
@@ -242,14 +242,8 @@ fn what_is_wrong_with_an_element_or_the_structure_comes_through() {
         size: 1.0,
         material: unit_material(),
     };
-    let structure = Structure::new(grids, vec![looped]).unwrap();
     let one = DMatrix::identity(1, 1);
-    let refused = FiniteElementModel::new(
-        structure,
-        one.clone(),
-        one.clone(),
-        vec![Parameter::element(5, None)],
-    );
+    let refused = Structure::new(grids, vec![looped]);
     let Err(Error::InElement { element: 5, source }) = refused else {
         panic!("{refused:?}")
     };

@@ -3,16 +3,11 @@
 use crate::common::panels::{flat_panel, panel_sample, placed};
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
-use corfem::method::elements::panel::mean_plane;
-use corfem::method::elements::{membrane::triangle, unit_stiffness};
 use corfem::method::error::Error;
-use corfem::method::structure::{ElementKind, Material};
+use corfem::method::geometry::{Geometry, mean_plane};
+use corfem::method::structure::ElementKind;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
-
-fn steel() -> Material {
-    Material::isotropic(3e7, 0.3).unwrap()
-}
 
 proptest! {
     #![proptest_config(crate::common::config())]
@@ -31,7 +26,7 @@ proptest! {
         corners[corner] = reach * corners[(corner + 2) % 4];
         let corners = corners.map(|corner| origin + turn * corner);
         let kind = if shear { ElementKind::ShearPanel } else { ElementKind::Membrane };
-        let refused = unit_stiffness(kind, &corners, &steel());
+        let refused = Geometry::new(kind, &corners);
         let named = matches!(refused, Err(Error::NotConvex(named)) if named == corner + 1);
         prop_assert!(named, "{refused:?}");
     }
@@ -43,30 +38,30 @@ proptest! {
         for a in 0..4 {
             for b in 0..4 {
                 let (flat, true_distance) = (
-                    (plane.corners[a] - plane.corners[b]).norm(),
+                    (plane.corners()[a] - plane.corners()[b]).norm(),
                     (corners[a] - corners[b]).norm(),
                 );
                 prop_assert!((flat - true_distance).abs() <= ELEMENT_ROUND_OFF * size);
             }
         }
-        prop_assert_eq!(plane.diagonals, [corners[2] - corners[0], corners[3] - corners[1]]);
-        let shoelace: f64 = (0..4).map(|k| plane.corners[k].perp(&plane.corners[(k + 1) % 4])).sum();
-        prop_assert!((plane.area - 0.5 * shoelace).abs() <= ELEMENT_ROUND_OFF * size * size);
-        prop_assert_eq!(plane.corners[0].amax(), 0.0);
-        prop_assert!(plane.corners[1].x > 0.0 && plane.corners[1].y.abs() <= ELEMENT_ROUND_OFF * size);
+        prop_assert_eq!(plane.diagonals(), [corners[2] - corners[0], corners[3] - corners[1]]);
+        let shoelace: f64 = (0..4).map(|k| plane.corners()[k].perp(&plane.corners()[(k + 1) % 4])).sum();
+        prop_assert!((plane.area() - 0.5 * shoelace).abs() <= ELEMENT_ROUND_OFF * size * size);
+        prop_assert_eq!(plane.corners()[0].amax(), 0.0);
+        prop_assert!(plane.corners()[1].x > 0.0 && plane.corners()[1].y.abs() <= ELEMENT_ROUND_OFF * size);
     }
 
     #[test]
     fn the_mean_plane_is_parallel_to_both_diagonals(sample in panel_sample()) {
         let corners: [Vector3<f64>; 4] = std::array::from_fn(|k| sample.corners[k]);
         let plane = mean_plane(&corners).unwrap();
-        for (k, diagonal) in plane.diagonals.iter().enumerate() {
-            let flat = (plane.corners[k + 2] - plane.corners[k]).norm();
+        for (k, diagonal) in plane.diagonals().iter().enumerate() {
+            let flat = (plane.corners()[k + 2] - plane.corners()[k]).norm();
             prop_assert!((flat - diagonal.norm()).abs() <= ELEMENT_ROUND_OFF * diagonal.norm());
         }
-        let across = plane.diagonals[0].dot(&plane.diagonals[1]);
-        let flat_across = (plane.corners[2] - plane.corners[0]).dot(&(plane.corners[3] - plane.corners[1]));
-        prop_assert!((across - flat_across).abs() <= ELEMENT_ROUND_OFF * plane.diagonals[0].norm_squared());
+        let across = plane.diagonals()[0].dot(&plane.diagonals()[1]);
+        let flat_across = (plane.corners()[2] - plane.corners()[0]).dot(&(plane.corners()[3] - plane.corners()[1]));
+        prop_assert!((across - flat_across).abs() <= ELEMENT_ROUND_OFF * plane.diagonals()[0].norm_squared());
     }
 }
 
@@ -117,7 +112,8 @@ fn a_triangle_needs_area() {
     let corners =
         |height: f64| [(0.0, 0.0), (1.0, 0.0), (0.5, height)].map(|(x, y)| Vector3::new(x, y, 0.0));
     for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
-        let numbered = |height: f64| triangle(order.map(|k| corners(height)[k]), &steel());
+        let numbered =
+            |height: f64| Geometry::new(ElementKind::Triangle, &order.map(|k| corners(height)[k]));
         for height in [0.0, 1.5e-10] {
             let refused = numbered(height);
             assert!(
@@ -139,13 +135,13 @@ fn a_plane_frame_of_reference_is_right_handed() {
     for corners in [[a, b, c, d], [a, d, c, b]] {
         let plane = mean_plane(&corners).unwrap();
         let found = Matrix3::from_columns(&[
-            plane.corners[1].push(0.0),
-            plane.corners[2].push(0.0),
-            plane.corners[3].push(1.0),
+            plane.corners()[1].push(0.0),
+            plane.corners()[2].push(0.0),
+            plane.corners()[3].push(1.0),
         ]);
         let (first, second) = ((corners[1] - a).norm(), (corners[3] - a).norm());
         let expected = Matrix3::new(first, first, 0.0, 0.0, second, second, 0.0, 0.0, 1.0);
         assert_eq!(found, expected);
-        assert_eq!(plane.area, 2.0);
+        assert_eq!(plane.area(), 2.0);
     }
 }

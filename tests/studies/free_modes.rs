@@ -174,10 +174,7 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
         ..grid.clone()
     });
     let free = Structure::new(free.collect(), held.elements().to_vec()).expect("it hangs free");
-    let (elements, count) = (
-        element_matrices(&free).expect("matrices"),
-        free.free_dof().len(),
-    );
+    let (elements, count) = (element_matrices(&free), free.free_dof().len());
     let sizes: Vec<f64> = free.elements().iter().map(|element| element.size).collect();
     let stiffness = dense_stiffness(&elements, &sizes, count).expect("a stiffness");
     let lumped = lumped_mass(&elements, &sizes, count).expect("masses");

@@ -30,9 +30,7 @@ fn free_dof([ribs, chord, depth]: [usize; 3]) -> usize {
 
 /// Area of an element for unit size: its volume.
 fn area(structure: &Structure, label: usize) -> f64 {
-    let element = &structure.elements()[label - 1];
-    corner_volumes(element.kind, &structure.corners(element))
-        .expect("an element")
+    corner_volumes(&structure.geometry()[label - 1])
         .iter()
         .sum()
 }
