@@ -202,8 +202,8 @@ pub const WRONG_FORM: f64 = 5e-5;
 pub const SECOND_ORDER_ROOT: f64 = 6e-5;
 /// A mean, a root mean square or a correlation of a sample of normal variates, in standard errors: one in 16,000 is farther off.
 pub const STANDARD_ERRORS: f64 = 4.0;
-/// Roots and modes of small pencils found through a shift of a thousandth of the mean root: round-off of the inverse, a thousand
-/// times for roots a thousand times apart.
+/// Roots and modes of pencils found through an inverse, shifted or not: its round-off, a thousand times for roots a thousand times
+/// apart.
 pub const COUNTED_ROOT: f64 = 1e-9;
 /// Lowest squared frequency where stiffnesses differ 1e10 times: that many roundings of a sum of both, a few of them.
 pub const UNLIKE_STIFFNESS: f64 = 1e-5;

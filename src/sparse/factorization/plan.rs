@@ -1,7 +1,7 @@
 //! The plan of a factorization: what does not change with the sizes.
 
 use crate::method::assembly::{ElementMatrix, check_elements};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::structure::{StructuralDof, Structure};
 use crate::sparse::SparseMatrix;
 use crate::sparse::ordering::Mesh;
@@ -52,7 +52,7 @@ impl FactorizationPlan {
     /// The plan for a structure's elements: nested dissection by its grids' positions.
     ///
     /// # Errors
-    /// Those of [`super::FactorizedStiffness::new`] for elements that do not fit the DOF; [`Error::TooMany`] for more entries than are
+    /// Those of [`super::FactorizedStiffness::new`] for elements that do not fit the DOF, or none; [`Error::TooMany`] for more entries than are
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
         Self::of(elements, structure.free_dof(), |grid| {
@@ -66,6 +66,7 @@ impl FactorizationPlan {
         free: &[StructuralDof],
         position: impl Fn(usize) -> Vector3<f64>,
     ) -> Result<Self, Error> {
+        at_least_one("free degrees of freedom", free.len())?;
         check_elements(elements, &vec![1.0; elements.len()], free.len())?;
         let mut touching = vec![Vec::new(); free.len()];
         for ElementMatrix { dof, .. } in elements {

@@ -1,0 +1,339 @@
+//! `corfem deck` and `corfem modes` from outside.
+
+use crate::common::tolerances::DECK_ROUNDING;
+use assert_cmd::Command;
+use corfem::sparse::{LargeModel, WholeModel};
+use corfem::torque_box::{Case, run_case};
+use serde_json::Value;
+
+fn corfem(arguments: &[&str]) -> std::process::Output {
+    Command::cargo_bin("corfem")
+        .expect("the program is built")
+        .args(arguments)
+        .output()
+        .expect("it starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+fn frequencies(document: &Value) -> Vec<f64> {
+    let list = document["frequencies_hz"].as_array().expect("a list");
+    list.iter()
+        .map(|value| value.as_f64().expect("a number"))
+        .collect()
+}
+
+#[test]
+fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("box.dat");
+    let path = path.to_str().expect("UTF-8");
+    let case = Case::new(2).expect("a case");
+    let passes = run_case(&case, |_, _| ()).expect("a run").correlation;
+    let model = LargeModel::of(&case.model().expect("a model")).expect("a plan");
+    let (model, _) = WholeModel::of(&model).expect("a whole model");
+    let stages = [
+        ("0", vec![1.0; 15]),
+        ("1", passes.passes[0].factors.clone()),
+        ("2", passes.passes[1].factors.clone()),
+    ];
+    for (pass, factors) in stages {
+        // By the same eigensolver, so that the digits of the deck are all that differs.
+        let expected = model.modes(&factors, 9).expect("modes").vibrations;
+        let written = corfem(&["deck", "2", "--pass", pass, "-o", path]);
+        assert_eq!(written.status.code(), Some(0), "{}", text(&written.stderr));
+        assert!(written.stdout.is_empty());
+        let modes = corfem(&["modes", path, "--format", "json"]);
+        assert!(modes.stderr.is_empty(), "{}", text(&modes.stderr));
+        let document: Value = serde_json::from_slice(&modes.stdout).expect("JSON");
+        let found = frequencies(&document);
+        assert_eq!(found.len(), 9);
+        for (a, b) in found.iter().zip(expected.frequencies_hz()) {
+            approx::assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING);
+        }
+        assert_eq!(document["dof"][0]["grid"], 101);
+        assert_eq!(document["dof"][8]["direction"], "z");
+        for (shape, mass) in document["shapes"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .zip(document["generalized_masses"].as_array().expect("a list"))
+        {
+            let shape: Vec<f64> = shape
+                .as_array()
+                .expect("a list")
+                .iter()
+                .map(|x| x.as_f64().expect("a number"))
+                .collect();
+            let largest = shape.iter().copied().fold(f64::MIN, f64::max);
+            assert_eq!((shape.len(), largest), (9, 1.0));
+            let generalized: f64 = shape
+                .iter()
+                .zip(&case.reconstruction.masses)
+                .map(|(x, m)| m * x * x)
+                .sum();
+            approx::assert_relative_eq!(
+                mass.as_f64().expect("a number"),
+                generalized,
+                max_relative = 1e2 * DECK_ROUNDING
+            );
+        }
+    }
+}
+
+#[test]
+fn a_deck_is_a_whole_run_of_nastran() {
+    let deck = text(&corfem(&["deck", "4"]).stdout);
+    for line in [
+        "NASTRAN BANDIT=-1",
+        "SOL     3,0",
+        "DIAG    44",
+        "CEND",
+        "SPC = 1",
+        "MPC = 1",
+        "METHOD = 1",
+        "BEGIN BULK",
+        "ENDDATA",
+    ] {
+        assert!(deck.lines().any(|found| found == line), "{line}");
+    }
+    assert!(deck.contains("TITLE = CORFEM CASE 4, PASS 0\n"));
+    assert!(deck.lines().all(|line| line.len() <= 80));
+    let count = |name: &str| {
+        deck.lines()
+            .filter(|line| line[..8.min(line.len())].trim_end_matches([' ', '*']) == name)
+            .count()
+    };
+    let counts = [
+        "GRID", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "MAT1", "CMASS2", "MPC",
+        "SPC1", "EIGR",
+    ]
+    .map(count);
+    assert_eq!(counts, [25, 24, 24, 9, 9, 6, 6, 1, 9, 9, 3, 1]);
+    // Nine modes from below the lowest to above the highest of 7.56 to 878 Hz.
+    assert!(
+        deck.contains("EIGR    1       INV     6.      966.    9       9"),
+        "{deck}"
+    );
+    assert!(
+        deck.contains("GRID*   1                               10.107          32.564          *1\n*1      .2119\n")
+    );
+}
+
+#[test]
+fn modes_are_tables_with_what_was_not_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rod.dat");
+    let deck = "PARAM,GRDPNT,0\nGRID,1\nGRID,2,,10.\nCROD,1,1,1,2\nPROD,1,1,.01\nMAT1,1,1.+6,,.3\nSPC1,1,123,1\nSPC1,1,23,2\nCMASS2,7,.4,2,1\n";
+    std::fs::write(&path, deck).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let plain = corfem(&["modes", path]);
+    assert_eq!(plain.status.code(), Some(0));
+    let sentence =
+        "Not read: PARAM (line 1, 1 card), nothing of stiffness, mass, supports or coordinates.";
+    assert!(
+        text(&plain.stderr).ends_with(&format!("{sentence}\n")),
+        "{}",
+        text(&plain.stderr)
+    );
+    let report = text(&plain.stdout);
+    assert!(
+        report.starts_with("Natural frequencies at 1 degree of freedom with mass\n"),
+        "{report}"
+    );
+    assert!(
+        report.contains("1      7.957747     0.400000\n"),
+        "{report}"
+    );
+    assert!(report.contains(sentence));
+    assert!(report.contains("2 x   1.00000\n"), "{report}");
+    let markdown = text(&corfem(&["modes", path, "-f", "markdown"]).stdout);
+    assert!(
+        markdown.contains("## Shapes of modes 1 to 1, largest component one"),
+        "{markdown}"
+    );
+    let csv = text(&corfem(&["modes", path, "-f", "csv"]).stdout);
+    assert!(csv.contains("frequencies,1,Frequency,Hz,7.957747"), "{csv}");
+    assert!(csv.contains("shapes_1_to_1,2 x,Mode 1,,1,"), "{csv}");
+    let json: Value =
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
+    assert_eq!(json["not_read"][0], sentence);
+}
+
+#[test]
+fn shapes_are_split_into_tables_of_nine_modes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("chain.dat");
+    let mut deck = String::from("GRID,1,,0.,0.,0.,,123\nPROD,1,1,.01\nMAT1,1,1.+6,,.3\n");
+    for label in 2..=12 {
+        deck += &format!(
+            "GRID,{label},,{label}.,0.,0.,,23\nCROD,{label},1,{},{label}\nCMASS2,{label},1.,{label},1\n",
+            label - 1
+        );
+    }
+    std::fs::write(&path, deck).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let report = text(&corfem(&["modes", path]).stdout);
+    assert!(
+        report.contains("Shapes of modes 1 to 9,") && report.contains("Shapes of modes 10 to 11,"),
+        "{report}"
+    );
+    let lowest: Value =
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json", "--count", "2"]).stdout)
+            .expect("JSON");
+    assert_eq!(frequencies(&lowest).len(), 2);
+    assert_eq!(lowest["shapes"].as_array().map(Vec::len), Some(2));
+    assert_eq!(
+        corfem(&["modes", path, "--count", "11"]).status.code(),
+        Some(0)
+    );
+    let more = corfem(&["modes", path, "--count", "12"]);
+    assert_eq!(more.status.code(), Some(2));
+    assert_eq!(
+        text(&more.stderr),
+        "corfem: modes of finite frequency: 12 asked for, but there are only 11\n"
+    );
+}
+
+#[test]
+fn bad_input_is_exit_status_2() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bad.dat");
+    std::fs::write(&path, "GRID,1,,x\n").expect("written");
+    let path = path.to_str().expect("UTF-8");
+    for (arguments, message) in [
+        (
+            vec!["deck", "7"],
+            "corfem: there is no case 7; choose 1 to 4\n".to_owned(),
+        ),
+        (
+            vec!["deck", "4", "--pass", "2"],
+            "corfem: pass: 2 asked for, but there are only 1\n".to_owned(),
+        ),
+        (
+            vec!["modes", path],
+            format!(
+                "corfem: {path}, line 1: card GRID, field 4: expected a real number with a decimal point, found X\n"
+            ),
+        ),
+    ] {
+        let output = corfem(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert_eq!(text(&output.stderr), message);
+        assert!(output.stdout.is_empty());
+    }
+    let absent = corfem(&["modes", "no/such.dat"]);
+    assert_eq!(absent.status.code(), Some(2));
+    assert!(text(&absent.stderr).contains("cannot read no/such.dat: no such file"));
+}
+
+/// A rod that holds one mass, with three cards that the crate does not understand.
+const BARS: &str = "\
+GRID,1,,0.,0.,0.,,123
+GRID,2,,10.,0.,0.,,23
+CROD,1,1,1,2
+PROD,1,1,.01
+MAT1,1,1.+6,,.3
+CMASS2,7,.4,2,1
+CBAR,8,2,1,2,0.,1.,0.
+PBAR,2,1,.01
+CBAR,9,2,1,2,0.,1.,0.
+";
+
+#[test]
+fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bars.dat");
+    std::fs::write(&path, BARS).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let refused = corfem(&["modes", path]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(refused.stdout.is_empty());
+    assert_eq!(
+        text(&refused.stderr),
+        format!(
+            "corfem: {path}: expected cards that are read here, found CBAR (line 7, 2 cards), PBAR (line 8, 1 card); \
+             they may carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them \
+             out with --ignore 'CBAR,PBAR'\n"
+        )
+    );
+    let some = corfem(&["modes", path, "--ignore", "CBAR"]);
+    assert_eq!(some.status.code(), Some(2));
+    assert!(
+        text(&some.stderr).contains("found PBAR (line 8, 1 card);"),
+        "{}",
+        text(&some.stderr)
+    );
+    let read = corfem(&["modes", path, "--ignore", "CROD"]);
+    assert_eq!(read.status.code(), Some(2));
+    assert_eq!(
+        text(&read.stderr),
+        "corfem: --ignore: expected a card that is not read here, found CROD\n"
+    );
+    let run = |format| corfem(&["modes", path, "--ignore", "cbar,PBAR", "--format", format]);
+    let sentence =
+        "Not read: CBAR (line 7, 2 cards), left out by request; these modes lack what they say.";
+    let report = run("text");
+    assert_eq!(report.status.code(), Some(0));
+    assert!(
+        text(&report.stderr).contains(sentence),
+        "{}",
+        text(&report.stderr)
+    );
+    let title = "Cards left out by request: these modes lack what they say";
+    assert!(
+        text(&report.stdout).starts_with(title),
+        "{}",
+        text(&report.stdout)
+    );
+    assert!(
+        text(&report.stdout).contains("1      7.957747     0.400000\n"),
+        "{}",
+        text(&report.stdout)
+    );
+    let markdown = text(&run("markdown").stdout);
+    assert!(
+        markdown.contains(title) && markdown.contains("| CBAR | 2 | 7 |\n| PBAR | 1 | 8 |"),
+        "{markdown}"
+    );
+    let csv = text(&run("csv").stdout);
+    assert!(
+        csv.contains("ignored,CBAR,Cards,,2,\n") && csv.contains("ignored,PBAR,Cards,,1,\n"),
+        "{csv}"
+    );
+    let json: Value = serde_json::from_slice(&run("json").stdout).expect("JSON");
+    assert_eq!(json["not_read"][0], sentence);
+    assert_eq!(json["not_read"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn a_deck_in_latin_1_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("latin.dat");
+    let bytes = [
+        b"$ Fl\xFCgel\n".as_slice(),
+        BARS.split("CBAR").next().expect("a part").as_bytes(),
+    ]
+    .concat();
+    std::fs::write(&path, bytes).expect("written");
+    let report = corfem(&["modes", path.to_str().expect("UTF-8")]);
+    assert_eq!(report.status.code(), Some(0), "{}", text(&report.stderr));
+    assert!(report.stderr.is_empty());
+}
+
+#[test]
+fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
+    let reason = corfem::files::deck::Reason::NotSelected;
+    let unread = corfem::files::deck::Unread {
+        card: "MPC".into(),
+        line: 7,
+        count: 2,
+        reason,
+    };
+    assert_eq!(
+        corfem::present::tables::deck::not_read(&unread),
+        "Not read: MPC (line 7, 2 cards), of a set that case control does not select."
+    );
+}
