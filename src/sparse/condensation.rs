@@ -199,7 +199,8 @@ impl LargeCondensation {
     /// and not by all of $B^t$, which it is for the identity.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of [`FactorizedStiffness::solve`].
+    /// [`Error::WrongShape`] unless the shapes have a row per dynamic DOF; those of
+    /// [`Factor::solve`](crate::sparse::Factor::solve).
     pub fn structural_shapes(&self, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape(
             "mode shapes",

@@ -161,7 +161,8 @@ impl Factor {
         let reached = is_reached.chunks(PANEL).zip(self.pivots.chunks(PANEL));
         for (rows, (_, pivots)) in panels.zip(reached).filter(|(_, at)| at.0.contains(&true)) {
             for (row, pivot) in rows.chunks_mut(count).zip(pivots) {
-                row.iter_mut().for_each(|value| *value /= pivot.sqrt());
+                let weight = 1.0 / pivot.sqrt();
+                row.iter_mut().for_each(|value| *value *= weight);
             }
             add_squares(&mut sum, rows);
         }
@@ -245,7 +246,8 @@ impl Factor {
         self.pivots.iter().filter(|pivot| **pivot < 0.0).count()
     }
 
-    /// Refuses a matrix that is not positive definite beyond its [`round_off`].
+    /// Refuses a matrix that is not positive definite beyond round-off: scaled to unit diagonal, its smallest eigenvalue must exceed
+    /// $32 \varepsilon \sqrt n$.
     ///
     /// # Errors
     /// [`Error::NotPositiveDefinite`] naming the row of the smallest pivot.
