@@ -3,7 +3,7 @@
 use super::model::{Geometry, ModelSource, range};
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::decoded;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
@@ -27,29 +27,27 @@ pub(super) fn from_matrices(
         (Some(file), _) => rows(job, &job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
         (None, None) => {
-            return Err(job.wrong(
-                "model.rows for matrices that do not name their rows",
-                "none",
-            ));
+            return Err(job.refused("model.rows is missing: these matrices do not name their rows"));
         }
     };
     let other = Some(labels.len()).filter(|rows| *rows != count);
-    job.refuse(
-        other,
-        format!("{count} rows in model.rows, one a row of the stiffness"),
-    )?;
-    let other = own.filter(|own| *own != labels).map(|_| "another");
-    job.refuse(
-        other,
-        "model.rows in the order of the stiffness, which names its own",
-    )?;
-    let row_of: BTreeMap<_, usize> = labels
-        .iter()
-        .enumerate()
-        .map(|(row, label)| (*label, row))
-        .collect();
-    let twice = (row_of.len() != count).then_some("one in two");
-    job.refuse(twice, "every grid and direction in one row of the matrices")?;
+    job.refuse_if(other, |rows| {
+        format!("model.rows has {rows} rows, but the stiffness {count}")
+    })?;
+    let other = own.filter(|own| *own != labels);
+    job.refuse_if(other, |_| {
+        "model.rows is not in the order of the stiffness, which names its rows".to_owned()
+    })?;
+    let mut row_of = BTreeMap::new();
+    for (row, label) in labels.iter().enumerate() {
+        job.refuse_if(row_of.insert(*label, row), |first| {
+            format!(
+                "rows {} and {} of the matrices have the same grid and direction",
+                first + 1,
+                row + 1
+            )
+        })?;
+    }
     let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
@@ -70,17 +68,11 @@ pub(super) fn from_matrices(
             .as_ref()
             .filter(|_| !is_of_deck && !rule.each)
             .ok_or_else(|| {
-                let found = if rule.matrix.is_none() {
-                    "no matrix"
-                } else {
-                    "entries of a deck"
-                };
-                job.wrong(
-                    format!("a matrix, and nothing of a deck, in parameter {name}"),
-                    found,
-                )
+                job.refused(format!(
+                    "parameter \"{name}\" needs a matrix, and no entry of a deck"
+                ))
             })?;
-        let entry = format!("parameter {name}");
+        let entry = format!("parameter \"{name}\"");
         let matrix = on_rows(job, (file, &entry), &row_of)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
@@ -126,11 +118,10 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
-    let others = (found.columns != found.rows).then_some("others");
-    job.refuse(
-        others,
-        format!("rows and columns of the same names in {text}"),
-    )?;
+    let others = (found.columns != found.rows).then_some(text);
+    job.refuse_if(others, |text| {
+        format!("{text}: rows and columns have different names")
+    })?;
     Ok(found)
 }
 
@@ -147,11 +138,10 @@ fn on_rows(
     let stranger = labels
         .iter()
         .find(|label| !row_of.contains_key(&degree_of_freedom(label)));
-    let stranger = stranger.map(|(grid, component)| format!("grid {grid} component {component}"));
-    job.refuse(
-        stranger,
-        format!("rows of the stiffness in {}", file.display()),
-    )?;
+    job.refuse_if(stranger, |(grid, component)| {
+        let file = file.display();
+        format!("{file}: the stiffness has no row of grid {grid}, component {component}")
+    })?;
     let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
     let entries = matrix
         .entries()
@@ -186,14 +176,8 @@ fn rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
         {
             continue;
         }
-        let found = || format!("line {number}: {line}");
-        let wrong = || {
-            FileError::input(
-                file.display(),
-                "lines of grid, direction and perhaps x, y, z",
-                found(),
-            )
-        };
+        let what = "a line of grid, direction and perhaps x, y, z";
+        let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
         places.extend(place.map(|place| (label.0, place)));

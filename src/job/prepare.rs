@@ -55,7 +55,7 @@ impl Prepared {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Input`] for modes that the test does not have or that are named twice, and when no test mode has
+    /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice, and when no test mode has
     /// a partner; those of the first analysis and of [`Prepared::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
@@ -80,24 +80,25 @@ impl Prepared {
             .clone()
             .unwrap_or_else(|| (1..=available).collect());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
-        job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
-        job.once(numbers.iter(), "mode of test.modes")?;
+        job.refuse_if(unknown, |mode| {
+            format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
+        })?;
+        job.once(numbers.iter(), "test.modes: mode")?;
         job.once(
             source
                 .whole
                 .parameters()
                 .iter()
                 .map(|parameter| &parameter.name),
-            "name of a parameter",
+            "parameter",
         )?;
         let several = job
             .compare
             .starts
             .filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
-        job.refuse(
-            several,
-            "one of compare.starts where the method is \"paper\"",
-        )?;
+        job.refuse_if(several, |starts| {
+            format!("compare.starts is {starts}, but method \"paper\" has one start")
+        })?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
@@ -192,14 +193,10 @@ impl Prepared {
         self.unpaired = left
             .map(|mode| (self.modes[mode], assurance.column(mode).max()))
             .collect();
-        let best = kept
-            .is_empty()
-            .then(|| format!("{:.3} at most", assurance.max()));
-        let expected = "a mode of the model with a modal assurance of";
-        self.job.refuse(
-            best,
-            format!("{expected} {FLOOR} or more for one test mode at least"),
-        )?;
+        let best = kept.is_empty().then(|| assurance.max());
+        self.job.refuse_if(best, |best| {
+            format!("no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}")
+        })?;
         if self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
             self.first = first
@@ -264,21 +261,15 @@ impl Prepared {
 
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    job.refuse(
-        job.parameters.is_empty().then_some("none"),
-        "at least one [[parameter]]",
-    )?;
-    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
-        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
-        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
-        (None, None, None) => "neither",
-        (Some(_), ..) => "a deck and matrices",
-        _ => "one matrix alone",
-    };
-    Err(job.wrong(
-        "either model.deck, or model.stiffness and model.mass",
-        found,
-    ))
+    let none = job.parameters.is_empty().then_some(());
+    job.refuse_if(none, |()| {
+        "a job needs at least one [[parameter]]".to_owned()
+    })?;
+    match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+        (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
+        (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
+        _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
+    }
 }
 
 /// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.

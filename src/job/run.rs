@@ -51,7 +51,7 @@ impl Prepared {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Input`] for weights that are not one a test mode.
+    /// [`FileError::Refused`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Vec<ModeWeight>, FileError> {
         let compare = &self.job.compare;
         let named = self
@@ -66,8 +66,9 @@ impl Prepared {
         ];
         for (what, list) in lists {
             let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
-            self.job
-                .refuse(other, format!("{named} {what}, one a test mode of the job"))?;
+            self.job.refuse_if(other, |count| {
+                format!("compare.{what}: {count} given for {named} test modes")
+            })?;
         }
         let weight = |(own, &mode): (ModeWeight, &usize)| {
             let noise = self.deviations(mode);
@@ -131,7 +132,7 @@ impl Prepared {
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`]; [`FileError::Input`] for factors of point masses, which are not rewritten.
+    /// Those of [`rewrite`]; [`FileError::Refused`] for factors of point masses, which are not rewritten.
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else {
             return Ok(None);
@@ -146,12 +147,9 @@ impl Prepared {
         for ((WholeParameter { name, share, .. }, members), &factor) in parameters.zip(factors) {
             let has_masses = |rule: &ParameterRule| rule.name == *name && !rule.masses.is_empty();
             let is_of_masses = members.is_empty() || self.job.parameters.iter().any(has_masses);
-            let refused = (is_of_masses && factor != 1.0).then(|| format!("a factor of {factor}"));
-            let expected = "parameters of elements for a corrected deck";
-            self.job.refuse(
-                refused,
-                format!("{expected}; {name} is one of point masses"),
-            )?;
+            self.job.refuse_if((is_of_masses && factor != 1.0).then_some(factor), |factor| {
+                format!("parameter \"{name}\" scales point masses by {factor}; a corrected deck can only change elements")
+            })?;
             for element in elements
                 .iter_mut()
                 .filter(|element| members.binary_search(&element.label).is_ok())

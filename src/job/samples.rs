@@ -3,7 +3,7 @@
 use super::Study;
 use super::prepare::digest;
 use super::study::FAILED;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -78,7 +78,13 @@ impl Samples {
                 continue;
             }
             let name = path.display().to_string();
-            let wrong = |expected| Err(FileError::line(&name, number, expected, text.trim_end()));
+            let wrong = |what| {
+                Err(FileError::line(
+                    &name,
+                    number,
+                    is_not(text.trim_end(), what),
+                ))
+            };
             let cells: Vec<&str> = text.trim_end().split(',').collect();
             let (Some(sample), true) = (cells[0].parse().ok(), cells.len() == count + 6) else {
                 return wrong("a line of a sample of this study");
@@ -90,7 +96,9 @@ impl Samples {
             let is_run =
                 ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
             if cells[1] != FAILED && !is_run {
-                return wrong("true or false, and error sum, analyses and factors as numbers");
+                return wrong(
+                    "a sample with true or false, and error sum, analyses and factors as numbers",
+                );
             }
             let digest = digest(text.trim_end().as_bytes(), 0);
             if samples
@@ -98,7 +106,7 @@ impl Samples {
                 .insert(sample, (at, digest))
                 .is_some_and(|(_, before)| before != digest)
             {
-                return wrong("a sample once, or again as it was");
+                return wrong("what another line says of this sample");
             }
         }
         Ok(samples)

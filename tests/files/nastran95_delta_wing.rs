@@ -192,11 +192,11 @@ fn the_command_asks_the_solver_it_is_given() {
         (&[][..], "exit status: 9"),
         (
             &["--nastran", slow, "--time-limit", "1"],
-            "expected it to end within 1 s",
+            "still running after 1 s",
         ),
         (
             &["--nastran", "no/such/folder"],
-            "found none at no/such/folder",
+            "no folder with bin/nastrn and rf/ at no/such/folder",
         ),
     ] {
         let output = assert_cmd::Command::cargo_bin("corfem")

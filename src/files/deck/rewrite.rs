@@ -161,7 +161,9 @@ impl Changes<'_> {
                 self.set(
                     card,
                     size_field,
-                    text.ok_or_else(|| card.error(size_field, "a finite new number"))?,
+                    text.ok_or_else(|| {
+                        card.error(size_field, "the new size is not a finite number")
+                    })?,
                 )?;
             }
             if stays.1 != own.1 {
@@ -249,7 +251,7 @@ impl Changes<'_> {
         let own = card.fields.get(place..).unwrap_or_default();
         let line = own
             .first()
-            .ok_or_else(|| card.error(field, "a field to write in"))?
+            .ok_or_else(|| card.error(field, "the card has no such field to write in"))?
             .line;
         let from_last = own.iter().take_while(|other| other.line == line).count();
         self.fields.entry(line).or_default().insert(from_last, text);

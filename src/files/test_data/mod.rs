@@ -130,7 +130,7 @@ impl TestData {
 /// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] with file, line, what is expected and what is found; those of [`TestData::check`].
+/// [`FileError::DeckLine`] names file and line; those of [`TestData::check`].
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     let text = decoded(bytes);
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());

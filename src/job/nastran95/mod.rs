@@ -97,15 +97,12 @@ impl Nastran95 {
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str, numbers: usize) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
-        let found = || {
-            format!(
-                "none; printed last: {}",
-                process::last_lines(&answer.printed)
-            )
-        };
-        let unit_15 = answer
-            .unit_15
-            .ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?;
+        let unit_15 = answer.unit_15.ok_or_else(|| {
+            let last = process::last_lines(&answer.printed);
+            FileError::answer(format!(
+                "nothing was written on Fortran unit 15; printed last: {last}"
+            ))
+        })?;
         read_output5(&unit_15, numbers)
     }
 
@@ -218,9 +215,12 @@ fn check_assembled(
         let there = matrix(answer, name, free.len())?;
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
-        let expected = || format!("{name} to be {meaning} within {limit:.0e} of its largest entry");
-        let wrong = || FileError::answer(expected(), format!("them {difference:.1e} apart"));
-        (difference <= limit).then_some(()).ok_or_else(wrong)
+        if difference <= limit {
+            return Ok(());
+        }
+        Err(FileError::answer(format!(
+            "{name} is {difference:.1e} of its largest entry off {meaning}, more than {limit:.0e}"
+        )))
     };
     same(
         "KAA",
@@ -243,11 +243,10 @@ fn matrix<'a>(
 ) -> Result<&'a DMatrix<f64>, FileError> {
     let found = match answer.get(name) {
         Some(matrix) if matrix.shape() == (size, size) => return Ok(matrix),
-        Some(matrix) => format!("{} x {}", matrix.nrows(), matrix.ncols()),
-        None => "none".to_owned(),
+        Some(matrix) => format!("is {} x {}", matrix.nrows(), matrix.ncols()),
+        None => "is missing".to_owned(),
     };
-    Err(FileError::answer(
-        format!("a matrix {name} of {size} rows and columns"),
-        found,
-    ))
+    Err(FileError::answer(format!(
+        "matrix {name} {found}; the model has {size} rows and columns"
+    )))
 }

@@ -196,10 +196,9 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
         found => found.map_err(FileError::of_file(&path, "read"))?,
     };
     if !found.is_file() {
-        return Err(FileError::answer(
-            format!("a regular file {name}"),
-            "something else in its place",
-        ));
+        return Err(FileError::answer(format!(
+            "its {name} is not a regular file"
+        )));
     }
     within_limit(name, found.len(), limit)?;
     let mut bytes = Vec::new();
@@ -209,13 +208,10 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
 }
 
 fn within_limit(name: &str, bytes: u64, limit: u64) -> Result<(), FileError> {
-    let too_large = FileError::answer(
-        format!("at most {limit} bytes in its file {name}"),
-        bytes.to_string(),
-    );
     if bytes <= limit {
-        Ok(())
-    } else {
-        Err(too_large)
+        return Ok(());
     }
+    Err(FileError::answer(format!(
+        "its file {name} has {bytes} bytes, more than the {limit} allowed"
+    )))
 }
