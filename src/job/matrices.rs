@@ -24,7 +24,7 @@ pub(super) fn from_matrices(
         .as_ref()
         .map(|labels| labels.iter().map(degree_of_freedom).collect());
     let (labels, places) = match (&job.model.rows, &own) {
-        (Some(file), _) => rows(job, &job.beside(file))?,
+        (Some(file), _) => read_rows(job, &job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
         (None, None) => {
             return Err(job.refused("model.rows is missing: these matrices do not name their rows"));
@@ -161,7 +161,7 @@ type LabeledRow = (usize, usize);
 type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
-fn rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
+fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
     let text = decoded(&job.bytes(file, "model.rows")?).into_owned();
     let lines = (1..)
         .zip(text.lines())

@@ -1,6 +1,6 @@
 //! A job: the model, the test and the settings of a correlation of the user's own structure, as one TOML file names them.
 //!
-//! [`read`] reads the file alone; [`Prepared::new`] reads what it names, puts model and test together, and is what a correlation
+//! [`read`] reads the file alone; [`LoadedJob::new`] reads what it names, puts model and test together, and is what a correlation
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
 pub mod assignment;
@@ -12,16 +12,16 @@ pub mod metrics;
 mod model;
 pub mod nastran95;
 pub mod preflight;
-mod prepare;
+mod loaded;
 mod run;
 mod samples;
 mod sensors;
 mod study;
 
 pub use entries::removed_step;
+pub use loaded::LoadedJob;
 pub use model::{Geometry, ModelSource};
-pub use prepare::Prepared;
-pub use run::{Finished, History, run};
+pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};

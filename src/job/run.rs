@@ -1,6 +1,6 @@
-//! A prepared job is run: the factors found, what they are worth, and the deck that has them.
+//! A loaded job is run: the factors found, what they are worth, and the deck that has them.
 
-use super::{Method, ParameterRule, Prepared};
+use super::{LoadedJob, Method, ParameterRule};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
@@ -28,7 +28,7 @@ pub enum History {
 
 /// What a job came to.
 #[derive(Debug, Clone)]
-pub struct Finished {
+pub struct JobResult {
     /// How.
     pub history: History,
     /// The best factors.
@@ -47,7 +47,7 @@ pub struct Finished {
     pub is_interrupted: bool,
 }
 
-impl Prepared {
+impl LoadedJob {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
@@ -177,32 +177,32 @@ impl Prepared {
     }
 }
 
-/// Runs a job. `progress` is told of every pass or analysis in words; `go_on` is asked after each whether to.
+/// Runs a job. `progress` is report_pass of every pass or analysis in words; `go_on` is asked after each whether to.
 ///
 /// # Errors
-/// Those of the analyses, of the loops and of [`Prepared::weights`].
+/// Those of the analyses, of the loops and of [`LoadedJob::weights`].
 pub fn run(
-    prepared: &Prepared,
+    loaded: &LoadedJob,
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
-) -> Result<Finished, FileError> {
-    run_from(prepared, &prepared.ones(), &mut progress, &go_on)
+) -> Result<JobResult, FileError> {
+    run_from(loaded, &loaded.ones(), &mut progress, &go_on)
 }
 
 /// The same from other first factors than one, and then from these alone.
 pub(super) fn run_from(
-    prepared: &Prepared,
+    loaded: &LoadedJob,
     start: &[f64],
     progress: &mut dyn FnMut(&str),
     go_on: &dyn Fn() -> bool,
-) -> Result<Finished, FileError> {
-    let (compare, settings) = (&prepared.job.compare, &prepared.job.correlation);
-    let (weights, ranges) = (prepared.weights()?, prepared.source.whole.ranges());
+) -> Result<JobResult, FileError> {
+    let (compare, settings) = (&loaded.job.compare, &loaded.job.correlation);
+    let (weights, ranges) = (loaded.weights()?, loaded.source.whole.ranges());
     let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());
     let analyses = std::cell::Cell::new(0);
     let analyze = |factors: &[f64]| {
         analyses.set(analyses.get() + 1);
-        prepared.analyze(factors)
+        loaded.analyze(factors)
     };
     let first = analyze(start)?;
     let analyze = |factors: &[f64]| {
@@ -219,7 +219,7 @@ pub(super) fn run_from(
     };
     let (history, factors) = match compare.method {
         Method::Paper => {
-            let mut told = |number: usize, pass: &Pass| {
+            let mut report_pass = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
                 let (frequency, shape) =
                     (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
@@ -248,7 +248,7 @@ pub(super) fn run_from(
                 &|model, state| error_changes(model, state, settings.inner.derivatives),
                 &ranges,
                 settings,
-                &mut told,
+                &mut report_pass,
             )?;
             let factors = total(&run.best_factors);
             (History::Paper(run), factors)
@@ -318,7 +318,7 @@ pub(super) fn run_from(
         |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
     let seen = [sees(&first)?, sees(&last)?];
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
-    Ok(Finished {
+    Ok(JobResult {
         history,
         factors,
         verdict,

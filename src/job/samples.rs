@@ -1,7 +1,7 @@
 //! The samples of a study as a file has them, one a line, and what they come to.
 
 use super::Study;
-use super::prepare::digest;
+use super::loaded::digest;
 use super::study::FAILED;
 use crate::files::error::{FileError, is_not};
 use std::collections::BTreeMap;

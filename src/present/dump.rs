@@ -1,7 +1,7 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
 use super::PresentError;
-use super::json::{document, iteration, rows};
+use super::json::{document, iteration, matrix_rows};
 use crate::files::matrices::write_matrix_market;
 use crate::method::inner_loop::Iteration;
 use crate::method::modes::solve;
@@ -51,13 +51,13 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
             ("V", &modes.shapes),
             ("B", &b),
         ] {
-            analysis[name] = rows(matrix);
+            analysis[name] = matrix_rows(matrix);
             matrices.push(file(&format!("analysis_{number}_{name}"), matrix)?);
         }
         analysis["shares"] = dynamic
             .shares
             .iter()
-            .map(|share| rows(share.matrix()))
+            .map(|share| matrix_rows(share.matrix()))
             .collect();
         for (name, share) in names.iter().zip(&dynamic.shares) {
             matrices.push(file(
@@ -74,8 +74,8 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         "settings": case.settings,
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
-        "T": rows(model.load_distribution()),
-        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": rows(&result.test.shapes)},
+        "T": matrix_rows(model.load_distribution()),
+        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": matrix_rows(&result.test.shapes)},
         "analyses": analyses,
         "passes": passes.iter().map(pass).collect::<Value>(),
     }))?;

@@ -5,7 +5,7 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::PresentError;
-use super::subject::{Stage, Subject};
+use super::report::{Report, Stage};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Deck;
@@ -38,47 +38,47 @@ pub fn document(content: Value) -> Result<String, PresentError> {
 /// Any correlation: its parameters by name, its test, what it came to, and its whole history.
 ///
 /// # Errors
-/// Those of [`Subject::agreement`].
-pub fn subject(subject: &Subject) -> Result<Value, PresentError> {
-    let (mut initial, corrected) = (check(&subject.initial), subject.corrected());
-    initial["agreement"] = agreement(subject, &subject.initial)?;
-    let at_bound = |(e, factor): (usize, &f64)| subject.is_at_bound(e, *factor);
-    let factors = subject.factors();
+/// Those of [`Report::agreement`].
+pub fn report(report: &Report) -> Result<Value, PresentError> {
+    let (mut initial, corrected) = (check(&report.initial), report.corrected());
+    initial["agreement"] = agreement(report, &report.initial)?;
+    let at_bound = |(e, factor): (usize, &f64)| report.is_at_bound(e, *factor);
+    let factors = report.factors();
     Ok(json!({
-        "name": subject.title,
-        "solver": subject.solver,
-        "converged": subject.converged(),
-        "verdict": subject.verdict,
-        "verdict_in_words": subject.words(),
-        "parameters": subject.parameters,
-        "ranges": subject.ranges,
+        "name": report.title,
+        "solver": report.solver,
+        "converged": report.converged(),
+        "verdict": report.verdict,
+        "verdict_in_words": report.words(),
+        "parameters": report.parameters,
+        "ranges": report.ranges,
         "factors": factors,
-        "standard_deviations": subject.deviations,
+        "standard_deviations": report.deviations,
         "at_bound": factors.iter().enumerate().map(at_bound).collect::<Vec<_>>(),
-        "best_pass": subject.best.map(|best| best + 1),
-        "test_frequencies_hz": subject.test.frequencies_hz(),
-        "sensors": subject.sensors.iter().map(|sensor| &sensor.name).collect::<Vec<_>>(),
+        "best_pass": report.best.map(|best| best + 1),
+        "test_frequencies_hz": report.test.frequencies_hz(),
+        "sensors": report.sensors.iter().map(|sensor| &sensor.name).collect::<Vec<_>>(),
         "initial": initial,
-        "corrected_agreement": agreement(subject, corrected)?,
-        "passes": subject.stages.iter().map(stage).collect::<Value>(),
-        "derivatives": subject.derivatives.as_ref().map(|at| json!({
-            "frequency_percent_per_percent": rows(&at.frequency),
+        "corrected_agreement": agreement(report, corrected)?,
+        "passes": report.stages.iter().map(stage).collect::<Value>(),
+        "derivatives": report.derivatives.as_ref().map(|at| json!({
+            "frequency_percent_per_percent": matrix_rows(&at.frequency),
             "error_sum_per_percent": at.error_sum,
         })),
     }))
 }
 
 /// Modal assurance and cross-orthogonality, analysis modes by test modes, and which analysis mode is paired, from one.
-fn agreement(subject: &Subject, check: &Check) -> Result<Value, PresentError> {
-    let found = subject.agreement(check)?;
+fn agreement(report: &Report, check: &Check) -> Result<Value, PresentError> {
+    let found = report.agreement(check)?;
     Ok(json!({
         "paired_analysis_modes": check.pairing.analysis_mode.iter().map(|mode| mode + 1).collect::<Vec<_>>(),
-        "modal_assurance": rows(&found.assurance),
-        "cross_orthogonality": found.orthogonality.as_ref().map(rows),
+        "modal_assurance": matrix_rows(&found.assurance),
+        "cross_orthogonality": found.orthogonality.as_ref().map(matrix_rows),
     }))
 }
 
-pub(super) fn rows(matrix: &DMatrix<f64>) -> Value {
+pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Value {
     matrix
         .row_iter()
         .map(|row| row.iter().copied().collect::<Vec<_>>())
@@ -132,7 +132,7 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "settings": result.case.settings,
         "outcome": outcome(result),
         "succeeded": result.succeeded(),
-        "correlation": subject(&Subject::of_case(result)?)?,
+        "correlation": report(&Report::from_case(result)?)?,
         "published_iterations": published_iterations(result)?,
         "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
         "test_gage_in": TEST_GAGE,

@@ -1,6 +1,6 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, reconstruction, say};
+use super::output::{OutputArguments, note, reconstruction};
 use super::place::put;
 use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
@@ -49,7 +49,7 @@ pub struct ModesArguments {
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
-    let case = Case::on(
+    let case = Case::from_reconstruction(
         arguments.case,
         reconstruction(arguments.box_file.as_deref())?,
     )?;
@@ -72,9 +72,9 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
         // A deck is easier to read with round numbers.
         range_hz: [(RANGE[0] * lowest).floor(), (RANGE[1] * highest).ceil()],
     };
-    let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
+    let bulk = BulkData::from_model(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    put(
+    write_report(
         arguments.output.as_deref(),
         &deck::write(&bulk, &title, &task)?,
     )
@@ -87,7 +87,7 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
         std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
     let deck = deck::read(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
-        say(format_args!("corfem: {name}: {}", not_read(card)));
+        note(format_args!("corfem: {name}: {}", not_read(card)));
     }
     let modes = deck::modes(&deck.model)?;
     let found = modes.modes.len();

@@ -23,7 +23,7 @@ use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::say;
 use pictures::{DumpArguments, FolderArguments};
-use place::{check, put};
+use place::{check, write_report};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use studies::{FewerModesArguments, TablesArguments};
@@ -112,7 +112,7 @@ pub fn run() -> ExitCode {
             } else {
                 asked.render().to_string()
             };
-            return status(put(None, &text).map(|()| true));
+            return status(write_report(None, &text).map(|()| true));
         }
     };
     status(check_places(&matches).and_then(|()| match command {
@@ -151,7 +151,7 @@ fn status(done: Result<bool, PresentError>) -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NOT_CONVERGED),
         Err(error) => {
-            say(format_args!("corfem: {error}"));
+            note(format_args!("corfem: {error}"));
             ExitCode::from(BAD_INPUT)
         }
     }

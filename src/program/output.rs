@@ -45,12 +45,12 @@ impl OutputArguments {
             FormatArgument::Json => json()?,
             FormatArgument::Csv => render::csv(tables),
         };
-        self.put(&report)
+        self.write_text(&report)
     }
 
     /// Writes a text where the report would go.
-    pub fn put(&self, text: &str) -> Result<(), PresentError> {
-        put(self.output.as_deref(), text)
+    pub fn write_text(&self, text: &str) -> Result<(), PresentError> {
+        write_report(self.output.as_deref(), text)
     }
 }
 
@@ -63,7 +63,7 @@ pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Present
     Ok(Reconstruction::parse(&path.display().to_string(), &text)?)
 }
 
-/// Says something on standard error, with control characters shown. Nobody may be there to hear it.
-pub fn say(words: impl std::fmt::Display) {
+/// Prints a line on standard error, with control characters escaped. A closed standard error is no reason to fail.
+pub fn note(words: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", escaped(&words.to_string()));
 }

@@ -1,7 +1,7 @@
 //! `corfem figures`, `corfem report` and `corfem dump`: files in a folder.
 
-use super::folder::put_all;
-use super::output::say as tell;
+use super::folder::write_files;
+use super::output::note;
 use super::place::put;
 use clap::Args;
 use corfem::present::PresentError;
@@ -27,7 +27,7 @@ pub fn pictures(
     as_page: bool,
     quiet: bool,
 ) -> Result<(), PresentError> {
-    let say = |words: String| (!quiet).then(|| tell(words));
+    let say = |words: String| (!quiet).then(|| note(words));
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
@@ -47,7 +47,7 @@ pub fn pictures(
             figures: &figures,
             command: &format!("corfem report --output {}", folder.display()),
         })?;
-        put_all(
+        write_files(
             folder,
             &[("report.html".to_owned(), html.into_bytes())],
             "report",
@@ -58,7 +58,7 @@ pub fn pictures(
             .into_iter()
             .map(|figure| (figure.name + ".svg", figure.svg.into_bytes()))
             .collect();
-        put_all(folder, &files, "figures")?;
+        write_files(folder, &files, "figures")?;
         say(format!("{} files in {}", files.len(), folder.display()));
     }
     Ok(())
@@ -79,7 +79,7 @@ pub struct DumpArguments {
 pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> {
     let dump = open(&Case::new(arguments.case)?)?;
     let Some(folder) = &arguments.folder else {
-        return put(None, &dump.json);
+        return write_report(None, &dump.json);
     };
     let mut files = vec![("dump.json".to_owned(), dump.json.into_bytes())];
     files.extend(
@@ -87,9 +87,9 @@ pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> 
             .into_iter()
             .map(|(name, text)| (name, text.into_bytes())),
     );
-    put_all(folder, &files, &format!("dump {}", arguments.case))?;
+    write_files(folder, &files, &format!("dump {}", arguments.case))?;
     if !quiet {
-        tell(format_args!(
+        note(format_args!(
             "{} files in {}",
             files.len(),
             folder.display()

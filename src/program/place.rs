@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 enum OutputPlace {
     StandardOutput,
     /// What is there and no regular file.
-    Through(PathBuf),
+    Device(PathBuf),
     /// A regular file, or a new one; links are followed.
     File(PathBuf),
 }
@@ -20,16 +20,18 @@ pub fn check(path: &Path) -> Result<(), PresentError> {
     let check = || match place(Some(path))? {
         OutputPlace::File(path) => probe(path.parent().unwrap_or(&path)),
         // A pipe is not opened yet: that is to wait for its reader.
-        OutputPlace::StandardOutput | OutputPlace::Through(_) => Ok(()),
+        OutputPlace::StandardOutput | OutputPlace::Device(_) => Ok(()),
     };
     Ok(check().map_err(FileError::of_file(named(Some(path)), "write"))?)
 }
 
 /// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
-pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
+pub fn write_report(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
     let write = || match place(path)? {
-        OutputPlace::StandardOutput => to(std::io::stdout().lock(), text),
-        OutputPlace::Through(path) => to(OpenOptions::new().append(true).open(path)?, text),
+        OutputPlace::StandardOutput => write_all_to(std::io::stdout().lock(), text),
+        OutputPlace::Device(path) => {
+            write_all_to(OpenOptions::new().append(true).open(path)?, text)
+        }
         OutputPlace::File(path) => replace(&path, text.as_bytes()),
     };
     Ok(write().map_err(FileError::of_file(named(path), "write"))?)
@@ -57,7 +59,7 @@ fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
     match std::fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
         Ok(found) if is_standard_output(&found) => return Ok(OutputPlace::StandardOutput),
-        Ok(found) if !found.is_file() => return Ok(OutputPlace::Through(path.to_owned())),
+        Ok(found) if !found.is_file() => return Ok(OutputPlace::Device(path.to_owned())),
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}
     }
@@ -65,7 +67,7 @@ fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
     while let Ok(target) = std::fs::read_link(&path) {
         if is_descriptor(&path) {
             // A file that is open already is written on, from its end.
-            return Ok(OutputPlace::Through(path));
+            return Ok(OutputPlace::Device(path));
         }
         path = path.parent().unwrap_or(Path::new("")).join(target);
     }
@@ -97,7 +99,7 @@ fn is_standard_output(_: &Metadata) -> bool {
 }
 
 /// Writes all of a text. A reader that has seen enough closes the pipe; that is no error of ours.
-fn to(mut out: impl Write, text: &str) -> io::Result<()> {
+fn write_all_to(mut out: impl Write, text: &str) -> io::Result<()> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         done => done,

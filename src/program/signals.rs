@@ -18,14 +18,14 @@ static HOLDERS: AtomicUsize = AtomicUsize::new(0);
 static CAME: AtomicUsize = AtomicUsize::new(0);
 
 /// The signals are held as long as this or another one lives; one that came meanwhile ends the program then.
-pub struct Held(());
+pub struct PostponedSignals(());
 
 /// Holds the signals.
-pub fn hold() -> Held {
+pub fn postpone() -> PostponedSignals {
     take_over();
     HOLDERS.fetch_add(1, SeqCst);
     FREE.store(false, SeqCst);
-    Held(())
+    PostponedSignals(())
 }
 
 /// Takes the signals over from the operating system, once.
@@ -40,7 +40,7 @@ fn take_over() {
     });
 }
 
-impl Drop for Held {
+impl Drop for PostponedSignals {
     fn drop(&mut self) {
         if HOLDERS.fetch_sub(1, SeqCst) > 1 {
             return;
@@ -55,7 +55,7 @@ impl Drop for Held {
 }
 
 /// Sets the flag too when one of the signals comes while they are held.
-pub fn tell(stop: &Arc<AtomicBool>) {
+pub fn set_on_signal(stop: &Arc<AtomicBool>) {
     take_over();
     for signal in asked_for() {
         let _ = flag::register(signal, Arc::clone(stop));

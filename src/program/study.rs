@@ -1,8 +1,8 @@
 //! `corfem study`: a job many times, its test varied by what it may be wrong by.
 
-use super::folder::put_all;
+use super::folder::write_files;
 use super::job::file_name;
-use super::output::{OutputArguments, say};
+use super::output::{OutputArguments, note};
 use super::settings::named;
 use super::{progress, signals};
 use clap::Args;
@@ -50,15 +50,15 @@ pub struct StudyArguments {
 pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError> {
     let study = Study::new(&arguments.job, arguments.seed, &arguments.vary)?;
     let stop = Arc::new(AtomicBool::new(false));
-    signals::tell(&stop);
-    // Held until what is done is written, so that a request to stop ends the program then.
-    let _held = signals::hold();
+    signals::set_on_signal(&stop);
+    // Postponed until what is done is written, so that a request to stop ends the program then.
+    let _postponed = signals::postpone();
     let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
         failure
             .into_iter()
-            .for_each(|failure| say(format_args!("corfem: {failure}")));
-        return arguments.output.put(&line);
+            .for_each(|failure| note(format_args!("corfem: {failure}")));
+        return arguments.output.write_text(&line);
     };
     if !folder.is_dir() {
         std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
@@ -102,7 +102,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         .filter(|sample| !samples.contains(*sample))
         .count();
     if left > 0 {
-        say(format_args!(
+        note(format_args!(
             "corfem: stopped by request; {} of {last} samples are done, and the same command goes on",
             last - left as u64
         ));
@@ -115,7 +115,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         ("summary.csv", render::csv(&tables)),
         ("histogram.svg", figure),
     ];
-    put_all(
+    write_files(
         folder,
         &files.map(|(name, text)| (name.to_owned(), text.into_bytes())),
         &format!(

@@ -69,14 +69,17 @@ impl Case {
     /// # Errors
     /// [`CaseError::UnknownCase`] for another number; those of [`Self::on`].
     pub fn new(number: usize) -> Result<Self, CaseError> {
-        Self::on(number, Reconstruction::embedded()?)
+        Self::from_reconstruction(number, Reconstruction::embedded()?)
     }
 
     /// A case of the paper on a given box.
     ///
     /// # Errors
     /// [`CaseError::UnknownCase`] for another number; [`CaseError::Table`] if Table 2 were damaged.
-    pub fn on(number: usize, reconstruction: Reconstruction) -> Result<Self, CaseError> {
+    pub fn from_reconstruction(
+        number: usize,
+        reconstruction: Reconstruction,
+    ) -> Result<Self, CaseError> {
         if !CASES.contains(&number) {
             return Err(CaseError::UnknownCase { found: number });
         }

@@ -2,7 +2,7 @@
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::job::{Prepared, run};
+use corfem::job::{LoadedJob, run};
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -32,7 +32,7 @@ pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
 /// What is said of a job, without its folder.
 pub fn said(files: &Files) -> String {
     let (folder, path) = placed(files);
-    let error = Prepared::new(&path)
+    let error = LoadedJob::new(&path)
         .and_then(|prepared| run(&prepared, |_| {}, || true))
         .map(drop);
     let error = error.expect_err("a mistake").to_string();
@@ -55,7 +55,7 @@ const COMPARE: &str = "[compare]";
 fn the_small_jobs_are_right_before_their_mistakes() {
     for files in [rods(), building()] {
         let (_folder, path) = placed(&files);
-        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
@@ -100,7 +100,7 @@ fn a_job_names_its_model_once_and_whole() {
     );
     let (folder, path) = placed(&rods());
     std::fs::remove_file(&path).expect("removed");
-    let missing = Prepared::new(&path)
+    let missing = LoadedJob::new(&path)
         .map(drop)
         .expect_err("no job")
         .to_string();
@@ -223,7 +223,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
         "elements = [3]",
     );
     let (_folder, path) = placed(&files);
-    let range = Prepared::new(&path)
+    let range = LoadedJob::new(&path)
         .unwrap_or_else(|error| panic!("{error}"))
         .source
         .whole
@@ -236,7 +236,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
     );
     let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
     let (_folder, path) = placed(&narrow);
-    let range = Prepared::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
+    let range = LoadedJob::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
     assert_eq!(range.lower, 0.5);
 }
 
@@ -244,7 +244,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
 fn properties_materials_masses_and_each_say_what_they_scale() {
     let members = |old: &str, new: &str| {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
-        let source = Prepared::new(&path)
+        let source = LoadedJob::new(&path)
             .unwrap_or_else(|error| panic!("{new}: {error}"))
             .source;
         let names: Vec<String> = source
@@ -296,7 +296,7 @@ fn point_masses_count_once_and_have_no_corrected_deck() {
         let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
         (
             folder,
-            Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")),
+            LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}")),
         )
     };
     let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
@@ -504,7 +504,7 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
         .map(|(line, more)| format!("{line}{more}\n"))
         .collect();
     let (_folder, path) = placed(&files);
-    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(prepared.modes, [0, 1, 2]);
     assert!(
         matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0)
@@ -547,7 +547,7 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         "[compare]\nshape_weights = [0, 0, 0]",
     );
     let (_folder, path) = placed(&frequencies);
-    let prepared = Prepared::new(&path).expect("a job");
+    let prepared = LoadedJob::new(&path).expect("a job");
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] =
@@ -568,7 +568,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     let paper = |weights: &str| with(rods(), "job.toml", "method = \"gauss_newton\"", weights);
     let ran = |files: &Files| {
         let (_folder, path) = placed(files);
-        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
         (finished.first.exact().errors, finished.factors)
     };

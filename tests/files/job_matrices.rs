@@ -2,7 +2,7 @@
 
 use super::job_errors::{placed, said, with};
 use crate::common::jobs::{Files, building, rods};
-use corfem::job::Prepared;
+use corfem::job::LoadedJob;
 
 #[test]
 fn rows_of_matrices_are_a_table_of_grids_and_directions() {
@@ -34,7 +34,7 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         "\n# the second floor\n2,x,",
     ));
     assert_eq!(
-        Prepared::new(&path)
+        LoadedJob::new(&path)
             .unwrap_or_else(|error| panic!("{error}"))
             .source
             .motions
@@ -113,7 +113,7 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let (_, mass) = prepared.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
         mass.entries(),
@@ -148,11 +148,14 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
         "#KTWO",
     ));
     assert!(
-        unknown.contains("model.pch, line 1") && unknown.contains("found KAAX, KONE, MAAX"),
+        unknown.contains("model.pch, line 1") && unknown.contains("the file has KAAX, KONE, MAAX"),
         "{unknown}"
     );
     let ambiguous = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", ""));
-    assert!(ambiguous.contains("found KAAX, KONE, MAAX"), "{ambiguous}");
+    assert!(
+        ambiguous.contains("the file has KAAX, KONE, MAAX"),
+        "{ambiguous}"
+    );
 }
 
 /// Matrices without names of their own beside one with: the table of rows gives the order of both.
@@ -169,7 +172,7 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
     let (_folder, path) = placed(&files);
-    let source = Prepared::new(&path)
+    let source = LoadedJob::new(&path)
         .unwrap_or_else(|error| panic!("{error}"))
         .source;
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");

@@ -9,13 +9,13 @@ use crate::common::tolerances::ROUND_OFF;
 use crate::common::whole_models::shear_building;
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::Prepared;
+use corfem::job::LoadedJob;
 use nalgebra::{DMatrix, dmatrix};
 
 /// A job that has no mistake, ready to run.
-pub fn prepared(files: &Files) -> Prepared {
+pub fn prepared(files: &Files) -> LoadedJob {
     let (_folder, path) = placed(files);
-    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"))
+    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A building whose stories are scaled as one, with its lowest modes measured at every floor.

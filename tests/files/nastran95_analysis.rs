@@ -208,7 +208,7 @@ fn an_answer_to_another_question_is_refused() {
         );
     }
     assert!(matches!(
-        BulkData::of(&model, &[1.0, 1.0], &[]),
+        BulkData::from_model(&model, &[1.0, 1.0], &[]),
         Err(FileError::Method(Error::WrongShape {
             what: "positions of dynamic points",
             expected_rows: 2,

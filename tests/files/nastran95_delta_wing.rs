@@ -176,7 +176,7 @@ fn reports_name_another_solver() {
     assert_eq!(noted(&other), expected);
     for run in [&*RUN, &other] {
         let subject = wing_subject(&wing(), run).expect("a subject");
-        let json = json::subject(&subject).expect("a value");
+        let json = json::report(&subject).expect("a value");
         assert_eq!(json["solver"], run.solver);
     }
 }

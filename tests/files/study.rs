@@ -108,7 +108,7 @@ fn noise_start_and_subset_are_drawn_independently() {
         let [noise, start, subset, together] = [&noise, &start_alone, &subset, &together]
             .map(|study| study.draw(sample).expect("a draw"));
         assert_eq!((&noise.0.data, &start.1), (&together.0.data, &together.1));
-        assert_eq!(start.0.test, start_alone.prepared.test);
+        assert_eq!(start.0.test, start_alone.loaded.test);
         assert_eq!(subset.0.job, together.0.job);
         assert_eq!((noise.1, subset.1), (vec![1.0; 10], vec![1.0; 10]));
         assert!(start.1.iter().all(|factor| (0.5..2.0).contains(factor)));
@@ -139,7 +139,7 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
         |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", weights));
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Subset]);
-    let whole = study.prepared.weights().expect("weights");
+    let whole = study.loaded.weights().expect("weights");
     let mut fewer = 0;
     for sample in 1..=20 {
         let (prepared, _) = study.draw(sample).expect("a draw");
@@ -207,7 +207,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
-    let found = corfem::job::run(&study.prepared, |_| {}, || true).expect("it runs");
+    let found = corfem::job::run(&study.loaded, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
     let summary = place
         .read(&study, text.as_bytes())

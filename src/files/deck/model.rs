@@ -86,7 +86,7 @@ pub struct BulkData {
 
 impl BulkData {
     /// A structure alone, without ties and point masses.
-    pub fn of_structure(structure: &Structure) -> Self {
+    pub fn from_structure(structure: &Structure) -> Self {
         let (grids, elements) = (structure.grids().to_vec(), structure.elements().to_vec());
         Self {
             grids,
@@ -106,7 +106,7 @@ impl BulkData {
     /// # Errors
     /// Those of [`at`](crate::method::model::ScaledStructure::at); [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
-    pub fn of(
+    pub fn from_model(
         model: &FiniteElementModel,
         factors: &[f64],
         points: &[Vector3<f64>],
@@ -115,7 +115,7 @@ impl BulkData {
         let at = model.at(factors)?;
         let (t, mass) = (model.load_distribution(), &at.point_masses);
         check_length("positions of dynamic points", points.len(), t.ncols())?;
-        let mut all = Self::of_structure(structure);
+        let mut all = Self::from_structure(structure);
         let sizes = at.sizes.iter().zip(&at.mass_sizes);
         for (element, (&size, mass_size)) in all.elements.iter_mut().zip(sizes) {
             element.size = size;

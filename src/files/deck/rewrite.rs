@@ -30,7 +30,7 @@ struct Changes<'a> {
 }
 
 /// The deck `bytes`, `file` in messages, with the sizes and densities of these elements, found by their numbers; those of
-/// [`BulkData::of`](super::BulkData::of) give the deck a model's modes.
+/// [`BulkData::from_model`](super::BulkData::from_model) give the deck a model's modes.
 ///
 /// Where elements of one property need different sizes, those without a change keep it, or else the most; the others refer
 /// to new cards behind it, and a new density to a new MAT1 card. A number that does not fit in its field turns its line into
@@ -231,7 +231,7 @@ impl Changes<'_> {
     /// Puts a card of the same name behind another.
     fn add(&mut self, card: &Card, entries: &str) -> Result<(), FileError> {
         self.writer.text.clear();
-        self.writer.put(&card.name, entries)?;
+        self.writer.push(&card.name, entries)?;
         let line = card
             .fields
             .iter()

@@ -109,7 +109,7 @@ impl Nastran95 {
     /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
+    /// Those of [`Self::matrices`] and [`BulkData::from_model`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
     /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
     pub fn elements(
         &self,
@@ -118,7 +118,7 @@ impl Nastran95 {
     ) -> Result<FiniteElementModel, FileError> {
         // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
-        let bulk = BulkData::of(model, factors, &points)?;
+        let bulk = BulkData::from_model(model, factors, &points)?;
         let all = with_single_elements(&bulk);
         let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
         // KGG, KAA and MAA have no more than so many rows.

@@ -11,7 +11,7 @@
 //! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
 
 mod frequencies;
-mod look;
+mod comparison;
 mod order;
 mod shapes;
 mod words;
@@ -25,7 +25,7 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use look::{Look, paired_values, reordered};
+use comparison::{Comparison, paired_values, reordered};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{changed, mend};
@@ -120,18 +120,21 @@ pub fn preflight(
     ranges: &[Option<Range>],
 ) -> Result<Vec<Finding>, Error> {
     test.scaled_with(&model.mass)?;
-    let (places, mut findings) = apart(test)?;
+    let (places, mut findings) = distinct_shapes(test)?;
     let mut modes = test.select(&places);
     if modes.len() <= model.mass.nrows() {
-        modes.shapes = beside_the_model(model, &modes, &places, &mut findings)?;
+        modes.shapes = compare_with_model(model, &modes, &places, &mut findings)?;
     }
-    findings.extend(told_apart(&modes.scaled_with(&model.mass)?, &model.mass)?);
-    findings.extend(of_settings(settings, ranges));
+    findings.extend(too_many_modes(
+        &modes.scaled_with(&model.mass)?,
+        &model.mass,
+    )?);
+    findings.extend(check_settings(settings, ranges));
     Ok(findings)
 }
 
 /// The test modes without those that are nearly the same shape as one before, and these.
-fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
+fn distinct_shapes(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
     let frequencies = test.frequencies_hz();
     let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
@@ -152,27 +155,27 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
 
 /// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends
 /// them.
-fn beside_the_model(
+fn compare_with_model(
     model: &DynamicModel,
     test: &ModeSet,
     places: &[usize],
     findings: &mut Vec<Finding>,
 ) -> Result<DMatrix<f64>, Error> {
-    let mut look = Look::new(&model.stiffness, &model.mass)?;
-    let mended = mend(model, &look, test)?;
+    let mut comparison = Comparison::new(&model.stiffness, &model.mass)?;
+    let mended = mend(model, &comparison, test)?;
     let change = mended.as_ref().map(|mended| &mended.change);
     let shapes = change.map_or_else(
         || test.shapes.clone(),
         |change| changed(&test.shapes, change),
     );
     if let Some(Change::Columns(order)) = change {
-        look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
+        comparison = Comparison::new(&reordered(&model.stiffness, order), &model.mass)?;
     }
-    let Some(cross) = look.cross(&shapes) else {
+    let Some(cross) = comparison.cross(&shapes) else {
         return Ok(shapes);
     };
     let pairing = pair_modes(&cross)?;
-    let all = look.analysis.frequencies_hz();
+    let all = comparison.analysis.frequencies_hz();
     let analysis: Vec<f64> = pairing
         .analysis_mode
         .iter()
@@ -210,7 +213,7 @@ fn beside_the_model(
 }
 
 /// Whether the points tell test modes of unit generalized mass apart.
-fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
+fn too_many_modes(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
     let (points, modes) = test.shapes.shape();
     let overlap = symmetric_part(&test.shapes.tr_mul(&(mass * &test.shapes)));
     let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
@@ -227,7 +230,7 @@ fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Er
     }))
 }
 
-fn of_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
+fn check_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),

@@ -1,6 +1,6 @@
 //! Which single change of test shapes or model makes them agree.
 
-use super::look::{Look, paired_values, reordered};
+use super::comparison::{Comparison, paired_values, reordered};
 use super::order::{best_order, flexibility_order};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
@@ -78,12 +78,12 @@ fn is_enough(before: f64, after: f64) -> bool {
 /// masses alone.
 pub(super) fn mend(
     model: &DynamicModel,
-    look: &Look,
+    comparison: &Comparison,
     test: &ModeSet,
 ) -> Result<Option<Mended>, Error> {
     let shapes = &test.shapes;
     let (points, modes) = shapes.shape();
-    let Some(before) = look.agreement_above(shapes, 0.0) else {
+    let Some(before) = comparison.agreement_above(shapes, 0.0) else {
         return Ok(None);
     };
     let mut best: Vec<(Change, f64)> = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn mend(
     let transposition = (points == modes).then_some(Change::Transposed);
     for change in reversals.chain(exchanges).chain(transposition) {
         let least = best.get(1).map_or(0.0, |second| second.1);
-        if let Some(agreement) = look.agreement_above(&changed(shapes, &change), least) {
+        if let Some(agreement) = comparison.agreement_above(&changed(shapes, &change), least) {
             add(&mut best, change, agreement);
         }
     }
@@ -102,18 +102,19 @@ pub(super) fn mend(
         .cloned();
     let (mut chosen, mut after) =
         enough.map_or((None, before), |(change, after)| (Some(change), after));
-    if is_low(look, shapes, chosen.as_ref()) {
-        let (order, agreement) = best_order(look, test);
+    if is_low(comparison, shapes, chosen.as_ref()) {
+        let (order, agreement) = best_order(comparison, test);
         if is_enough(after, agreement) {
             add(&mut best, Change::Reordered(order.clone()), agreement);
             (chosen, after) = (Some(Change::Reordered(order)), agreement);
         }
     }
-    let as_columns = if is_low(look, shapes, chosen.as_ref()) {
+    let as_columns = if is_low(comparison, shapes, chosen.as_ref()) {
         Some(flexibility_order(model, test)?)
     } else if let Some(order) = chosen.as_ref().and_then(|change| order_of(change, points)) {
-        let look = Look::new(&reordered(&model.stiffness, &order), &model.mass)?;
-        look.agreement_above(shapes, 0.0)
+        let comparison = Comparison::new(&reordered(&model.stiffness, &order), &model.mass)?;
+        comparison
+            .agreement_above(shapes, 0.0)
             .map(|agreement| (order, agreement))
     } else {
         None
@@ -145,7 +146,7 @@ fn add(best: &mut Vec<(Change, f64)>, change: Change, agreement: f64) {
 }
 
 /// Whether a pair is below [`LOW_PAIR`] after a change of the shapes.
-fn is_low(look: &Look, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
+fn is_low(comparison: &Comparison, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
     let shapes = change.map_or_else(|| shapes.clone(), |change| changed(shapes, change));
     let low = |cross: DMatrix<f64>| {
         pair_modes(&cross).is_ok_and(|pairing| {
@@ -154,7 +155,7 @@ fn is_low(look: &Look, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
                 .any(|value| *value < LOW_PAIR)
         })
     };
-    look.cross(&shapes).is_some_and(low)
+    comparison.cross(&shapes).is_some_and(low)
 }
 
 /// The order of the points that a change makes, if it makes one.

@@ -2,7 +2,7 @@
 
 use super::canvas::*;
 use crate::method::error_sum::Errors;
-use crate::present::subject::{Stage, Subject};
+use crate::present::report::{Report, Stage};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 /// The SRSS errors of one stage, fractions.
@@ -21,16 +21,16 @@ pub struct PassHistory {
 }
 
 /// The history of a correlation.
-pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
+pub fn error_history(report: &Report) -> Vec<PassHistory> {
     let mut from = 0;
     let history = |(row, stage): (usize, &Stage)| {
         let (tolerance, is_inner) = (
-            subject.tolerances.map(|all| all[row.min(1)]),
+            report.tolerances.map(|all| all[row.min(1)]),
             stage.inner.is_some(),
         );
         let pass = PassHistory {
             from,
-            inner: subject.inner_errors(row),
+            inner: report.inner_errors(row),
             check: stage.check.errors,
             tolerance,
             is_inner,
@@ -38,7 +38,7 @@ pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
         from = pass.to();
         pass
     };
-    subject.stages.iter().enumerate().map(history).collect()
+    report.stages.iter().enumerate().map(history).collect()
 }
 
 impl PassHistory {
@@ -79,7 +79,7 @@ const HEIGHT: f64 = 450.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
 pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
-    svg(name, title, HEIGHT, |area| on(area, passes))
+    svg(name, title, HEIGHT, |area| draw_on(area, passes))
 }
 
 /// An error as it is drawn, percent: zero is on no logarithmic scale.
@@ -117,7 +117,7 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     (low, high, shown.map(|(_, tick)| tick).collect())
 }
 
-fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
+fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
     let (low, high, ticks) = ticks(passes);
     let range = (low..high).log_scale().with_key_points(ticks);

@@ -46,7 +46,7 @@ impl Factors {
     /// The factors as SVG.
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         let height = MARGINS[2] + MARGINS[3] + ROW * self.rows.len() as f64;
-        svg(name, title, height, |area| self.on(area))
+        svg(name, title, height, |area| self.draw_on(area))
     }
 
     /// Steps of one, two or five times a power of ten that hold everything with room for its number: lower end, upper end, step.
@@ -84,7 +84,7 @@ impl Factors {
         ]
     }
 
-    fn on(&self, area: &Area) -> Drawn {
+    fn draw_on(&self, area: &Area) -> Drawn {
         let [low, high, step] = self.bounds();
         let count = self.rows.len() as f64;
         let [_, right, top, bottom] = MARGINS;

@@ -17,12 +17,12 @@ pub mod frame;
 pub mod histogram;
 pub mod mode_shapes;
 pub mod structure;
-pub mod subject;
+pub mod report;
 mod view;
 
 pub use cases::case_figures;
 pub use comparisons::comparison_figures;
-pub use subject::subject_figures;
+pub use report::report_figures;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
+use super::report::solver_note;
 use super::stages::{self, ErrorStage};
-use super::subject::solver_note;
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
 use crate::method::error_sum::Errors;

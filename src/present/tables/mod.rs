@@ -1,4 +1,4 @@
-//! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of decks and jobs.
+//! What is computed, as tables: of any correlation ([`report`]), of the paper's cases, and of decks and jobs.
 
 pub mod cases;
 pub mod deck;
@@ -7,7 +7,7 @@ pub mod job;
 pub mod preflight;
 pub mod published;
 pub mod stages;
-pub mod subject;
+pub mod report;
 pub mod unlimited;
 
 use super::table::Digits;
@@ -43,8 +43,8 @@ fn in_words(name: &str) -> String {
         return name.to_owned();
     }
     let word = |part: &str| {
-        let (word, end) = part.split_at(part.trim_end_matches([',', ':', '.']).len());
-        let said = match word {
+        let (stem, end) = part.split_at(part.trim_end_matches([',', ':', '.']).len());
+        let word = match stem {
             "percent" => "error",
             "in" => "gage",
             "seconds" => "time",
@@ -54,7 +54,7 @@ fn in_words(name: &str) -> String {
             "fem" => "FEM",
             other => other,
         };
-        format!("{said}{end}")
+        format!("{word}{end}")
     };
     name.split('_').map(word).collect::<Vec<_>>().join(" ")
 }

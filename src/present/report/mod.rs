@@ -52,7 +52,7 @@ pub struct Derivatives {
 
 /// What a report needs to know of any correlation. Lengths are in the model's own unit.
 #[derive(Debug, Clone)]
-pub struct Subject {
+pub struct Report {
     /// Stem of the names of its tables, figures and files.
     pub name: String,
     /// What readers see.
@@ -110,7 +110,7 @@ impl Derivatives {
     ///
     /// # Errors
     /// Those of [`by_definition`].
-    pub fn of(first: &ModalModel) -> Result<Self, Error> {
+    pub fn at(first: &ModalModel) -> Result<Self, Error> {
         let changes = by_definition(first, &ModalState::start(first))?;
         let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
             let i = first.exact.pairing.analysis_mode[j];
@@ -131,10 +131,10 @@ impl Derivatives {
     }
 }
 
-impl Subject {
+impl Report {
     /// A first model and what the outer loop made of it, if it ran; what that does not tell (title, sensors, frame, mass, deviations,
     /// derivatives) is left empty, to be filled in.
-    pub fn of(
+    pub fn from_correlation(
         name: &str,
         parameters: &[String],
         test: &ModeSet,
@@ -181,7 +181,7 @@ impl Subject {
     }
 
     /// The same with the panels, rods, grids and supports of a structure.
-    pub fn on(mut self, structure: &Structure) -> Self {
+    pub fn with_structure(mut self, structure: &Structure) -> Self {
         self.frame = structure
             .elements()
             .iter()

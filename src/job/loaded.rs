@@ -26,7 +26,7 @@ const LARGEST_OVERLAP: f64 = 0.05;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
-pub struct Prepared {
+pub struct LoadedJob {
     /// What the job's file says.
     pub job: Job,
     /// What reports call the structure.
@@ -51,12 +51,12 @@ pub struct Prepared {
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
-impl Prepared {
+impl LoadedJob {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
     /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice, and when no test mode has
-    /// a partner; those of the first analysis and of [`Prepared::weights`].
+    /// a partner; those of the first analysis and of [`LoadedJob::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = job.beside(&job.test.file);
@@ -104,7 +104,7 @@ impl Prepared {
         let usual = modes.len() + (modes.len() / 2).max(4);
         let most = source.whole.dof_count();
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
-        let mut prepared = Self {
+        let mut loaded = Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
             job,
             source,
@@ -117,9 +117,9 @@ impl Prepared {
             analysis_modes,
             first: None,
         };
-        prepared.leave_out_unpaired()?;
-        prepared.weights()?;
-        Ok(prepared)
+        loaded.leave_out_unpaired()?;
+        loaded.weights()?;
+        Ok(loaded)
     }
 
     /// A digest of the job's file, of the files it names and of what the command line `adds`.
