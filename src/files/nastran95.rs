@@ -19,8 +19,8 @@ const HEADER_NAME: usize = 74;
 /// Reads matrices that OUTPUT5 wrote with formatted records.
 ///
 /// After a title line every matrix has a header (number of columns, of rows, form, type, name), then a record for every
-/// column that is not zero: its number, its first and last row that are not, and what stands between them; a column of number
-/// zero begins the next. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
+/// nonzero column: its number, its first and last nonzero row, and the entries between them; column number zero begins the
+/// next matrix. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
 ///
 /// # Errors
 /// [`FileError::SolverAnswer`] naming the line for anything else.
@@ -90,10 +90,10 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     Ok(matrices)
 }
 
-/// Characters of the program's words that an error carries.
+/// Most characters of the program's words in an error.
 const MESSAGE_LENGTH: usize = 300;
 
-/// What an error carries of another program's words: not all of them, and nothing a terminal obeys.
+/// The beginning of another program's words, for an error, with control characters escaped.
 pub(crate) fn shown(words: &str) -> String {
     let start: String = words.chars().take(MESSAGE_LENGTH).collect();
     escaped(&start) + if start.len() < words.len() { "..." } else { "" }

@@ -1,4 +1,4 @@
-//! Model and test put together: what a correlation of a job starts from.
+//! Model and test joined: the start of a job's correlation.
 
 use super::matrices::from_matrices;
 use super::model::from_deck;
@@ -20,8 +20,8 @@ use std::sync::Arc;
 /// Modal assurance below which a test mode counts as without a partner.
 const FLOOR: f64 = 0.5;
 
-/// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
-/// acceptable.
+/// Largest overlap of the model's own modes by the condensed mass at which that mass still serves for cross-orthogonality: half of
+/// what counts as acceptable.
 const LARGEST_OVERLAP: f64 = 0.05;
 
 /// A job with everything it names read and matched.
@@ -39,15 +39,15 @@ pub struct LoadedJob {
     pub placed: Vec<PlacedSensor>,
     /// Reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
-    /// The test modes that are compared, at the sensors placed.
+    /// The test modes to compare, at the placed sensors.
     pub test: ModeSet,
     /// Their places in the test's file, from zero.
     pub modes: Vec<usize>,
-    /// Test modes, from zero, that no mode of the first model is like, with their largest modal assurance.
+    /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and how, with how many modes and with which test it was compared.
+    /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
@@ -66,7 +66,7 @@ impl LoadedJob {
         Self::with(job, data, source)
     }
 
-    /// The same with all files read, for a test or a choice of it that no file holds.
+    /// The same with all files read, for a test that is not on file, such as a sample of a study.
     pub(super) fn with(
         job: Job,
         data: TestData,
@@ -142,7 +142,7 @@ impl LoadedJob {
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
         let mut identity = digest(program.as_bytes(), 0);
         for file in named.chain([job.path.clone()]) {
-            // Behind a # may stand which matrix of the file.
+            // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
             let of_matrix =
                 |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
@@ -154,10 +154,10 @@ impl LoadedJob {
         Ok(identity)
     }
 
-    /// Leaves out the test modes that no mode of the first model is like.
+    /// Leaves out the test modes that resemble no mode of the first model.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let mut first = self.analyze(&self.ones());
-        // Half as many again as test modes may be more than the model has.
+        // The usual number may be more than the model has.
         if let Err(Error::TooMany {
             what: FINITE,
             available,
@@ -171,7 +171,7 @@ impl LoadedJob {
         }
         let shapes = match &first {
             Ok(first) => first.exact.modes.shapes.clone(),
-            // More test modes than the model has are still to be looked at.
+            // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::TooMany {
                 what: "test modes", ..
             }) => {
@@ -231,7 +231,7 @@ impl LoadedJob {
         vec![1.0; self.source.whole.parameters().len()]
     }
 
-    /// What the loops are handed at the given parameter factors.
+    /// The modal model of the loops at the given parameter factors.
     ///
     /// # Errors
     /// Those of [`crate::sparse::WholeModel::analyze`].
@@ -272,7 +272,7 @@ fn load(job: &Job) -> Result<ModelSource, FileError> {
     }
 }
 
-/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
+/// Continues the 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) from `before` over more bytes.
 pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
     let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)

@@ -1,6 +1,6 @@
 //! A model given by matrices: its files, and which row is which degree of freedom.
 
-use super::model::{Geometry, ModelSource, range};
+use super::model::{GridLayout, ModelSource, range};
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The model of a job whose matrices these files hold.
+/// The model of the matrices in these files.
 pub(super) fn from_matrices(
     job: &Job,
     stiffness: &Path,
@@ -90,7 +90,7 @@ pub(super) fn from_matrices(
         .enumerate()
         .map(|(row, at)| (at, vec![(row, 1.0)]))
         .collect();
-    let geometry = Geometry {
+    let geometry = GridLayout {
         places,
         elements: Vec::new(),
     };
@@ -109,7 +109,7 @@ fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
     (grid, component.saturating_sub(1))
 }
 
-/// A matrix of a file, its columns those of its rows; behind a `#` in its name stands which of several.
+/// A matrix of a file, with the same labels for rows and columns; `#` in the name chooses one of several.
 fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let (file, wanted) = text
@@ -125,7 +125,7 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     Ok(found)
 }
 
-/// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
+/// A matrix of a file; if it names its rows and columns, they are put in the order of the stiffness.
 fn on_rows(
     job: &Job,
     (file, entry): (&Path, &str),

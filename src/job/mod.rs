@@ -20,7 +20,7 @@ mod study;
 
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
-pub use model::{Geometry, ModelSource};
+pub use model::{GridLayout, ModelSource};
 pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;

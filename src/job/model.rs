@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// Where a model's grids are, and which of them elements join.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Geometry {
+pub struct GridLayout {
     /// The place of every grid that has one, in units of length.
     pub places: BTreeMap<usize, Vector3<f64>>,
     /// The corners of every element, by grid.
@@ -28,7 +28,7 @@ pub struct ModelSource {
     /// Its matrices.
     pub whole: WholeModel,
     /// Its grids.
-    pub geometry: Geometry,
+    pub geometry: GridLayout,
     /// By grid and direction (0 to 5) of every degree of freedom that moves: the model's rows and their coefficients.
     pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,
     /// The deck's bytes and what was read of them, if it is one.
@@ -37,7 +37,7 @@ pub struct ModelSource {
     pub members: Vec<Vec<usize>>,
 }
 
-/// The model of a job whose deck this file holds.
+/// The model of the deck in this file.
 pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let bytes = job.bytes(file, "model.deck")?;
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
@@ -146,7 +146,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         )
     });
     let motions = motions.filter(|(_, motion)| !motion.is_empty()).collect();
-    let geometry = Geometry {
+    let geometry = GridLayout {
         places: grids.map(|grid| (grid.label, grid.position)).collect(),
         elements: bulk
             .elements
@@ -229,7 +229,7 @@ fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<ElementGro
         .collect())
 }
 
-/// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within its bounds on these.
+/// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within the bounds on sizes.
 pub(super) fn range(
     job: &Job,
     rule: &ParameterRule,

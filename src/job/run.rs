@@ -1,4 +1,4 @@
-//! A loaded job is run: the factors found, what they are worth, and the deck that has them.
+//! Runs a job: finds the factors, how well the test determines them, and the deck that has them.
 
 use super::{LoadedJob, Method, ParameterRule};
 use crate::files::deck::rewrite;
@@ -26,10 +26,10 @@ pub enum History {
     GaussNewton(Option<(WeightedCorrelation, usize)>),
 }
 
-/// What a job came to.
+/// The result of a job.
 #[derive(Debug, Clone)]
 pub struct JobResult {
-    /// How.
+    /// How the factors were found.
     pub history: History,
     /// The best factors.
     pub factors: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct JobResult {
     pub first: ModalModel,
     /// The model at the best factors.
     pub last: ModalModel,
-    /// What it came to.
+    /// The verdict on them.
     pub verdict: Verdict,
     /// What the test sees of the parameters, at the first model and at the best factors.
     pub seen: [Identifiability; 2],
@@ -127,7 +127,7 @@ impl LoadedJob {
         }
     }
 
-    /// The deck with the elements that `factors` leave, every other byte as it was; none for a model of matrices.
+    /// The deck with the elements scaled by `factors` and every other byte as it was; none for a model of matrices.
     ///
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
@@ -177,7 +177,7 @@ impl LoadedJob {
     }
 }
 
-/// Runs a job. `progress` is report_pass of every pass or analysis in words; `go_on` is asked after each whether to.
+/// Runs a job. `progress` gets a line for every pass or improvement; `go_on` says after each whether to continue.
 ///
 /// # Errors
 /// Those of the analyses, of the loops and of [`LoadedJob::weights`].
@@ -189,7 +189,7 @@ pub fn run(
     run_from(loaded, &loaded.ones(), &mut progress, &go_on)
 }
 
-/// The same from other first factors than one, and then from these alone.
+/// The same, but starting from other factors than one, and then from these alone.
 pub(super) fn run_from(
     loaded: &LoadedJob,
     start: &[f64],

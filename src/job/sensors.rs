@@ -1,4 +1,4 @@
-//! Which sensor of the test is which degree of freedom of the model.
+//! Matches the sensors of the test with degrees of freedom of the model.
 
 use super::{Job, ModelSource, SensorRule};
 use crate::files::error::{FileError, is_not};
@@ -31,7 +31,7 @@ pub struct PlacedSensor {
 /// The sensors on the model, and the matrix that reads them (sensors × DOF).
 type Placed = (Vec<PlacedSensor>, SparseMatrix);
 
-/// Finds every sensor that is used on the model.
+/// Places every sensor in use on the model.
 pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<Placed, FileError> {
     let rules = &job.sensors;
     let named = rules
@@ -56,7 +56,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         .filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name))
     {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
-        // A place of its own has an axis of the model's.
+        // A sensor that the job places measures along an axis of the model.
         let measured = sensor.axis.filter(|_| own.is_none());
         let (grid, direction, sign) = match (own, rules.by) {
             (Some(own), _) => {
@@ -166,7 +166,7 @@ fn motion(
     })
 }
 
-/// The nearest grid that moves in a sensor's direction; of two as near the one with the lower number.
+/// The nearest grid that moves in a sensor's direction; ties go to the lower number.
 fn nearest(job: &Job, sensor: &Sensor, source: &ModelSource) -> Result<usize, FileError> {
     let missing = |reason| {
         let name = &sensor.name;

@@ -1,4 +1,4 @@
-//! Many runs of one job: each sample is drawn from the study's seed and its own number alone, whatever ran before it.
+//! Many runs of one job: each sample depends on the study's seed and its own number alone, not on what ran before.
 
 use super::run::run_from;
 use super::{Job, JobResult, LoadedJob};
@@ -83,7 +83,7 @@ impl Study {
             job, data, source, ..
         } = &self.loaded;
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
-        // A generator for each purpose: what varies beside it changes nothing of it.
+        // One generator per purpose, so that each draws the same whatever else varies.
         let generator = |what: Vary| {
             let parts = [self.seed, sample, what as u64];
             let state = parts
@@ -159,8 +159,8 @@ impl Study {
         }
     }
 
-    /// Runs a sample as [`super::run`] runs a job: its line as [`Self::header`] says, with [`Self::identity`] as its study, and why it
-    /// failed if it did, with nothing between outcome and study. `go_on` is asked on the way whether to.
+    /// Runs a sample as [`super::run`] runs a job. Returns its line, with the columns of [`Self::header`], and the error if it failed;
+    /// a failed sample has nothing between outcome and study. `go_on` says on the way whether to continue.
     ///
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.

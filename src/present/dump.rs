@@ -22,7 +22,7 @@ pub struct Dump {
     pub matrices: Vec<(String, String)>,
 }
 
-/// Runs a case and writes down all that it computes.
+/// Runs a case and records everything it computes.
 ///
 /// `analyses` are the exact solutions: pass $p$ begins at the $p$-th and ends at the next. An iteration has $\Delta e$ and $\Delta k$ of
 /// every parameter where it began, the unlimited factors of (13), and the totals and errors where it ended.

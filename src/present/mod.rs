@@ -1,6 +1,6 @@
 //! What a reader sees: tables as data and as text, Markdown or CSV, JSON, figures, and the report as one page.
 //!
-//! A [`report::Report`] is any correlation with what a reader must know of it; [`tables::report`], [`figures::report`],
+//! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`figures::report`],
 //! [`json::report`] and [`page::report_page`] show it. The paper's cases and the delta wing are reports with more beside them.
 
 pub mod dump;

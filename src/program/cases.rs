@@ -20,7 +20,7 @@ pub struct CasesArguments {
     cases: Vec<usize>,
     #[command(flatten)]
     output: OutputArguments,
-    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    /// Torque box to use instead of the built-in one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
     /// Scale covers, spars and ribs as groups instead of every panel on its own

@@ -1,7 +1,7 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
 use super::output::{OutputArguments, note, reconstruction};
-use super::place::put;
+use super::place::write_report;
 use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
@@ -21,13 +21,13 @@ pub struct DeckArguments {
     /// Which case
     #[arg(value_name = "CASE")]
     case: usize,
-    /// The gages after this pass of its correlation instead of the first ones
+    /// Use the gages after this pass of the correlation instead of the first ones
     #[arg(long, value_name = "N", default_value_t = 0)]
     pass: usize,
-    /// Write the deck to this file instead of standard output, which is also -
+    /// Write the deck to this file instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    /// Torque box to use instead of the built-in one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
 }
@@ -39,10 +39,10 @@ pub struct ModesArguments {
     deck: PathBuf,
     #[command(flatten)]
     output: OutputArguments,
-    /// How many modes, from the lowest; all with a finite frequency if not given
+    /// How many of the lowest modes; all with a finite frequency if not given
     #[arg(short, long, value_name = "N")]
     count: Option<NonZeroUsize>,
-    /// Leave out cards of these names that are not understood; the report repeats them
+    /// Leave out cards of these names although corfem does not read them; the report lists them
     #[arg(long, value_name = "CARD", value_delimiter = ',')]
     ignore: Vec<String>,
 }

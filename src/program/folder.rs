@@ -15,7 +15,7 @@ pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
     let check = || match fs::metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(
             ErrorKind::InvalidInput,
-            "standard output is no folder",
+            "standard output is not a folder",
         )),
         Ok(_) => probe(folder),
         Err(_) => probe(folder.parent().unwrap_or(folder)),

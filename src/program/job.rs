@@ -2,7 +2,7 @@
 
 use super::folder::write_files;
 use super::output::{OutputArguments, note};
-use super::place::put;
+use super::place::write_report;
 use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
@@ -21,10 +21,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Debug, Args)]
 pub struct InitArguments {
-    /// Write the example of a test's table instead of a job
+    /// Write an example of a test's table instead of a job
     #[arg(long)]
     test: bool,
-    /// Write it to this file, which must not be there, instead of standard output
+    /// Write to this new file instead of standard output
     #[arg(value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -34,13 +34,13 @@ pub struct CorrelateArguments {
     /// The job: corfem init explains its entries
     #[arg(value_name = "JOB")]
     job: PathBuf,
-    /// Also write report.html, factors.csv, correlation.json and the corrected deck into this folder, made if it is new
+    /// Also write report.html, factors.csv, correlation.json and the corrected deck into this folder, created if new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
-    /// Try so many first points by Gauss-Newton steps, the model's own and others drawn from the seed
+    /// Start Gauss-Newton steps from this many points: the model itself, and others drawn from the seed
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     starts: Option<u32>,
-    /// The seed of the first points
+    /// Seed of the starting points
     #[arg(long, value_name = "S", requires = "starts")]
     seed: Option<u64>,
     #[command(flatten)]
@@ -56,7 +56,7 @@ pub struct CheckArguments {
     output: OutputArguments,
 }
 
-/// What a run calls its job: the file's name without its folders, which are nothing of the run's.
+/// The job's file name without its folders, which say nothing about the run.
 pub fn file_name(job: &Path) -> String {
     job.file_name()
         .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
@@ -155,7 +155,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
-        // The report of a long correlation is not lost with a deck that cannot be written.
+        // A deck that cannot be written must not lose the report of a long correlation.
         let deck = loaded.corrected_deck(&result.factors);
         files.extend(
             deck.as_ref()

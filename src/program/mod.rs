@@ -21,7 +21,7 @@ use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
-use output::say;
+use output::note;
 use pictures::{DumpArguments, FolderArguments};
 use place::{check, write_report};
 use std::path::PathBuf;
@@ -44,7 +44,7 @@ struct Arguments {
     command: Option<Command>,
     #[command(flatten)]
     cases: CasesArguments,
-    /// Do not report progress
+    /// Show no progress
     #[arg(short, long, global = true)]
     quiet: bool,
 }
@@ -67,9 +67,9 @@ enum Command {
     Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
-    /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
+    /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
     Correlate(CorrelateArguments),
-    /// Run a job many times with its test varied, and say how its factors scatter
+    /// Run a job many times with its test varied, and report how its factors scatter
     Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),

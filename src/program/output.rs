@@ -1,6 +1,6 @@
-//! What commands read and write: the box, reports with the same options for every command, and words for the user.
+//! Input and output that commands share: the torque box, the options of reports, and notes to the user.
 
-use super::place::put;
+use super::place::write_report;
 use clap::{Args, ValueEnum};
 use corfem::files::error::FileError;
 use corfem::files::escaped;
@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// How to write the report
+    /// Format of the report
     #[arg(short, long, value_enum, default_value = "text")]
     format: FormatArgument,
-    /// Write the report to this file instead of standard output, which is also -
+    /// Write the report to this file instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -28,7 +28,7 @@ enum FormatArgument {
     Markdown,
     /// The whole history as JSON
     Json,
-    /// One number a line
+    /// One number per line
     Csv,
 }
 

@@ -2,7 +2,7 @@
 
 use super::folder::write_files;
 use super::output::note;
-use super::place::put;
+use super::place::write_report;
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct FolderArguments {
-    /// Write into this folder, made if it is new (also as --out)
+    /// Write into this folder, created if new (also --out)
     #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
     folder: PathBuf,
 }
@@ -69,8 +69,8 @@ pub struct DumpArguments {
     /// Which case
     #[arg(value_name = "CASE")]
     case: usize,
-    /// Write dump.json and every matrix in the format of the Matrix Market into this folder, made if it is new, instead of the
-    /// JSON document alone to standard output
+    /// Write dump.json and every matrix in the format of the Matrix Market into this folder, created if new, instead of only
+    /// the JSON document to standard output
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
 }

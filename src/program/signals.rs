@@ -1,4 +1,4 @@
-//! The signals that ask a program to stop: held while files are put in place or another program runs, then obeyed.
+//! The signals that ask a program to stop: postponed while files are written or another program runs, then obeyed.
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -12,15 +12,15 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Whether the signals end the program at once, as they do by default.
 static FREE: AtomicBool = AtomicBool::new(true);
-/// How many hold them.
+/// How many postpone them.
 static HOLDERS: AtomicUsize = AtomicUsize::new(0);
-/// The last signal that came while they did not; 0 for none.
+/// The last signal that came while they were postponed; 0 for none.
 static CAME: AtomicUsize = AtomicUsize::new(0);
 
-/// The signals are held as long as this or another one lives; one that came meanwhile ends the program then.
+/// Signals are postponed as long as any of these lives; one that came meanwhile then ends the program.
 pub struct PostponedSignals(());
 
-/// Holds the signals.
+/// Postpones the signals.
 pub fn postpone() -> PostponedSignals {
     take_over();
     HOLDERS.fetch_add(1, SeqCst);
@@ -54,7 +54,7 @@ impl Drop for PostponedSignals {
     }
 }
 
-/// Sets the flag too when one of the signals comes while they are held.
+/// Sets the flag when one of the signals comes while they are postponed.
 pub fn set_on_signal(stop: &Arc<AtomicBool>) {
     take_over();
     for signal in asked_for() {

@@ -286,7 +286,7 @@ fn a_job_outside_tolerance_is_exit_status_3_with_its_verdict() {
     let output = correlate(&job, &[]);
     assert_eq!(output.status.code(), Some(3));
     assert!(
-        unbroken(&text(&output.stdout)).contains("outside tolerance: error sum"),
+        unbroken(&text(&output.stdout)).contains("Outside tolerance: error sum"),
         "{}",
         text(&output.stdout)
     );

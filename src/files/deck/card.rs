@@ -30,7 +30,7 @@ pub(crate) struct Card {
     pub fields: Vec<Field>,
 }
 
-/// What a card says, and where its entry begins: in field 2, or in field 6 for the second of two on a card.
+/// The value read from a card, and the field where its entry begins: 2, or 6 for the second of two entries on a card.
 #[derive(Debug)]
 pub(crate) struct Kept<T> {
     pub value: T,
@@ -38,7 +38,7 @@ pub(crate) struct Kept<T> {
     pub start: usize,
 }
 
-/// What the cards of one kind say, by number.
+/// The values of the cards of one kind, by number.
 pub(crate) type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
@@ -116,7 +116,7 @@ impl Card {
         }
     }
 
-    /// Refuses what the crate's elements do not have, `meaning`: the field must be blank or zero.
+    /// Requires a blank or zero where the crate has nothing for the field's `meaning`.
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
         let is_zero = text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0);
@@ -171,7 +171,7 @@ impl Card {
         ))
     }
 
-    /// What a field refers to by its number, which must exist; `card` is the name of the card looked for.
+    /// The entry that a field refers to by its number, which must exist; `card` is the name of the card it is on.
     pub fn referred<'a, T>(
         &self,
         field: usize,

@@ -21,7 +21,7 @@ const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 /// What elements refer to, by their numbers.
 pub(super) type Members = BTreeMap<usize, Membership>;
 
-/// What the cards say of elements before they are put together.
+/// The cards of elements, properties and materials before they are joined to elements.
 #[derive(Debug, Default)]
 pub(super) struct ElementCards {
     /// The place of every element's kind in [`ELEMENT_CARDS`]; none for a CONROD.
@@ -80,7 +80,7 @@ impl ElementCards {
         Ok(())
     }
 
-    /// What has the size and the material of an element: its property's card, which must exist, or its own.
+    /// The card with the size and the material of an element: its property's, which must exist, or its own.
     pub fn holder<'a>(
         &'a self,
         connection: &'a Kept<Option<usize>>,

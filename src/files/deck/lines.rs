@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
 const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
-/// What stands behind the first word of such a statement, or of a parameter.
+/// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does.
@@ -44,7 +44,7 @@ pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
 
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
-/// What stands in front of the bulk data and yet is part of the model, parameters and other files, is among its lines.
+/// PARAM and INCLUDE statements in front of the bulk data belong to the model too and are among its lines.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| {
         line.split('$')
@@ -88,7 +88,7 @@ fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
     names.iter().find(begins).copied()
 }
 
-/// Takes notice of `SPC = n` and `MPC = n`.
+/// Notes the sets that `SPC = n` and `MPC = n` select.
 fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Result<(), FileError> {
     let (slot, set) = match text.split_once('=').map(|(name, set)| (name.trim(), set)) {
         Some(("SPC", set)) => (spc, set),

@@ -1,4 +1,4 @@
-//! What a deck says: grids, elements, ties and masses, whatever the order and the format of its cards.
+//! The model that a deck describes: grids, elements, ties and masses, whatever the order and the format of its cards.
 
 use crate::files::error::FileError;
 use crate::method::assembly::{ElementMatrix, lumped_mass};
@@ -289,7 +289,7 @@ impl BulkData {
                     .collect(),
                 None => vec![(own, 1.0)],
             };
-            // A constrained DOF does not move and adds nothing; one that stands in the equation twice counts twice.
+            // A constrained DOF does not move and adds nothing; one that the equation names twice counts twice.
             let mut motion: BTreeMap<usize, f64> = BTreeMap::new();
             for (term, coefficient) in terms {
                 if let Some(row) = structure.free_dof_index(term.grid, term.direction) {

@@ -1,4 +1,4 @@
-//! From cards to the model they describe: which are read, which say nothing of it, and which may but are not understood.
+//! From cards to the model they describe: which cards are read, which do not matter to it, and which may matter but are unknown.
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
@@ -153,7 +153,7 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     Ok(())
 }
 
-/// A grid; what GRDSET says counts where its own card has blanks.
+/// A grid; GRDSET fills the blanks of its own card.
 fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
     let chosen = |field: usize| {
         default

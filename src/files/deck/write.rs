@@ -12,7 +12,7 @@ use crate::method::structure::{Element, Grid, Material};
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
 
-/// What a deck asks of NASTRAN.
+/// What NASTRAN is to do with a deck.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Task {
     /// Normal modes by the inverse power method, which allows a singular mass matrix.
@@ -26,7 +26,7 @@ pub enum Task {
     Matrices,
 }
 
-/// A whole deck: executive control, case control and bulk data; `title` stands in the output's headings.
+/// A whole deck: executive control, case control and bulk data; `title` goes into the output's headings.
 ///
 /// `BANDIT=-1` keeps the grids in the order of their numbers, and `DIAG 44` takes the decomposition that gives right
 /// answers (the default one of the 1995 release does not).

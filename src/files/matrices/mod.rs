@@ -1,6 +1,6 @@
 //! Matrices as other programs write them: Matrix Market, DMIG cards of NASTRAN, and the text of its module OUTPUT4.
 //!
-//! Memory is bounded by a file's own size: what a header promises takes no room before it is there.
+//! Memory is bounded by a file's own size: no room is reserved for what a header promises.
 
 mod dmig;
 mod matrix_market;

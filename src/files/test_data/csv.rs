@@ -210,7 +210,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     Ok(data)
 }
 
-/// What separates the cells of a line.
+/// The separator of a line's cells.
 pub(crate) fn separator(line: &str) -> char {
     ['\t', ';']
         .into_iter()

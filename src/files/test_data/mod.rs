@@ -61,7 +61,7 @@ pub struct TestData {
 }
 
 impl TestData {
-    /// Refuses what cannot be a test.
+    /// Checks that these data can be a test.
     ///
     /// # Errors
     /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;

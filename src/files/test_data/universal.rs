@@ -22,12 +22,12 @@ use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-/// Columns of a node in dataset 15.
+/// Column widths of a node in dataset 15.
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 
-/// What has been read so far; the modes' values by node and direction.
+/// The data read so far, with the modes' values by node and direction.
 #[derive(Default)]
 struct FoundModes {
     data: TestData,
@@ -242,7 +242,7 @@ impl FoundModes {
             }
             let to_global =
                 |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
-            // What six digits leave beside a global axis is none of a sensor's.
+            // Components below the file's six digits are round-off: snap them to zero.
             let snapped = |component: f64| {
                 if component.abs() < ROTATION {
                     0.0

@@ -5,7 +5,7 @@ use crate::files::error::FileError;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
-/// How far a matrix may be from a rotation: what six digits leave.
+/// How far a matrix may be from a rotation: the round-off of six digits.
 pub(super) const ROTATION: f64 = 1e-4;
 
 /// A Cartesian coordinate system, or one of another type, which no node may refer to.
@@ -20,7 +20,7 @@ pub(super) struct Axes {
 /// Coordinate systems by their numbers; one that is not there has the global axes.
 pub(super) type Systems = BTreeMap<usize, Axes>;
 
-/// Dataset 18: origin, a point on the x axis and one in the xz plane, in a system of before or in the global one, which is zero.
+/// Dataset 18: origin, a point on the x axis and one in the xz plane, in an earlier system or in the global one, number zero.
 pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     while !block.is_done() {
         let numbers = block.integers("the number, type and reference of a coordinate system", 3)?;

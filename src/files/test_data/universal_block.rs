@@ -53,7 +53,7 @@ impl<'a> Block<'a> {
         self.wrong(is_not(&found.to_string(), what))
     }
 
-    /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
+    /// The numbers of the next line in columns of the given widths; the rest of the line is ignored.
     pub fn reals(&mut self, what: &str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
         let line = self.line(what)?;
         let mut start = 0;

@@ -3,10 +3,10 @@
 //!
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
 //! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
-//! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
-//! the mass nothing is taken over, but MAA must be $T M T^t$ with the lumped mass of elements that have a density.
+//! structure's alone. Each element's stiffness is taken over; their sum is $K_S$, which must equal NASTRAN's own
+//! KAA. No mass is taken over, but MAA must equal $T M T^t$ plus the lumped mass of elements with a density.
 //!
-//! All else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
+//! Everything else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
 //! coordinates, gages and material in single precision: its matrices differ from the crate's by up to 1.5e-7 of the largest
 //! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
@@ -48,7 +48,7 @@ pub fn default_folder() -> PathBuf {
         .join(".cache/nastran95/nastran95/_data")
 }
 
-/// What a run leaves.
+/// The output of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Answer {
     /// The printed output.
@@ -116,7 +116,7 @@ impl Nastran95 {
         model: &FiniteElementModel,
         factors: &[f64],
     ) -> Result<FiniteElementModel, FileError> {
-        // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
+        // The position of a dynamic point does not matter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::from_model(model, factors, &points)?;
         let all = with_single_elements(&bulk);

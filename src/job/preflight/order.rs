@@ -1,4 +1,4 @@
-//! Points in another order: a first guess from what does not depend on the order of modes or signs, then exchanges.
+//! Points in another order: a first guess that does not depend on the order of modes or their signs, then exchanges.
 
 use super::comparison::{Comparison, reordered};
 use crate::method::error::Error;
@@ -18,7 +18,7 @@ fn exchange(
     mut agreement_above: impl FnMut(&[usize], f64) -> Result<Option<f64>, Error>,
 ) -> Result<(Vec<usize>, f64), Error> {
     let mut reached = agreement_above(&order, 0.0)?.unwrap_or(0.0);
-    // Far more exchanges than sorting takes.
+    // Sorting takes far fewer exchanges.
     for _ in 0..2 * order.len() {
         let mut best = None;
         for b in 0..order.len() {

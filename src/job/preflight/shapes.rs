@@ -12,12 +12,11 @@ use serde::Serialize;
 /// Least gain of the agreement that names a change. On good data, clean and noisy, no change gains at all; to exchange
 /// the right two sensors gains 0.003 and more, least where they lie close together.
 pub const LEAST_GAIN: f64 = 0.002;
-/// Least part of what is missing to full agreement that a change must mend. The right one leaves what the model's own
-/// errors cost, and mostly mends three quarters; in a model whose element is a hundred times too thin the best wrong
-/// one mends 0.18.
+/// Least part of the missing agreement that a change must restore. The right change mostly restores three quarters, since the
+/// model's own errors remain; in a model with an element a hundred times too thin, the best wrong change restores 0.18.
 pub const LEAST_SHARE: f64 = 0.3;
 /// By how much columns of $T$ must agree better than sensors in the same order to be named first. The two differ by the
-/// masses alone, and where these are alike, noise decides between them.
+/// masses alone; where these are alike, noise decides between them.
 pub const LEAST_DIFFERENCE: f64 = 0.005;
 /// Cross-orthogonality below which a pair is doubtful, the customary bound.
 pub const LOW_PAIR: f64 = 0.90;

@@ -82,7 +82,7 @@ pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, P
     svg(name, title, HEIGHT, |area| draw_on(area, passes))
 }
 
-/// An error as it is drawn, percent: zero is on no logarithmic scale.
+/// An error in percent as it is drawn: a logarithmic scale has no zero.
 fn percent(error: f64) -> f64 {
     (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
 }
@@ -96,7 +96,7 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
         (value.min(low), value.max(high))
     });
-    // As a decimal fraction is read, which a product of powers of ten need not be.
+    // Parsed from decimal text: a product of powers of ten may be off in the last digit.
     let tick = |part: u8, decade| Some((part, format!("{part}e{decade}").parse::<f64>().ok()?));
     let decades =
         (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));

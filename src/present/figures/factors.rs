@@ -19,7 +19,7 @@ pub struct DrawnFactor {
     pub value: f64,
     /// Standard deviation of it.
     pub deviation: Option<f64>,
-    /// What is printed for it elsewhere.
+    /// The published factor.
     pub published: Option<f64>,
     /// Bounds of its own.
     pub bounds: Option<Range>,
@@ -27,7 +27,7 @@ pub struct DrawnFactor {
     pub remark: Option<&'static str>,
 }
 
-/// Factors with what stands around them.
+/// Factors with their axis, limits and legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {
     /// Rows.

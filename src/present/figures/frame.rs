@@ -28,7 +28,7 @@ pub struct Frame {
 
 /// A place to look others up by.
 pub(super) fn key(at: &Vector3<f64>) -> [i64; 3] {
-    // Zero has one sign.
+    // Minus zero and zero are the same place.
     [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64)
 }
 
@@ -222,7 +222,7 @@ fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
         let mut points: Vec<_> = sides
             .map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0))
             .collect();
-        // A corner that is held ends the line that comes from the other side.
+        // A fixed corner ends the line that comes from the other side.
         let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
         points.extend(
             ends.map(|corner| corner.0)

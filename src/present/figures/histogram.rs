@@ -46,7 +46,7 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
 }
 
 fn draw_on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
-    // Equal numbers have room beside them too.
+    // Equal numbers need room on either side too.
     let [least, most] = spread.ends;
     let room = if most > least {
         0.0

@@ -1,6 +1,6 @@
-//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's from them.
+//! The figures as SVG: drawings that do not know where their data come from, and the paper's figures made from them.
 //!
-//! The same data give the same bytes. What draws fails with
+//! The same data give the same bytes. Drawing fails with
 //! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
 pub mod box_elements;

@@ -54,7 +54,7 @@ impl DrawnModes {
         if frame.known.values().all(Vec::is_empty) {
             return Ok(None);
         }
-        // Beside a support nothing is measured: a node line there would be the interpolation's.
+        // Nothing is measured near a support: a node line there would come from the interpolation.
         if report.moved.is_none() {
             let is_held = |node: &usize| frame.known.get(node).is_some_and(Vec::is_empty);
             frame.panels.retain(|panel| !panel.iter().any(is_held));

@@ -19,7 +19,7 @@ use crate::torque_box::{Case, CaseResult};
 use html::{escaped, figure, figures, prose, section, section_of, table};
 use story::story;
 
-/// What the page tells.
+/// The content of the page.
 #[derive(Debug, Clone, Copy)]
 pub struct Contents<'a> {
     /// The cases.
@@ -252,7 +252,7 @@ fn box_section(contents: &Contents) -> String {
     )
 }
 
-/// What looks wrong with the cases before anything moves.
+/// The findings of the pre-flight for the cases.
 fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     let found = |result: &CaseResult| {
         let case = &result.case;
@@ -269,7 +269,7 @@ fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     Ok(table(&preflight::findings_table(&found)))
 }
 
-/// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
+/// Tables 9 to 12, and the figure of the cost of truncation, which has its numbers.
 fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     let is_published =
         |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));

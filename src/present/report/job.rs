@@ -1,4 +1,4 @@
-//! The user's own structure as a report of the report.
+//! The user's own structure as a report.
 
 use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
@@ -81,7 +81,7 @@ impl Report {
         };
         let deviations = result.factors.iter().zip(&result.seen[1].deviations);
         Ok(Self {
-            // Of the factor itself, from that of its logarithm.
+            // The deviation of the factor itself, from that of its logarithm.
             deviations: Some(deviations.map(|(factor, log)| factor * log).collect()),
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
@@ -89,7 +89,7 @@ impl Report {
         })
     }
 
-    /// Gauss–Newton steps, each a stage of its own.
+    /// A report with one stage per Gauss–Newton step.
     fn from_weighted(
         name: &str,
         names: &[String],
@@ -137,7 +137,7 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
         let all = source.whole.modes(factors, count).ok()?.vibrations.shapes;
         let seen = sensors.times(&all).ok()?;
-        // Of the scale and sign of the shapes that are compared.
+        // Give them the scale and sign of the shapes that are compared.
         let mut paired = all.select_columns(pairs);
         for (j, mut shape) in paired.column_iter_mut().enumerate() {
             let (own, compared) = (
@@ -169,7 +169,7 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
     Some([of(test), of(first), of(last)])
 }
 
-/// The best that a stopped run has come to.
+/// The best stage of a stopped run.
 fn stopped(result: &JobResult) -> Stage {
     let (factors, check) = (result.factors.clone(), result.last.exact.clone());
     Stage {

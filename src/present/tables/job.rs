@@ -105,7 +105,7 @@ pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
             sentences.extend(findings.iter().map(Finding::to_string));
         }
         Err(error) => sentences.push(format!(
-            "the pre-flight looks at condensed matrices, which are not to be had: {error}"
+            "the pre-flight needs condensed matrices, which this model does not have: {error}"
         )),
     }
     let mut of_mode =
@@ -114,7 +114,7 @@ pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         let most = format!("modal assurance {assurance:.2} at most");
         of_mode(
             *mode,
-            format!("no mode of the first model is like it ({most}); it is left out"),
+            format!("it resembles no mode of the first model ({most}) and is left out"),
         );
     }
     for (mode, phase) in loaded
@@ -241,7 +241,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
     );
     let parallel = |&(a, b, cosine): &(usize, usize, f64)| {
         format!(
-            "{} and {} do nearly the same (cosine {cosine:+.3}).",
+            "The test cannot tell {} and {} apart (cosine {cosine:+.3}); only their combination is known.",
             names[a], names[b]
         )
     };
@@ -296,7 +296,7 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
         failed.len(),
     );
     let why = |first| {
-        format!("What failed does not count; --sample {first} says why sample {first} did.")
+        format!("Failed samples do not count; --sample {first} says why sample {first} failed.")
     };
     let mut table = Table::new(
         "study",
