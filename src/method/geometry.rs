@@ -82,7 +82,13 @@ impl Geometry {
     }
 }
 
-/// A panel seen in its mean plane, the plane to which both diagonals are parallel.
+/// A panel seen in its mean plane, the plane to which both diagonals are parallel. It is convex and has an area:
+///
+/// ```compile_fail,E0451
+/// # use corfem::method::geometry::MeanPlane;
+/// # use nalgebra::{Vector2, Vector3};
+/// let point = MeanPlane { corners: [Vector2::zeros(); 4], corners_in_space: [Vector3::zeros(); 4], area: 0.0 };
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanPlane {
     corners: [Vector2<f64>; 4],

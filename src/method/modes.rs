@@ -14,7 +14,14 @@ use std::ops::Deref;
 /// in a symmetric shape does not choose its sign.
 pub(crate) const SIGN_TIE: f64 = 1e-6;
 
-/// A set of modes in any order and of any scale: measured ones, or those that a perturbation leads to.
+/// A set of modes in any order and of any scale: measured ones, or those that a perturbation leads to. Every squared frequency is
+/// positive, and every shape has a component that is not zero:
+///
+/// ```compile_fail,E0451
+/// # use corfem::method::modes::ModeSet;
+/// # use nalgebra::{dmatrix, dvector};
+/// let still = ModeSet { omega_squared: dvector![0.0], shapes: dmatrix![0.0] };
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSet {
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
@@ -145,7 +152,14 @@ fn test_mode(mode: usize) -> String {
 /// $$ V^t M V = I, \qquad V^t K V = \mathrm{diag}(\omega^2), $$
 ///
 /// in in/(lbf·s²/in)^½, signed so that the first of their largest components (within one part in a million) is positive.
-/// Nothing outside this module can make or change one, so every `Modes` keeps that promise; it is read as a [`ModeSet`].
+/// Nothing outside this crate can make or change one, so every `Modes` keeps that promise; it is read as a [`ModeSet`]:
+///
+/// ```compile_fail,E0423
+/// # use corfem::method::modes::{ModeSet, Modes};
+/// # use nalgebra::{dmatrix, dvector};
+/// // Measured modes are not an eigensolution.
+/// let modes = Modes(ModeSet::new(dvector![9.0], dmatrix![1.0]).unwrap());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes(ModeSet);
 

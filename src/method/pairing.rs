@@ -7,7 +7,11 @@ use crate::method::modes::{ModeSet, check_count};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
 
-/// The analysis mode paired with every test mode.
+/// The analysis mode paired with every test mode. A sign is +1 or −1:
+///
+/// ```compile_fail,E0451
+/// let pairing = corfem::method::pairing::Pairing { analysis_mode: vec![0], sign: vec![0.5] };
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairing {
     /// For each test mode, the index of its analysis mode.
