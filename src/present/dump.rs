@@ -1,7 +1,7 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
 use super::PresentError;
-use super::json::{document, iteration, matrix_rows};
+use super::json::{IterationValue, document, iteration, matrix_rows};
 use crate::files::matrices::write_matrix_market;
 use crate::method::inner_loop::Iteration;
 use crate::method::modes::solve;
@@ -10,6 +10,7 @@ use crate::method::structure::{DIRECTIONS, StructuralDof};
 use crate::sparse::SparseMatrix;
 use crate::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::iter::once;
 
@@ -51,7 +52,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
             ("V", &modes.shapes),
             ("B", &b),
         ] {
-            analysis[name] = matrix_rows(matrix);
+            analysis[name] = json!(matrix_rows(matrix));
             matrices.push(file(&format!("analysis_{number}_{name}"), matrix)?);
         }
         analysis["shares"] = dynamic
@@ -96,12 +97,27 @@ fn file(name: &str, matrix: &DMatrix<f64>) -> Result<(String, String), PresentEr
     Ok((format!("{name}.mtx"), write_matrix_market(&sparse)))
 }
 
+/// An iteration with the derivatives where it began.
+#[derive(Serialize)]
+struct StepValue<'a> {
+    #[serde(flatten)]
+    iteration: IterationValue<'a>,
+    error_changes: &'a [f64],
+    stiffness_changes: &'a [f64],
+}
+
 fn pass(pass: &Pass) -> Value {
     let whole = |step: &Iteration| {
-        let mut value = iteration(step);
-        value["error_changes"] = json!(step.error_changes);
-        value["stiffness_changes"] = json!(step.stiffness_changes);
-        value
+        let Iteration {
+            error_changes,
+            stiffness_changes,
+            ..
+        } = step;
+        json!(StepValue {
+            iteration: iteration(step),
+            error_changes,
+            stiffness_changes,
+        })
     };
     json!({
         "start_error_sum": pass.inner.start.sum(),
