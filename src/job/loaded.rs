@@ -226,6 +226,12 @@ impl LoadedJob {
         fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
     }
 
+    /// Names of the parameters.
+    pub fn parameter_names(&self) -> impl Iterator<Item = &str> {
+        let parameters = self.source.whole.parameters().iter();
+        parameters.map(|parameter| &parameter.name[..])
+    }
+
     /// The first factors.
     pub(super) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
@@ -242,19 +248,17 @@ impl LoadedJob {
         {
             return Ok(first.clone());
         }
-        let (whole, sensors, test, count) = (
-            &self.source.whole,
+        let whole = &self.source.whole;
+        let model = whole.analyze(
+            factors,
             &self.sensors,
-            &self.test,
+            (&self.test, pair_by_assignment),
             self.analysis_modes,
-        );
-        let model = whole.analyze(factors, sensors, (test, pair_by_assignment), count);
+        )?;
         // Gauss-Newton steps have weights of their own.
-        let is_paper = self.job.compare.method == Method::Paper;
-        if is_paper {
-            model?.weighted(&self.own_weights())
-        } else {
-            model
+        match self.job.compare.method {
+            Method::Paper => model.weighted(&self.own_weights()),
+            Method::GaussNewton => Ok(model),
         }
     }
 }

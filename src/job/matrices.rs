@@ -1,7 +1,7 @@
 //! A model given by matrices: its files, and which row is which degree of freedom.
 
 use super::model::{GridLayout, ModelSource, range};
-use super::{Job, ParameterRule, Scales};
+use super::{Job, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
@@ -51,22 +51,13 @@ pub(super) fn from_matrices(
     let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
-        let ParameterRule {
-            name,
-            elements,
-            properties,
-            materials,
-            masses,
-            ..
-        } = rule;
-        let is_of_deck = !(elements.is_empty()
-            && properties.is_empty()
-            && materials.is_empty()
-            && masses.is_empty());
+        let name = &rule.name;
+        let named_of_deck =
+            rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
         let file = rule
             .matrix
             .as_ref()
-            .filter(|_| !is_of_deck && !rule.each)
+            .filter(|_| named_of_deck == 0 && !rule.each)
             .ok_or_else(|| {
                 job.refused(format!(
                     "parameter \"{name}\" needs a matrix, and no entry of a deck"

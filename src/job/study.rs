@@ -57,12 +57,7 @@ impl Study {
 
     /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
-        self.loaded
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .map(|parameter| parameter.name.as_str())
+        self.loaded.parameter_names()
     }
 
     /// The line above the samples.

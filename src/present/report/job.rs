@@ -15,11 +15,7 @@ impl Report {
     /// Those of the first analysis.
     pub fn from_job(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Self, PresentError> {
         let whole = &loaded.source.whole;
-        let names: Vec<String> = whole
-            .parameters()
-            .iter()
-            .map(|parameter| parameter.name.clone())
-            .collect();
+        let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
         let first =
             result.map_or_else(|| loaded.analyze(&ones), |result| Ok(result.first.clone()))?;

@@ -222,13 +222,7 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
 
 /// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.
 pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
-    let names: Vec<&str> = loaded
-        .source
-        .whole
-        .parameters()
-        .iter()
-        .map(|parameter| parameter.name.as_str())
-        .collect();
+    let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
     let intervals = after.intervals(&result.factors)?;
     let apart = format!(
