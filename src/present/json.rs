@@ -82,8 +82,8 @@ struct SolutionValue<'a> {
 #[derive(Serialize)]
 struct AgreementValue {
     paired_analysis_modes: Vec<usize>,
-    modal_assurance: Rows,
-    cross_orthogonality: Option<Rows>,
+    modal_assurance: MatrixRows,
+    cross_orthogonality: Option<MatrixRows>,
 }
 
 #[derive(Serialize)]
@@ -109,7 +109,7 @@ pub(super) struct IterationValue<'a> {
 
 #[derive(Serialize)]
 struct DerivativesValue<'a> {
-    frequency_percent_per_percent: Rows,
+    frequency_percent_per_percent: MatrixRows,
     error_sum_per_percent: &'a [f64],
 }
 
@@ -163,9 +163,9 @@ fn agreement(report: &Report, check: &Check) -> Result<AgreementValue, PresentEr
 }
 
 /// The rows of a matrix.
-pub(super) type Rows = Vec<Vec<f64>>;
+pub(super) type MatrixRows = Vec<Vec<f64>>;
 
-pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Rows {
+pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
     let rows = matrix.row_iter();
     rows.map(|row| row.iter().copied().collect()).collect()
 }

@@ -69,7 +69,7 @@ pub(super) fn best_order(comparison: &Comparison, test: &ModeSet) -> (Vec<usize>
     exchange(order.clone(), agreement).unwrap_or((order, 0.0))
 }
 
-/// Shapes, none of which is zero, scaled to unit largest component.
+/// Nonzero shapes scaled to unit largest component.
 fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();

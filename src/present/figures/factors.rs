@@ -173,7 +173,7 @@ impl Factors {
                     line(area, &[(x, y - 5.0), (x, y + 5.0)], Pen::solid(ORANGE, 2.0))?;
                 }
             }
-            // The number stands beside its mark, away from the limits; what stands out is named.
+            // The number is next to its mark, away from the limits; a remark names what stands out.
             let number = signed(Digits::Fixed(self.decimals).write(factor.value));
             let (text, at, letters) = match factor.remark {
                 Some(remark) if self.limits.is_some() => (

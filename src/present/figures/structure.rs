@@ -17,7 +17,7 @@ const SENSOR: Mark = Mark(
 );
 /// Numbers of more grids than these would hide the structure.
 const MOST_NUMBERS: usize = 60;
-/// Longest name of a place that stands beside it; others are named in a list.
+/// Longest name written next to its place; longer ones go into a list.
 const LONGEST_NAME: usize = 9;
 /// Height of the structure, and of a line of the list below it, px.
 const DRAWING: f64 = 420.0;

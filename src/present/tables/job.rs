@@ -25,7 +25,7 @@ pub const MOST_SUSPECTS: usize = 20;
 pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Table, FileError> {
     let direction = |sensor: &PlacedSensor| {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
-        // An axis of the test's own is told by its components.
+        // An axis of the test's own coordinate system is shown by its components.
         let own = || {
             format!(
                 " ({:.2} {:.2} {:.2})",
@@ -83,7 +83,7 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
 /// readers left aside.
 ///
 /// # Errors
-/// Those of [`preflight`] and of the analyses it needs; a structure that is not held has no condensed model to look at, and a
+/// Those of [`preflight`] and of the analyses it needs; a structure without supports has no condensed model to check, and a
 /// sentence says so.
 pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
     let whole = &loaded.source.whole;
