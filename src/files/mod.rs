@@ -6,7 +6,7 @@ pub mod matrices;
 pub mod nastran95;
 pub mod test_data;
 
-/// A text with control characters shown as Rust writes them, but for line ends and tabs: a terminal would obey them.
+/// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
 pub fn escaped(text: &str) -> String {
     let shown = |c: char| c.is_control() && c != '\n' && c != '\t';
     text.chars()

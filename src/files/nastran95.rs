@@ -2,7 +2,7 @@
 
 use super::escaped;
 use crate::files::deck::number::parse_reals;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
@@ -19,26 +19,24 @@ const HEADER_NAME: usize = 74;
 /// Reads matrices that OUTPUT5 wrote with formatted records.
 ///
 /// After a title line every matrix has a header (number of columns, of rows, form, type, name), then a record for every
-/// column that is not zero: its number, its first and last row that are not, and what stands between them; a column of number
-/// zero begins the next. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
+/// nonzero column: its number, its first and last nonzero row, and the entries between them; column number zero begins the
+/// next matrix. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
 ///
 /// # Errors
 /// [`FileError::SolverAnswer`] naming the line for anything else.
 pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
-    let wrong = |line: usize, expected: &str| {
-        let expected = format!("{expected} in line {} of the OUTPUT5 file", line + 1);
-        FileError::answer(
-            expected,
-            lines
-                .get(line)
-                .map_or("its end".to_owned(), |l| shown(l.trim())),
-        )
+    let wrong = |line: usize, what: &str| {
+        let end = || format!("the file ends before {what}");
+        let reason = lines
+            .get(line)
+            .map_or_else(end, |l| is_not(&shown(l.trim()), what));
+        FileError::answer(format!("OUTPUT5 file, line {}: {reason}", line + 1))
     };
     let integer = |line: usize, start: usize| -> Result<usize, FileError> {
         let field = lines.get(line).and_then(|l| l.get(start..start + INTEGER));
         let value = field.and_then(|text| text.trim().parse().ok());
-        value.ok_or_else(|| wrong(line, "an integer"))
+        value.ok_or_else(|| wrong(line, "a line of integers"))
     };
     let mut matrices = Matrices::new();
     let (mut name, mut left, mut at) = ("", numbers, 1);
@@ -56,7 +54,10 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
                 .checked_mul(rows)
                 .and_then(|entries| left.checked_sub(entries));
             left = fewer.ok_or_else(|| {
-                wrong(at, &format!("matrices of at most {numbers} entries in all"))
+                wrong(
+                    at,
+                    &format!("the header of a matrix within the {numbers} entries of all"),
+                )
             })?;
             name = lines[at].get(HEADER_NAME..).unwrap_or_default().trim();
             matrices.insert(name.to_owned(), DMatrix::zeros(rows, columns));
@@ -64,7 +65,8 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
             continue;
         }
         let matrix = matrices.get_mut(name);
-        let matrix = matrix.ok_or_else(|| wrong(at - 1, "a matrix's header before its columns"))?;
+        let matrix =
+            matrix.ok_or_else(|| wrong(at - 1, "the header that precedes a matrix's columns"))?;
         if column > matrix.ncols() || first == 0 || last > matrix.nrows() || last < first {
             return Err(wrong(at - 1, "a column and rows within the matrix"));
         }
@@ -74,10 +76,10 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
                 .get(at)
                 .map(|line| line.trim_end())
                 .filter(|line| !line.is_empty());
-            let reals = parse_reals(line.ok_or_else(|| wrong(at, "reals"))?, REAL);
-            let reals = reals.filter(|reals| reals.len() <= last - row);
-            let reals =
-                reals.ok_or_else(|| wrong(at, "reals of the format D26.17, as many as rows"))?;
+            let reals = line
+                .and_then(|line| parse_reals(line, REAL))
+                .filter(|reals| reals.len() <= last - row)
+                .ok_or_else(|| wrong(at, "a line of the column's reals in format D26.17"))?;
             matrix
                 .column_mut(column - 1)
                 .rows_mut(row, reals.len())
@@ -88,10 +90,10 @@ pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     Ok(matrices)
 }
 
-/// Characters of the program's words that an error carries.
+/// Most characters of the program's words in an error.
 const MESSAGE_LENGTH: usize = 300;
 
-/// What an error carries of another program's words: not all of them, and nothing a terminal obeys.
+/// The beginning of another program's words, for an error, with control characters escaped.
 pub(crate) fn shown(words: &str) -> String {
     let start: String = words.chars().take(MESSAGE_LENGTH).collect();
     escaped(&start) + if start.len() < words.len() { "..." } else { "" }

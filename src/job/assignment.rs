@@ -10,8 +10,8 @@ use nalgebra::DMatrix;
 /// $$ \max_a \sum_j c_{a(j) j}, \qquad c_{a(j) j} \ge \mathrm{floor} \ge 0, $$
 ///
 /// with no analysis mode in two pairs; g may exceed n. Test modes enter in their order, each by the shortest path that
-/// makes room for it; of equal ones by that to the lowest analysis mode, or else without taking an earlier test mode's
-/// pair. So the same numbers always give the same pairs. Source: Kuhn, *Naval Research Logistics Quarterly* 2 (1955),
+/// makes room for it; ties go to the lowest analysis mode, or else leave an earlier test mode's pair alone. So the same
+/// numbers always give the same pairs. Source: Kuhn, *Naval Research Logistics Quarterly* 2 (1955),
 /// 83; shortest paths by Jonker and Volgenant, *Computing* 38 (1987), 325.
 ///
 /// # Errors
@@ -24,7 +24,7 @@ pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option
         floor,
         (0.0..f64::INFINITY).contains(&floor),
     )?;
-    // Behind the analysis modes every test mode has a place of its own, the last one first, which stands for none and counts nothing.
+    // After the analysis modes, every test mode (the last one first) has a place of its own at no cost: it means no partner.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;
     let cost = |test: usize, place: usize| match closeness.get((place, test)) {

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::{Table, Value};
 
-/// Entries of `[correlation]`; what is skipped keeps the library's value.
+/// Entries of `[correlation]`; skipped fields keep the library's value.
 #[derive(Deserialize)]
 #[serde(
     remote = "Settings",
@@ -59,7 +59,7 @@ struct InnerEntries {
     update: UpdateRule,
 }
 
-/// Entries that jobs had, and what happens instead.
+/// Entries that jobs no longer have, and what happens instead.
 const REMOVED: [(&str, &str); 13] = [
     (
         "test.orthogonalize",
@@ -115,7 +115,7 @@ const REMOVED: [(&str, &str); 13] = [
     ),
 ];
 
-/// What to say of a step rule that is gone.
+/// The message for a step rule that is gone.
 pub fn removed_step(name: &str) -> Option<String> {
     ["sum", "steepest_descent"]
         .contains(&name)
@@ -125,7 +125,7 @@ pub fn removed_step(name: &str) -> Option<String> {
 /// Refuses a job that names an entry or a rule that jobs no longer have.
 ///
 /// # Errors
-/// [`FileError::Refused`]. A text that is no TOML passes: its reader says where it goes wrong.
+/// [`FileError::Refused`]. Text that is not TOML passes; its reader says where it goes wrong.
 pub(super) fn refuse_removed(path: &Path, text: &str) -> Result<(), FileError> {
     let table: Table = toml::from_str(text).unwrap_or_default();
     let at = |entry: &str| -> Option<&Value> {

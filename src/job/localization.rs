@@ -1,4 +1,4 @@
-//! Which parameter is wrong: by the paper's unlimited factor, a slope that says little of gross errors, and by single fits.
+//! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
 
 use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
@@ -20,7 +20,7 @@ pub struct Suspect {
     pub parameter: usize,
     /// The factor that it asks for.
     pub factor: f64,
-    /// What speaks against it, by the measure of the ranking: the larger, the more.
+    /// The evidence against it, by the measure of the ranking: the larger, the stronger.
     pub evidence: f64,
 }
 
@@ -45,7 +45,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
 ///
 /// The modes at a factor are an eigensolution in the modal coordinates of the one exact analysis there is. Factors are tried from
-/// $10^{-3}$ to $10^3$, then near the best. A fall is the logarithm of a likelihood ratio: of this one error against none.
+/// $10^{-3}$ to $10^3$, then near the best. The fall is the logarithm of the likelihood ratio of this one error against none.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -54,7 +54,7 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
     let objective = |parameter: usize, log: f64| {
         let mut factors = vec![1.0; model.shares.len()];
         factors[parameter] = 10.0_f64.powf(log);
-        // Where there are no modes of vibration there is no fit.
+        // A factor that leaves no modes of vibration cannot fit.
         ModalState::at(model, factors, UpdateRule::Eigensolution).map_or(f64::INFINITY, |state| {
             0.5 * residuals_of(&state.modes, &state.pairing, &model.test, weights).norm_squared()
         })

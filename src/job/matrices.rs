@@ -1,9 +1,9 @@
 //! A model given by matrices: its files, and which row is which degree of freedom.
 
-use super::model::{Geometry, ModelSource, range};
-use super::{Job, ParameterRule, Scales};
+use super::model::{GridLayout, ModelSource, range};
+use super::{Job, Scales};
 use crate::files::deck::decoded;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The model of a job whose matrices these files hold.
+/// The model of the matrices in these files.
 pub(super) fn from_matrices(
     job: &Job,
     stiffness: &Path,
@@ -24,63 +24,46 @@ pub(super) fn from_matrices(
         .as_ref()
         .map(|labels| labels.iter().map(degree_of_freedom).collect());
     let (labels, places) = match (&job.model.rows, &own) {
-        (Some(file), _) => rows(job, &job.beside(file))?,
+        (Some(file), _) => read_rows(job, &job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
         (None, None) => {
-            return Err(job.wrong(
-                "model.rows for matrices that do not name their rows",
-                "none",
-            ));
+            return Err(job.refused("model.rows is missing: these matrices do not name their rows"));
         }
     };
     let other = Some(labels.len()).filter(|rows| *rows != count);
-    job.refuse(
-        other,
-        format!("{count} rows in model.rows, one a row of the stiffness"),
-    )?;
-    let other = own.filter(|own| *own != labels).map(|_| "another");
-    job.refuse(
-        other,
-        "model.rows in the order of the stiffness, which names its own",
-    )?;
-    let row_of: BTreeMap<_, usize> = labels
-        .iter()
-        .enumerate()
-        .map(|(row, label)| (*label, row))
-        .collect();
-    let twice = (row_of.len() != count).then_some("one in two");
-    job.refuse(twice, "every grid and direction in one row of the matrices")?;
+    job.refuse_if(other, |rows| {
+        format!("model.rows has {rows} rows, but the stiffness {count}")
+    })?;
+    let other = own.filter(|own| *own != labels);
+    job.refuse_if(other, |_| {
+        "model.rows is not in the order of the stiffness, which names its rows".to_owned()
+    })?;
+    let mut row_of = BTreeMap::new();
+    for (row, label) in labels.iter().enumerate() {
+        job.refuse_if(row_of.insert(*label, row), |first| {
+            format!(
+                "rows {} and {} of the matrices have the same grid and direction",
+                first + 1,
+                row + 1
+            )
+        })?;
+    }
     let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
     let mut parameters = Vec::new();
     for rule in &job.parameters {
-        let ParameterRule {
-            name,
-            elements,
-            properties,
-            materials,
-            masses,
-            ..
-        } = rule;
-        let is_of_deck = !(elements.is_empty()
-            && properties.is_empty()
-            && materials.is_empty()
-            && masses.is_empty());
+        let name = &rule.name;
+        let named_of_deck =
+            rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
         let file = rule
             .matrix
             .as_ref()
-            .filter(|_| !is_of_deck && !rule.each)
+            .filter(|_| named_of_deck == 0 && !rule.each)
             .ok_or_else(|| {
-                let found = if rule.matrix.is_none() {
-                    "no matrix"
-                } else {
-                    "entries of a deck"
-                };
-                job.wrong(
-                    format!("a matrix, and nothing of a deck, in parameter {name}"),
-                    found,
-                )
+                job.refused(format!(
+                    "parameter \"{name}\" needs a matrix, and no entry of a deck"
+                ))
             })?;
-        let entry = format!("parameter {name}");
+        let entry = format!("parameter \"{name}\"");
         let matrix = on_rows(job, (file, &entry), &row_of)?;
         let share = match rule.scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
@@ -98,7 +81,7 @@ pub(super) fn from_matrices(
         .enumerate()
         .map(|(row, at)| (at, vec![(row, 1.0)]))
         .collect();
-    let geometry = Geometry {
+    let geometry = GridLayout {
         places,
         elements: Vec::new(),
     };
@@ -117,7 +100,7 @@ fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
     (grid, component.saturating_sub(1))
 }
 
-/// A matrix of a file, its columns those of its rows; behind a `#` in its name stands which of several.
+/// A matrix of a file, with the same labels for rows and columns; `#` in the name chooses one of several.
 fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let (file, wanted) = text
@@ -126,15 +109,14 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
-    let others = (found.columns != found.rows).then_some("others");
-    job.refuse(
-        others,
-        format!("rows and columns of the same names in {text}"),
-    )?;
+    let others = (found.columns != found.rows).then_some(text);
+    job.refuse_if(others, |text| {
+        format!("{text}: rows and columns have different names")
+    })?;
     Ok(found)
 }
 
-/// A matrix of a file with its rows and columns in the order of the stiffness, where it names its own.
+/// A matrix of a file; if it names its rows and columns, they are put in the order of the stiffness.
 fn on_rows(
     job: &Job,
     (file, entry): (&Path, &str),
@@ -147,11 +129,10 @@ fn on_rows(
     let stranger = labels
         .iter()
         .find(|label| !row_of.contains_key(&degree_of_freedom(label)));
-    let stranger = stranger.map(|(grid, component)| format!("grid {grid} component {component}"));
-    job.refuse(
-        stranger,
-        format!("rows of the stiffness in {}", file.display()),
-    )?;
+    job.refuse_if(stranger, |(grid, component)| {
+        let file = file.display();
+        format!("{file}: the stiffness has no row of grid {grid}, component {component}")
+    })?;
     let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
     let entries = matrix
         .entries()
@@ -171,7 +152,7 @@ type LabeledRow = (usize, usize);
 type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>);
 
 /// Reads a table `grid,direction,x,y,z`.
-fn rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
+fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
     let text = decoded(&job.bytes(file, "model.rows")?).into_owned();
     let lines = (1..)
         .zip(text.lines())
@@ -186,14 +167,8 @@ fn rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
         {
             continue;
         }
-        let found = || format!("line {number}: {line}");
-        let wrong = || {
-            FileError::input(
-                file.display(),
-                "lines of grid, direction and perhaps x, y, z",
-                found(),
-            )
-        };
+        let what = "a line of grid, direction and perhaps x, y, z";
+        let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
         places.extend(place.map(|place| (label.0, place)));

@@ -1,7 +1,7 @@
 //! Measures of how well analysis and test modes agree, beside [`modal_assurance`](crate::method::pairing::modal_assurance) and
 //! [`cross_orthogonality`](crate::method::pairing::cross_orthogonality).
 //!
-//! AutoMAC is the modal assurance of a set of shapes with itself: what it has beside its diagonal, sensors cannot tell apart.
+//! AutoMAC is the modal assurance of a set of shapes with itself: modes with large off-diagonal entries are ones that the sensors cannot tell apart.
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_finite, check_length, check_shape};
@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 ///
 /// $$ c_p = \frac{(\sum_l |v_{pl} w_{pl}|)^2}{\sum_l v_{pl}^2 \sum_l w_{pl}^2} $$
 ///
-/// for shapes of unit length, so that scale and sign of none matter. `pairs` has the analysis mode of every test mode,
+/// for shapes of unit length, so that scale and sign do not matter. `pairs` has the analysis mode of every test mode,
 /// or none, as [`pair_optimally`](crate::job::assignment::pair_optimally) gives it. A DOF that does not move on
 /// either side has 1, one that moves on one side only has 0. A low value names a sensor at fault or a place where the
 /// model is wrong, or one that moves little. Source: Lieven and Ewins, *Proc. 6th International Modal Analysis

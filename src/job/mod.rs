@@ -1,6 +1,6 @@
 //! A job: the model, the test and the settings of a correlation of the user's own structure, as one TOML file names them.
 //!
-//! [`read`] reads the file alone; [`Prepared::new`] reads what it names, puts model and test together, and is what a correlation
+//! [`read`] reads the file alone; [`LoadedJob::new`] reads what it names, puts model and test together, and is what a correlation
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
 pub mod assignment;
@@ -12,25 +12,26 @@ pub mod metrics;
 mod model;
 pub mod nastran95;
 pub mod preflight;
-mod prepare;
+mod loaded;
 mod run;
 mod samples;
 mod sensors;
 mod study;
 
 pub use entries::removed_step;
-pub use model::{Geometry, ModelSource};
-pub use prepare::Prepared;
-pub use run::{Finished, History, run};
+pub use loaded::LoadedJob;
+pub use model::{GridLayout, ModelSource};
+pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
 
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use crate::method::outer_loop::Settings;
 use entries::{CorrelationEntries, refuse_removed};
 use serde::Deserialize;
 use std::collections::BTreeSet;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
@@ -222,46 +223,28 @@ impl Job {
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Refuses what is given, by what is wrong with it.
-    fn refuse_if(
+    fn refused(&self, reason: impl Into<String>) -> FileError {
+        FileError::refused(self.path.display(), reason)
+    }
+
+    /// Refuses what is given, if anything is, for the reason that it makes.
+    fn refuse_if<T>(
         &self,
-        given: Option<impl ToString>,
-        wrong: impl Fn(String) -> String,
+        given: Option<T>,
+        reason: impl FnOnce(T) -> String,
     ) -> Result<(), FileError> {
-        match given {
-            Some(given) => Err(FileError::refused(
-                self.path.display(),
-                wrong(given.to_string()),
-            )),
-            None => Ok(()),
-        }
+        given.map_or(Ok(()), |given| Err(self.refused(reason(given))))
     }
 
-    fn wrong(&self, expected: impl Into<String>, found: impl Into<String>) -> FileError {
-        FileError::input(self.path.display(), expected, found)
-    }
-
-    /// Refuses what is found instead of what is expected, if anything is.
-    fn refuse(
-        &self,
-        found: Option<impl ToString>,
-        expected: impl Into<String>,
-    ) -> Result<(), FileError> {
-        found.map_or(Ok(()), |found| Err(self.wrong(expected, found.to_string())))
-    }
-
-    /// Refuses what is named a second time.
+    /// Refuses a second entry of the same name.
     fn once(
         &self,
-        mut all: impl Iterator<Item = impl Copy + Ord + ToString>,
+        mut all: impl Iterator<Item = impl Copy + Ord + Display>,
         what: &str,
     ) -> Result<(), FileError> {
         let mut seen = BTreeSet::new();
         let again = all.find(|one| !seen.insert(*one));
-        self.refuse(
-            again.map(|one| one.to_string() + " again"),
-            format!("every {what} once"),
-        )
+        self.refuse_if(again, |again| format!("{what} {again} is named twice"))
     }
 
     /// The numbers that a list names.
@@ -277,12 +260,9 @@ impl Job {
                         .split_once('-')
                         .and_then(|(first, last)| number(first).zip(number(last)));
                     let ends = ends.filter(|(first, last)| first <= last && last - first < room);
-                    let expected = || {
-                        format!(
-                            "a range of numbers such as \"10-19\", in all at most {MOST_LABELS}"
-                        )
-                    };
-                    ends.ok_or_else(|| self.wrong(expected(), text))?
+                    let what = "a range of numbers such as \"10-19\"; all of them together may be";
+                    let reason = || format!("{} at most {MOST_LABELS}", is_not(text, what));
+                    ends.ok_or_else(|| self.refused(reason()))?
                 }
             };
             all.extend(first..=last);

@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// Where a model's grids are, and which of them elements join.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Geometry {
+pub struct GridLayout {
     /// The place of every grid that has one, in units of length.
     pub places: BTreeMap<usize, Vector3<f64>>,
     /// The corners of every element, by grid.
@@ -28,7 +28,7 @@ pub struct ModelSource {
     /// Its matrices.
     pub whole: WholeModel,
     /// Its grids.
-    pub geometry: Geometry,
+    pub geometry: GridLayout,
     /// By grid and direction (0 to 5) of every degree of freedom that moves: the model's rows and their coefficients.
     pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,
     /// The deck's bytes and what was read of them, if it is one.
@@ -37,7 +37,7 @@ pub struct ModelSource {
     pub members: Vec<Vec<usize>>,
 }
 
-/// The model of a job whose deck this file holds.
+/// The model of the deck in this file.
 pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
     let bytes = job.bytes(file, "model.deck")?;
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
@@ -63,10 +63,10 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     let motion_of = bulk.motions(&structure);
     let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
-        job.refuse(
-            rule.matrix.as_ref().map(|_| "a matrix"),
-            "parameters of a deck by elements or masses",
-        )?;
+        job.refuse_if(rule.matrix.as_ref(), |_| {
+            let name = &rule.name;
+            format!("parameter \"{name}\": in a deck, name elements or masses instead of a matrix")
+        })?;
         for ElementGroup {
             name,
             elements: labels,
@@ -92,9 +92,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
                 Scales::Stiffness => {
-                    let found =
-                        (!masses.is_empty()).then(|| format!("stiffness in parameter {name}"));
-                    job.refuse(found, "scales = \"mass\" for point masses")?;
+                    job.refuse_if(masses.first(), |label| {
+                        format!("parameter \"{name}\": point mass {label} needs scales = \"mass\"")
+                    })?;
                     let member = |&row: &usize| (elements[row].clone(), bulk.elements[row].size);
                     WholeShare::Elements(rows.iter().map(member).collect())
                 }
@@ -146,7 +146,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         )
     });
     let motions = motions.filter(|(_, motion)| !motion.is_empty()).collect();
-    let geometry = Geometry {
+    let geometry = GridLayout {
         places: grids.map(|grid| (grid.label, grid.position)).collect(),
         elements: bulk
             .elements
@@ -197,12 +197,13 @@ fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<ElementGro
     let material = materials
         .iter()
         .find(|label| members().all(|of| of.material != **label));
-    job.refuse(
-        property.or(material),
-        format!("properties and materials of the deck's elements in parameter {name}"),
-    )?;
-    let none = (elements.is_empty() && masses.is_empty()).then_some("none that the deck has");
-    job.refuse(none, format!("elements or masses in parameter {name}"))?;
+    job.refuse_if(property.or(material), |label| {
+        format!("parameter \"{name}\": no element of the deck has property or material {label}")
+    })?;
+    let none = (elements.is_empty() && masses.is_empty()).then_some(name);
+    job.refuse_if(none, |name| {
+        format!("parameter \"{name}\" names no elements and no masses")
+    })?;
     if !each {
         let [elements, masses] = [elements, masses].map(|labels| labels.into_iter().collect());
         return Ok(vec![ElementGroup {
@@ -228,7 +229,7 @@ fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<ElementGro
         .collect())
 }
 
-/// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within its bounds on these.
+/// The bounds on a parameter's factor: its own, and those that keep elements of the given first sizes within the bounds on sizes.
 pub(super) fn range(
     job: &Job,
     rule: &ParameterRule,
@@ -242,7 +243,9 @@ pub(super) fn range(
             lower,
             upper,
         )?)),
-        _ => Err(job.wrong(format!("both {names} in parameter {name}"), "one of them")),
+        _ => Err(job.refused(format!(
+            "parameter \"{name}\" needs both {names}, or neither"
+        ))),
     };
     let own = both([rule.lower, rule.upper], "lower and upper", "factor")?;
     let of_sizes = both(
@@ -253,11 +256,10 @@ pub(super) fn range(
     let Some(of_sizes) = of_sizes else {
         return Ok(own);
     };
-    let another = (sizes.is_empty() || rule.scales == Scales::Mass).then_some("another");
-    job.refuse(
-        another,
-        format!("the stiffness of a deck's elements where parameter {name} has bounds on sizes"),
-    )?;
+    let other = (sizes.is_empty() || rule.scales == Scales::Mass).then_some(name);
+    job.refuse_if(other, |name| {
+        format!("parameter \"{name}\": bounds on sizes are for the stiffness of a deck's elements")
+    })?;
     let (lower, upper) = own.map_or((0.0, f64::INFINITY), |own| (own.lower, own.upper));
     let lower = sizes
         .iter()

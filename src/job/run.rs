@@ -1,6 +1,6 @@
-//! A prepared job is run: the factors found, what they are worth, and the deck that has them.
+//! Runs a job: finds the factors, how well the test determines them, and the deck that has them.
 
-use super::{Method, ParameterRule, Prepared};
+use super::{LoadedJob, Method, ParameterRule};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
@@ -26,10 +26,10 @@ pub enum History {
     GaussNewton(Option<(WeightedCorrelation, usize)>),
 }
 
-/// What a job came to.
+/// The result of a job.
 #[derive(Debug, Clone)]
-pub struct Finished {
-    /// How.
+pub struct JobResult {
+    /// How the factors were found.
     pub history: History,
     /// The best factors.
     pub factors: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct Finished {
     pub first: ModalModel,
     /// The model at the best factors.
     pub last: ModalModel,
-    /// What it came to.
+    /// The verdict on them.
     pub verdict: Verdict,
     /// What the test sees of the parameters, at the first model and at the best factors.
     pub seen: [Identifiability; 2],
@@ -47,11 +47,11 @@ pub struct Finished {
     pub is_interrupted: bool,
 }
 
-impl Prepared {
+impl LoadedJob {
     /// The weight of every test mode: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
-    /// [`FileError::Input`] for weights that are not one a test mode.
+    /// [`FileError::Refused`] for weights that are not one a test mode.
     pub fn weights(&self) -> Result<Vec<ModeWeight>, FileError> {
         let compare = &self.job.compare;
         let named = self
@@ -66,8 +66,9 @@ impl Prepared {
         ];
         for (what, list) in lists {
             let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
-            self.job
-                .refuse(other, format!("{named} {what}, one a test mode of the job"))?;
+            self.job.refuse_if(other, |count| {
+                format!("compare.{what}: {count} given for {named} test modes")
+            })?;
         }
         let weight = |(own, &mode): (ModeWeight, &usize)| {
             let noise = self.deviations(mode);
@@ -126,12 +127,12 @@ impl Prepared {
         }
     }
 
-    /// The deck with the elements that `factors` leave, every other byte as it was; none for a model of matrices.
+    /// The deck with the elements scaled by `factors` and every other byte as it was; none for a model of matrices.
     ///
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`]; [`FileError::Input`] for factors of point masses, which are not rewritten.
+    /// Those of [`rewrite`]; [`FileError::Refused`] for factors of point masses, which are not rewritten.
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else {
             return Ok(None);
@@ -146,12 +147,9 @@ impl Prepared {
         for ((WholeParameter { name, share, .. }, members), &factor) in parameters.zip(factors) {
             let has_masses = |rule: &ParameterRule| rule.name == *name && !rule.masses.is_empty();
             let is_of_masses = members.is_empty() || self.job.parameters.iter().any(has_masses);
-            let refused = (is_of_masses && factor != 1.0).then(|| format!("a factor of {factor}"));
-            let expected = "parameters of elements for a corrected deck";
-            self.job.refuse(
-                refused,
-                format!("{expected}; {name} is one of point masses"),
-            )?;
+            self.job.refuse_if((is_of_masses && factor != 1.0).then_some(factor), |factor| {
+                format!("parameter \"{name}\" scales point masses by {factor}; a corrected deck can only change elements")
+            })?;
             for element in elements
                 .iter_mut()
                 .filter(|element| members.binary_search(&element.label).is_ok())
@@ -179,32 +177,32 @@ impl Prepared {
     }
 }
 
-/// Runs a job. `progress` is told of every pass or analysis in words; `go_on` is asked after each whether to.
+/// Runs a job. `progress` gets a line for every pass or improvement; `go_on` says after each whether to continue.
 ///
 /// # Errors
-/// Those of the analyses, of the loops and of [`Prepared::weights`].
+/// Those of the analyses, of the loops and of [`LoadedJob::weights`].
 pub fn run(
-    prepared: &Prepared,
+    loaded: &LoadedJob,
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
-) -> Result<Finished, FileError> {
-    run_from(prepared, &prepared.ones(), &mut progress, &go_on)
+) -> Result<JobResult, FileError> {
+    run_from(loaded, &loaded.ones(), &mut progress, &go_on)
 }
 
-/// The same from other first factors than one, and then from these alone.
+/// The same, but starting from other factors than one, and then from these alone.
 pub(super) fn run_from(
-    prepared: &Prepared,
+    loaded: &LoadedJob,
     start: &[f64],
     progress: &mut dyn FnMut(&str),
     go_on: &dyn Fn() -> bool,
-) -> Result<Finished, FileError> {
-    let (compare, settings) = (&prepared.job.compare, &prepared.job.correlation);
-    let (weights, ranges) = (prepared.weights()?, prepared.source.whole.ranges());
+) -> Result<JobResult, FileError> {
+    let (compare, settings) = (&loaded.job.compare, &loaded.job.correlation);
+    let (weights, ranges) = (loaded.weights()?, loaded.source.whole.ranges());
     let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());
     let analyses = std::cell::Cell::new(0);
     let analyze = |factors: &[f64]| {
         analyses.set(analyses.get() + 1);
-        prepared.analyze(factors)
+        loaded.analyze(factors)
     };
     let first = analyze(start)?;
     let analyze = |factors: &[f64]| {
@@ -221,7 +219,7 @@ pub(super) fn run_from(
     };
     let (history, factors) = match compare.method {
         Method::Paper => {
-            let mut told = |number: usize, pass: &Pass| {
+            let mut report_pass = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
                 let (frequency, shape) =
                     (100.0 * errors.frequency_rms(), 100.0 * errors.shape_rms());
@@ -250,7 +248,7 @@ pub(super) fn run_from(
                 &|model, state| error_changes(model, state, settings.inner.derivatives),
                 &ranges,
                 settings,
-                &mut told,
+                &mut report_pass,
             )?;
             let factors = total(&run.best_factors);
             (History::Paper(run), factors)
@@ -320,7 +318,7 @@ pub(super) fn run_from(
         |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
     let seen = [sees(&first)?, sees(&last)?];
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
-    Ok(Finished {
+    Ok(JobResult {
         history,
         factors,
         verdict,

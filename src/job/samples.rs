@@ -1,9 +1,9 @@
-//! The samples of a study as a file has them, one a line, and what they come to.
+//! The samples of a study in their file, one per line, and their statistics.
 
 use super::Study;
-use super::prepare::digest;
+use super::loaded::digest;
 use super::study::FAILED;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -14,13 +14,13 @@ const BARS: usize = 24;
 /// The parts of all samples below the quantiles.
 const PARTS: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Where the samples of a file stand: some forty bytes for each, whatever the number of parameters.
+/// Where each sample of a file begins: some forty bytes per sample, whatever the number of parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Samples {
     path: PathBuf,
     /// By number, where its line begins, and a digest of it.
     places: BTreeMap<u64, (u64, u64)>,
-    /// Bytes of whole lines: what follows is a line that was torn.
+    /// Bytes of whole lines; anything after them is a torn line.
     pub whole: u64,
 }
 
@@ -39,7 +39,7 @@ pub struct Spread {
     pub bars: Vec<usize>,
 }
 
-/// What samples come to.
+/// The statistics of the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// By parameter; none without a sample that did not fail.
@@ -78,7 +78,13 @@ impl Samples {
                 continue;
             }
             let name = path.display().to_string();
-            let wrong = |expected| Err(FileError::line(&name, number, expected, text.trim_end()));
+            let wrong = |what| {
+                Err(FileError::line(
+                    &name,
+                    number,
+                    is_not(text.trim_end(), what),
+                ))
+            };
             let cells: Vec<&str> = text.trim_end().split(',').collect();
             let (Some(sample), true) = (cells[0].parse().ok(), cells.len() == count + 6) else {
                 return wrong("a line of a sample of this study");
@@ -90,7 +96,9 @@ impl Samples {
             let is_run =
                 ["true", "false"].contains(&cells[2]) && cells[3..count + 5].iter().all(is_number);
             if cells[1] != FAILED && !is_run {
-                return wrong("true or false, and error sum, analyses and factors as numbers");
+                return wrong(
+                    "a sample with true or false, and error sum, analyses and factors as numbers",
+                );
             }
             let digest = digest(text.trim_end().as_bytes(), 0);
             if samples
@@ -98,7 +106,7 @@ impl Samples {
                 .insert(sample, (at, digest))
                 .is_some_and(|(_, before)| before != digest)
             {
-                return wrong("a sample once, or again as it was");
+                return wrong("what another line says of this sample");
             }
         }
         Ok(samples)
@@ -109,8 +117,8 @@ impl Samples {
         self.places.contains_key(&sample)
     }
 
-    /// What the samples up to the number `last` come to, the same whatever their order in the file. The numbers of one parameter at a
-    /// time are held.
+    /// The statistics of the samples up to number `last`, whatever their order in the file. Only one parameter's values are in memory at
+    /// a time.
     ///
     /// # Errors
     /// [`FileError::File`].
@@ -128,7 +136,7 @@ impl Samples {
         })?;
         for (place, name) in study.parameters().enumerate() {
             let mut values = Vec::new();
-            // What failed has no number.
+            // A failed sample has no number.
             self.each(last, |_, cells| {
                 values.extend(cells[place + 5].parse::<f64>().ok())
             })?;
@@ -143,7 +151,7 @@ impl Samples {
         let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
         let (mut now, mut line) = (0, String::new());
         for (&sample, &(at, _)) in self.places.range(..=last) {
-            // Within what is read already nothing is read again.
+            // A seek within the buffer reads nothing again.
             reader
                 .seek_relative(at as i64 - now as i64)
                 .map_err(&failed)?;
@@ -155,7 +163,7 @@ impl Samples {
     }
 }
 
-/// What the numbers of one parameter come to.
+/// The statistics of one parameter; none without values.
 fn spread(mut values: Vec<f64>) -> Option<Spread> {
     let count = values.len();
     let mean = values.iter().sum::<f64>() / count as f64;
@@ -169,7 +177,7 @@ fn spread(mut values: Vec<f64>) -> Option<Spread> {
     };
     let mut bars = vec![0; BARS];
     for value in &values {
-        // Of equal numbers none is no number, and stands in the first bar.
+        // Equal values divide zero by zero; NaN casts to 0, the first bar.
         bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
     }
     let deviation = (squares / count.saturating_sub(1).max(1) as f64).sqrt();

@@ -1,7 +1,7 @@
-//! Which sensor of the test is which degree of freedom of the model.
+//! Matches the sensors of the test with degrees of freedom of the model.
 
 use super::{Job, ModelSource, SensorRule};
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use crate::files::test_data::{DIRECTIONS, Sensor, TestData};
 use crate::sparse::SparseMatrix;
 use nalgebra::Vector3;
@@ -31,7 +31,7 @@ pub struct PlacedSensor {
 /// The sensors on the model, and the matrix that reads them (sensors × DOF).
 type Placed = (Vec<PlacedSensor>, SparseMatrix);
 
-/// Finds every sensor that is used on the model.
+/// Places every sensor in use on the model.
 pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<Placed, FileError> {
     let rules = &job.sensors;
     let named = rules
@@ -41,10 +41,12 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
     let unknown = named
         .into_iter()
         .find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
-    job.refuse(unknown, "names of sensors that the test has")?;
+    job.refuse_if(unknown, |name| {
+        format!("sensors: the test has no sensor {name}")
+    })?;
     job.once(
         rules.place.iter().map(|place| &place.sensor),
-        "sensor of sensors.place",
+        "sensors.place: sensor",
     )?;
     let mut placed = Vec::new();
     for (row, sensor) in data
@@ -54,20 +56,20 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         .filter(|(_, sensor)| !rules.leave_out.contains(&sensor.name))
     {
         let own = rules.place.iter().find(|place| place.sensor == sensor.name);
-        // A place of its own has an axis of the model's.
+        // A sensor that the job places measures along an axis of the model.
         let measured = sensor.axis.filter(|_| own.is_none());
         let (grid, direction, sign) = match (own, rules.by) {
             (Some(own), _) => {
                 let turned = own.direction.strip_prefix('-');
                 let letters = turned.unwrap_or(&own.direction).trim();
                 let direction = DIRECTIONS.iter().position(|name| *name == letters);
-                let expected = || {
-                    format!(
-                        "a direction x, y, z or -x, -y, -z of sensor {}",
-                        sensor.name
-                    )
-                };
-                let direction = direction.ok_or_else(|| job.wrong(expected(), &own.direction))?;
+                let direction = direction.ok_or_else(|| {
+                    let reason = is_not(
+                        &own.direction,
+                        "a direction x, y, z, rx, ry, rz or one of them after a minus sign",
+                    );
+                    job.refused(format!("sensor {}: {reason}", sensor.name))
+                })?;
                 (
                     own.grid,
                     direction,
@@ -77,10 +79,10 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
             (None, SensorRule::Name) => continue,
             (None, SensorRule::Grid) => {
                 let none = || {
-                    job.wrong(
-                        format!("a grid for sensor {}", sensor.name),
-                        "none in the test",
-                    )
+                    job.refused(format!(
+                        "sensor {} has no grid in the test; place it in [sensors]",
+                        sensor.name
+                    ))
                 };
                 (sensor.grid.ok_or_else(none)?, sensor.direction, 1.0)
             }
@@ -97,13 +99,13 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);
-        let far = distance
-            .filter(|at| !(0.0..=most).contains(at))
-            .map(|at| format!("grid {grid} at {at:.4}"));
-        job.refuse(
-            far,
-            format!("sensor {} within {most} of a grid", sensor.name),
-        )?;
+        let far = distance.filter(|distance| !(0.0..=most).contains(distance));
+        job.refuse_if(far, |far| {
+            format!(
+                "sensor {}: grid {grid} is {far:.4} away; sensors.distance allows {most}",
+                sensor.name
+            )
+        })?;
         placed.push(PlacedSensor {
             row,
             name: sensor.name.clone(),
@@ -124,18 +126,15 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
     } in &placed
     {
         let other = first.insert((*grid, *direction), name);
-        let both = other.map(|other| {
-            format!(
-                "{other} and {name} at grid {grid} {}",
-                DIRECTIONS[*direction]
-            )
-        });
-        job.refuse(both, "one sensor a degree of freedom")?;
+        job.refuse_if(other, |other| {
+            let direction = DIRECTIONS[*direction];
+            format!("sensors {other} and {name} are both at grid {grid}, direction {direction}")
+        })?;
     }
-    job.refuse(
-        placed.is_empty().then_some("none"),
-        "sensors of the test on the model",
-    )?;
+    let none = placed.is_empty().then_some(());
+    job.refuse_if(none, |()| {
+        "no sensor of the test is on the model; see [sensors]".to_owned()
+    })?;
     let entries = placed.iter().enumerate().flat_map(|(row, sensor)| {
         let motion = motion(source, sensor.grid, sensor.direction, sensor.axis);
         motion.map(move |(dof, coefficient)| (row, dof, coefficient))
@@ -167,15 +166,17 @@ fn motion(
     })
 }
 
-/// The nearest grid that moves in a sensor's direction; of two as near the one with the lower number.
+/// The nearest grid that moves in a sensor's direction; ties go to the lower number.
 fn nearest(job: &Job, sensor: &Sensor, source: &ModelSource) -> Result<usize, FileError> {
-    let missing = |what| {
-        job.wrong(
-            format!("a place of sensor {} and of the model's grids", sensor.name),
-            what,
-        )
+    let missing = |reason| {
+        let name = &sensor.name;
+        job.refused(format!(
+            "sensor {name} cannot be placed at the nearest grid: {reason}"
+        ))
     };
-    let at = sensor.place.ok_or_else(|| missing("none in the test"))?;
+    let at = sensor
+        .place
+        .ok_or_else(|| missing("the test does not say where it is"))?;
     let axis = sensor
         .axis
         .unwrap_or_else(|| Vector3::ith(sensor.direction % 3, 1.0));
@@ -188,5 +189,5 @@ fn nearest(job: &Job, sensor: &Sensor, source: &ModelSource) -> Result<usize, Fi
     let nearest = moving.min_by(|a, b| (a.1 - at).norm().total_cmp(&(b.1 - at).norm()));
     nearest
         .map(|(grid, _)| *grid)
-        .ok_or_else(|| missing("none in the model"))
+        .ok_or_else(|| missing("no grid of the model that could move it has a place"))
 }

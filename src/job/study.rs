@@ -1,7 +1,7 @@
-//! Many runs of one job: each sample is drawn from the study's seed and its own number alone, whatever ran before it.
+//! Many runs of one job: each sample depends on the study's seed and its own number alone, not on what ran before.
 
 use super::run::run_from;
-use super::{Finished, Job, Prepared};
+use super::{Job, JobResult, LoadedJob};
 use crate::files::error::FileError;
 use crate::files::test_data::quoted;
 use crate::method::modes::ModeSet;
@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Vary {
-    /// The test: every frequency and component by its standard deviation, see [`Prepared::deviations`].
+    /// The test: every frequency and component by its standard deviation, see [`LoadedJob::deviations`].
     Noise,
     /// The first point, instead of the job's: factors from 0.5 to 2, log-uniformly, brought within their bounds.
     Start,
@@ -27,7 +27,7 @@ pub enum Vary {
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The job as it is.
-    pub prepared: Prepared,
+    pub loaded: LoadedJob,
     /// The seed.
     pub seed: u64,
     /// What varies, each once, ascending.
@@ -40,15 +40,15 @@ impl Study {
     /// Reads a job to be run many times.
     ///
     /// # Errors
-    /// Those of [`Prepared::new`].
+    /// Those of [`LoadedJob::new`].
     pub fn new(path: &Path, seed: u64, vary: &[Vary]) -> Result<Self, FileError> {
-        let prepared = Prepared::new(path)?;
+        let loaded = LoadedJob::new(path)?;
         let mut vary = vary.to_vec();
         vary.sort_unstable();
         vary.dedup();
-        let identity = prepared.identity(&format!("{seed} {vary:?}"))?;
+        let identity = loaded.identity(&format!("{seed} {vary:?}"))?;
         Ok(Self {
-            prepared,
+            loaded,
             seed,
             vary,
             identity,
@@ -57,12 +57,7 @@ impl Study {
 
     /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
-        self.prepared
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .map(|parameter| parameter.name.as_str())
+        self.loaded.parameter_names()
     }
 
     /// The line above the samples.
@@ -77,13 +72,13 @@ impl Study {
     /// The job of a sample, and its first factors.
     ///
     /// # Errors
-    /// Those of [`with_noise_by_mode`] and [`Prepared::new`].
-    pub fn draw(&self, sample: u64) -> Result<(Prepared, Vec<f64>), FileError> {
-        let Prepared {
+    /// Those of [`with_noise_by_mode`] and [`LoadedJob::new`].
+    pub fn draw(&self, sample: u64) -> Result<(LoadedJob, Vec<f64>), FileError> {
+        let LoadedJob {
             job, data, source, ..
-        } = &self.prepared;
+        } = &self.loaded;
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
-        // A generator for each purpose: what varies beside it changes nothing of it.
+        // One generator per purpose, so that each draws the same whatever else varies.
         let generator = |what: Vary| {
             let parts = [self.seed, sample, what as u64];
             let state = parts
@@ -93,7 +88,7 @@ impl Study {
         };
         if let Some(seed) = generator(Vary::Noise) {
             let noise: Vec<Noise> = (0..data.frequencies_hz.len())
-                .map(|mode| self.prepared.deviations(mode))
+                .map(|mode| self.loaded.deviations(mode))
                 .collect();
             let noisy = with_noise_by_mode(
                 &ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?,
@@ -105,14 +100,14 @@ impl Study {
         generator(Vary::Subset)
             .into_iter()
             .for_each(|state| self.leave_out(&mut job, state));
-        let mut start = self.prepared.ones();
+        let mut start = self.loaded.ones();
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
                 let drawn = 0.5 * 4.0_f64.powf(uniform(&mut state));
                 *factor = range.map_or(drawn, |range| range.clamp(drawn));
             }
         }
-        Ok((Prepared::with(job, data, source.clone())?, start))
+        Ok((LoadedJob::with(job, data, source.clone())?, start))
     }
 
     /// Leaves out of a job up to half of its sensors or of its modes.
@@ -123,9 +118,9 @@ impl Study {
             .test
             .modes
             .clone()
-            .unwrap_or_else(|| (1..=self.prepared.data.frequencies_hz.len()).collect());
+            .unwrap_or_else(|| (1..=self.loaded.data.frequencies_hz.len()).collect());
         let count = if is_sensors {
-            self.prepared.placed.len()
+            self.loaded.placed.len()
         } else {
             numbers.len()
         };
@@ -139,10 +134,9 @@ impl Study {
         let (out, kept) = places.split_at_mut(out);
         kept.sort_unstable();
         if is_sensors {
-            job.sensors.leave_out.extend(
-                out.iter()
-                    .map(|&row| self.prepared.placed[row].name.clone()),
-            );
+            job.sensors
+                .leave_out
+                .extend(out.iter().map(|&row| self.loaded.placed[row].name.clone()));
             return;
         }
         job.test.modes = Some(kept.iter().map(|&place| numbers[place]).collect());
@@ -160,8 +154,8 @@ impl Study {
         }
     }
 
-    /// Runs a sample as [`super::run`] runs a job: its line as [`Self::header`] says, with [`Self::identity`] as its study, and why it
-    /// failed if it did, with nothing between outcome and study. `go_on` is asked on the way whether to.
+    /// Runs a sample as [`super::run`] runs a job. Returns its line, with the columns of [`Self::header`], and the error if it failed;
+    /// a failed sample has nothing between outcome and study. `go_on` says on the way whether to continue.
     ///
     /// # Errors
     /// [`FileError::Interrupted`] when it was not to go on.
@@ -170,15 +164,14 @@ impl Study {
         sample: u64,
         go_on: impl Fn() -> bool,
     ) -> Result<(String, Option<FileError>), FileError> {
-        let run = |(prepared, start): (Prepared, Vec<f64>)| {
-            run_from(&prepared, &start, &mut |_| {}, &go_on)
-        };
+        let run =
+            |(loaded, start): (LoadedJob, Vec<f64>)| run_from(&loaded, &start, &mut |_| {}, &go_on);
         let (numbers, failure) = match self.draw(sample).and_then(run) {
-            Ok(Finished {
+            Ok(JobResult {
                 is_interrupted: true,
                 ..
             }) => return Err(FileError::Interrupted),
-            Ok(Finished {
+            Ok(JobResult {
                 verdict,
                 analyses,
                 factors,

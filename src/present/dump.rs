@@ -1,7 +1,7 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
 use super::PresentError;
-use super::json::{document, iteration, rows};
+use super::json::{IterationValue, document, iteration, matrix_rows};
 use crate::files::matrices::write_matrix_market;
 use crate::method::inner_loop::Iteration;
 use crate::method::modes::solve;
@@ -10,6 +10,7 @@ use crate::method::structure::{DIRECTIONS, StructuralDof};
 use crate::sparse::SparseMatrix;
 use crate::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::iter::once;
 
@@ -22,7 +23,7 @@ pub struct Dump {
     pub matrices: Vec<(String, String)>,
 }
 
-/// Runs a case and writes down all that it computes.
+/// Runs a case and records everything it computes.
 ///
 /// `analyses` are the exact solutions: pass $p$ begins at the $p$-th and ends at the next. An iteration has $\Delta e$ and $\Delta k$ of
 /// every parameter where it began, the unlimited factors of (13), and the totals and errors where it ended.
@@ -51,13 +52,13 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
             ("V", &modes.shapes),
             ("B", &b),
         ] {
-            analysis[name] = rows(matrix);
+            analysis[name] = json!(matrix_rows(matrix));
             matrices.push(file(&format!("analysis_{number}_{name}"), matrix)?);
         }
         analysis["shares"] = dynamic
             .shares
             .iter()
-            .map(|share| rows(share.matrix()))
+            .map(|share| matrix_rows(share.matrix()))
             .collect();
         for (name, share) in names.iter().zip(&dynamic.shares) {
             matrices.push(file(
@@ -74,8 +75,8 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         "settings": case.settings,
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
-        "T": rows(model.load_distribution()),
-        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": rows(&result.test.shapes)},
+        "T": matrix_rows(model.load_distribution()),
+        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": matrix_rows(&result.test.shapes)},
         "analyses": analyses,
         "passes": passes.iter().map(pass).collect::<Value>(),
     }))?;
@@ -96,12 +97,27 @@ fn file(name: &str, matrix: &DMatrix<f64>) -> Result<(String, String), PresentEr
     Ok((format!("{name}.mtx"), write_matrix_market(&sparse)))
 }
 
+/// An iteration with the derivatives where it began.
+#[derive(Serialize)]
+struct StepValue<'a> {
+    #[serde(flatten)]
+    iteration: IterationValue<'a>,
+    error_changes: &'a [f64],
+    stiffness_changes: &'a [f64],
+}
+
 fn pass(pass: &Pass) -> Value {
     let whole = |step: &Iteration| {
-        let mut value = iteration(step);
-        value["error_changes"] = json!(step.error_changes);
-        value["stiffness_changes"] = json!(step.stiffness_changes);
-        value
+        let Iteration {
+            error_changes,
+            stiffness_changes,
+            ..
+        } = step;
+        json!(StepValue {
+            iteration: iteration(step),
+            error_changes,
+            stiffness_changes,
+        })
     };
     json!({
         "start_error_sum": pass.inner.start.sum(),

@@ -5,116 +5,203 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::PresentError;
-use super::subject::{Stage, Subject};
+use super::report::{Report, Stage};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Deck;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
-use crate::method::model::Check;
+use crate::method::model::{Check, Range};
+use crate::method::step::Limit;
 use crate::method::structure::DIRECTIONS;
+use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
 use nalgebra::DMatrix;
+use serde::Serialize;
 use serde_json::{Value, json};
+
+/// A document with its heading.
+#[derive(Serialize)]
+struct Document<T> {
+    program: &'static str,
+    version: &'static str,
+    units: &'static str,
+    #[serde(flatten)]
+    content: T,
+}
 
 /// A document with its heading as pretty-printed JSON and a final newline.
 ///
 /// # Errors
 /// [`PresentError::Json`], which memory alone could cause.
-pub fn document(content: Value) -> Result<String, PresentError> {
-    let mut document = json!({
-        "program": env!("CARGO_PKG_NAME"),
-        "version": env!("CARGO_PKG_VERSION"),
-        "units": "inch, pound-force, second, hertz; errors are fractions",
-    });
-    if let (Some(all), Value::Object(content)) = (document.as_object_mut(), content) {
-        all.extend(content);
-    }
+pub fn document(content: impl Serialize) -> Result<String, PresentError> {
+    let document = Document {
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        units: "inch, pound-force, second, hertz; errors are fractions",
+        content,
+    };
     Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
-/// Any correlation: its parameters by name, its test, what it came to, and its whole history.
-///
-/// # Errors
-/// Those of [`Subject::agreement`].
-pub fn subject(subject: &Subject) -> Result<Value, PresentError> {
-    let (mut initial, corrected) = (check(&subject.initial), subject.corrected());
-    initial["agreement"] = agreement(subject, &subject.initial)?;
-    let at_bound = |(e, factor): (usize, &f64)| subject.is_at_bound(e, *factor);
-    let factors = subject.factors();
-    Ok(json!({
-        "name": subject.title,
-        "solver": subject.solver,
-        "converged": subject.converged(),
-        "verdict": subject.verdict,
-        "verdict_in_words": subject.words(),
-        "parameters": subject.parameters,
-        "ranges": subject.ranges,
-        "factors": factors,
-        "standard_deviations": subject.deviations,
-        "at_bound": factors.iter().enumerate().map(at_bound).collect::<Vec<_>>(),
-        "best_pass": subject.best.map(|best| best + 1),
-        "test_frequencies_hz": subject.test.frequencies_hz(),
-        "sensors": subject.sensors.iter().map(|sensor| &sensor.name).collect::<Vec<_>>(),
-        "initial": initial,
-        "corrected_agreement": agreement(subject, corrected)?,
-        "passes": subject.stages.iter().map(stage).collect::<Value>(),
-        "derivatives": subject.derivatives.as_ref().map(|at| json!({
-            "frequency_percent_per_percent": rows(&at.frequency),
-            "error_sum_per_percent": at.error_sum,
-        })),
-    }))
+/// A report as the document has it.
+#[derive(Serialize)]
+struct ReportValue<'a> {
+    name: &'a str,
+    solver: &'a str,
+    converged: bool,
+    verdict: &'a Option<Verdict>,
+    verdict_in_words: String,
+    parameters: &'a [String],
+    ranges: &'a [Option<Range>],
+    factors: &'a [f64],
+    standard_deviations: &'a Option<Vec<f64>>,
+    at_bound: Vec<bool>,
+    best_pass: Option<usize>,
+    test_frequencies_hz: Vec<f64>,
+    sensors: Vec<&'a str>,
+    initial: SolutionValue<'a>,
+    corrected_agreement: AgreementValue,
+    passes: Vec<PassValue<'a>>,
+    derivatives: Option<DerivativesValue<'a>>,
+}
+
+/// An exact solution, and how its modes agree with the test's where that is asked for.
+#[derive(Serialize)]
+struct SolutionValue<'a> {
+    frequencies_hz: &'a [f64],
+    frequency_rms: f64,
+    shape_rms: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    agreement: Option<AgreementValue>,
 }
 
 /// Modal assurance and cross-orthogonality, analysis modes by test modes, and which analysis mode is paired, from one.
-fn agreement(subject: &Subject, check: &Check) -> Result<Value, PresentError> {
-    let found = subject.agreement(check)?;
-    Ok(json!({
-        "paired_analysis_modes": check.pairing.analysis_mode.iter().map(|mode| mode + 1).collect::<Vec<_>>(),
-        "modal_assurance": rows(&found.assurance),
-        "cross_orthogonality": found.orthogonality.as_ref().map(rows),
-    }))
+#[derive(Serialize)]
+struct AgreementValue {
+    paired_analysis_modes: Vec<usize>,
+    modal_assurance: MatrixRows,
+    cross_orthogonality: Option<MatrixRows>,
 }
 
-pub(super) fn rows(matrix: &DMatrix<f64>) -> Value {
-    matrix
-        .row_iter()
-        .map(|row| row.iter().copied().collect::<Vec<_>>())
-        .collect()
+#[derive(Serialize)]
+struct PassValue<'a> {
+    iterations: usize,
+    stop: Value,
+    unlimited_factors: Option<&'a [f64]>,
+    factors: &'a [f64],
+    exact: SolutionValue<'a>,
+    history: Vec<IterationValue<'a>>,
 }
 
-fn check(check: &Check) -> Value {
-    json!({
-        "frequencies_hz": check.frequencies_hz,
-        "frequency_rms": check.errors.frequency_rms(),
-        "shape_rms": check.errors.shape_rms(),
+#[derive(Serialize)]
+pub(super) struct IterationValue<'a> {
+    frequency_error: f64,
+    shape_error: f64,
+    error_sum: f64,
+    halvings: usize,
+    unlimited_factors: &'a [f64],
+    factors: &'a [f64],
+    limits: &'a [Limit],
+}
+
+#[derive(Serialize)]
+struct DerivativesValue<'a> {
+    frequency_percent_per_percent: MatrixRows,
+    error_sum_per_percent: &'a [f64],
+}
+
+/// Any correlation: its parameters by name, its test, its verdict, and its whole history.
+///
+/// # Errors
+/// Those of [`Report::agreement`].
+pub fn report(report: &Report) -> Result<Value, PresentError> {
+    let at_bound = |(e, factor): (usize, &f64)| report.is_at_bound(e, *factor);
+    let factors = report.factors();
+    let value = ReportValue {
+        name: &report.title,
+        solver: &report.solver,
+        converged: report.converged(),
+        verdict: &report.verdict,
+        verdict_in_words: report.words(),
+        parameters: &report.parameters,
+        ranges: &report.ranges,
+        factors: &factors,
+        standard_deviations: &report.deviations,
+        at_bound: factors.iter().enumerate().map(at_bound).collect(),
+        best_pass: report.best.map(|best| best + 1),
+        test_frequencies_hz: report.test.frequencies_hz(),
+        sensors: report
+            .sensors
+            .iter()
+            .map(|sensor| &sensor.name[..])
+            .collect(),
+        initial: SolutionValue {
+            agreement: Some(agreement(report, &report.initial)?),
+            ..solution(&report.initial)
+        },
+        corrected_agreement: agreement(report, report.corrected())?,
+        passes: report.stages.iter().map(pass).collect(),
+        derivatives: report.derivatives.as_ref().map(|at| DerivativesValue {
+            frequency_percent_per_percent: matrix_rows(&at.frequency),
+            error_sum_per_percent: &at.error_sum,
+        }),
+    };
+    Ok(serde_json::to_value(value)?)
+}
+
+fn agreement(report: &Report, check: &Check) -> Result<AgreementValue, PresentError> {
+    let found = report.agreement(check)?;
+    let modes = check.pairing.analysis_mode.iter();
+    Ok(AgreementValue {
+        paired_analysis_modes: modes.map(|mode| mode + 1).collect(),
+        modal_assurance: matrix_rows(&found.assurance),
+        cross_orthogonality: found.orthogonality.as_ref().map(matrix_rows),
     })
 }
 
-fn stage(stage: &Stage) -> Value {
+/// The rows of a matrix.
+pub(super) type MatrixRows = Vec<Vec<f64>>;
+
+pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
+    let rows = matrix.row_iter();
+    rows.map(|row| row.iter().copied().collect()).collect()
+}
+
+fn solution(check: &Check) -> SolutionValue<'_> {
+    SolutionValue {
+        frequencies_hz: &check.frequencies_hz,
+        frequency_rms: check.errors.frequency_rms(),
+        shape_rms: check.errors.shape_rms(),
+        agreement: None,
+    }
+}
+
+fn pass(stage: &Stage) -> PassValue<'_> {
     let inner = stage.inner.as_ref();
-    json!({
-        "iterations": inner.map_or(1, |inner| inner.iterations.len()),
-        "stop": inner.map_or_else(|| json!(stage.stop), |inner| json!(inner.stop)),
-        "unlimited_factors": inner.map(|inner| &inner.first_unlimited_factors),
-        "factors": stage.factors,
-        "exact": check(&stage.check),
-        "history": inner.iter().flat_map(|inner| &inner.iterations).map(iteration).collect::<Value>(),
-    })
+    let history = inner.map_or(&[][..], |inner| &inner.iterations);
+    PassValue {
+        iterations: inner.map_or(1, |inner| inner.iterations.len()),
+        stop: inner.map_or_else(|| json!(stage.stop), |inner| json!(inner.stop)),
+        unlimited_factors: inner.map(|inner| &inner.first_unlimited_factors[..]),
+        factors: &stage.factors,
+        exact: solution(&stage.check),
+        history: history.iter().map(iteration).collect(),
+    }
 }
 
-pub(super) fn iteration(iteration: &Iteration) -> Value {
-    json!({
-        "frequency_error": iteration.errors.frequency,
-        "shape_error": iteration.errors.shape,
-        "error_sum": iteration.errors.sum(),
-        "halvings": iteration.halvings,
-        "unlimited_factors": iteration.unlimited_factors,
-        "factors": iteration.factors,
-        "limits": iteration.limits,
-    })
+pub(super) fn iteration(iteration: &Iteration) -> IterationValue<'_> {
+    IterationValue {
+        frequency_error: iteration.errors.frequency,
+        shape_error: iteration.errors.shape,
+        error_sum: iteration.errors.sum(),
+        halvings: iteration.halvings,
+        unlimited_factors: &iteration.unlimited_factors,
+        factors: &iteration.factors,
+        limits: &iteration.limits,
+    }
 }
 
 /// The history of the cases run.
@@ -132,7 +219,7 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "settings": result.case.settings,
         "outcome": outcome(result),
         "succeeded": result.succeeded(),
-        "correlation": subject(&Subject::of_case(result)?)?,
+        "correlation": report(&Report::from_case(result)?)?,
         "published_iterations": published_iterations(result)?,
         "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
         "test_gage_in": TEST_GAGE,

@@ -16,7 +16,7 @@ const PUBLISHED: &str = "  published";
 /// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below
 /// itself with the columns that are left. (One label or cell wider than the page alone is left whole.)
 pub fn text(tables: &[Table]) -> String {
-    let head = "Computed numbers, the published ones in rows of their own below them.";
+    let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
         let notes = table.notes.iter().map(|note| wrapped(note));
         std::iter::once(wrapped(&table.title))
@@ -28,7 +28,7 @@ pub fn text(tables: &[Table]) -> String {
 
 /// Tables as Markdown; each computed number has the published one behind it in parentheses.
 pub fn markdown(tables: &[Table]) -> String {
-    let head = "Computed numbers, the published ones behind them in parentheses.";
+    let head = "Computed values; the paper's follow in parentheses.";
     paragraphs(tables, head, |table| {
         let headings = table.columns.iter().map(|column| match column.unit {
             "" => column.name.clone(),
@@ -101,7 +101,7 @@ pub fn csv(tables: &[Table]) -> String {
     out
 }
 
-/// A field of CSV, in quotes if it holds what would end it.
+/// A field of CSV, in quotes if it contains a separator, quote or line end.
 fn quoted(field: &str) -> String {
     let ends = field.contains([',', '"', '\n', '\r']);
     if ends {
@@ -194,7 +194,7 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
         .map(|column| column.heading.len())
         .max()
         .unwrap_or(0);
-    // Headings stand on the rule: the shorter ones begin lower.
+    // Headings are aligned to the rule below: shorter ones begin lower.
     let heading =
         |column: &TextColumn, at: usize| match (at + column.heading.len()).checked_sub(high) {
             Some(row) => column.heading[row].clone(),

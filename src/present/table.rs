@@ -21,7 +21,7 @@ pub enum Cell {
     Blank,
     /// Words.
     Text(String),
-    /// What the paper prints, with nothing computed beside it.
+    /// The paper's own text, with nothing computed for it.
     Printed(String),
     /// A number, and the one printed elsewhere for it if there is any.
     Number {
@@ -47,7 +47,7 @@ pub struct Column {
 /// One row: its label, then a cell per column.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
-    /// What it is about, for example mode 3.
+    /// The subject of the row, for example mode 3.
     pub label: String,
     /// Cells, as many as the table has columns.
     pub cells: Vec<Cell>,
@@ -71,7 +71,7 @@ pub struct Table {
 }
 
 impl Cell {
-    /// A number, or nothing, beside the published one if there is any.
+    /// A number, or nothing, with the published one if there is any.
     pub fn beside(
         computed: impl Into<Option<f64>>,
         digits: Digits,
@@ -101,7 +101,7 @@ impl Cell {
         Self::Text(words.into())
     }
 
-    /// The published number behind it.
+    /// The published number for it.
     pub fn published(&self) -> Option<String> {
         match self {
             Self::Number {

@@ -1,4 +1,4 @@
-//! What a correlation came to, in words.
+//! The verdict on a correlation in words.
 
 use crate::method::verdict::{Outcome, Verdict};
 
@@ -8,28 +8,22 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String]) -> String {
         let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
     };
-    let within = if verdict.is_within {
-        "within tolerance"
-    } else {
-        "outside tolerance"
+    let end = match verdict.outcome {
+        Outcome::Tolerance => "",
+        Outcome::LocalMinimum => " No further step lowered it.",
+        Outcome::Cap => " The iterations or passes allowed ran out.",
+        Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",
     };
-    let mut words = match verdict.outcome {
-        Outcome::Tolerance => "Within tolerance".to_owned(),
-        Outcome::LocalMinimum => format!("Stopped at a local minimum, {within}"),
-        Outcome::Cap => {
-            "Stopped by the number of iterations or passes allowed, outside tolerance".to_owned()
-        }
-        Outcome::Nothing => {
-            "Nothing could be done, outside tolerance: no step from the first model lowers the \
-                             error sum, or none was allowed"
-                .to_owned()
-        }
-    };
-    words += &format!(
-        ": error sum {:.2} %. Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
+    let mut words = format!(
+        "{} tolerance: error sum {:.2} %.{end} Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
+        if verdict.is_within {
+            "Within"
+        } else {
+            "Outside"
+        },
         100.0 * verdict.error_sum,
         verdict.worst_mode + 1,
-        // Rounded first, so that no zero has a minus sign.
+        // Rounding first keeps a minus sign off zero.
         (1e4 * verdict.worst.frequency).round() / 100.0 + 0.0,
         100.0 * verdict.worst.shape
     );

@@ -1,7 +1,7 @@
 //! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
 
 use super::command_meant;
-use super::output::{OutputArguments, reconstruction, say};
+use super::output::{OutputArguments, note, reconstruction};
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
@@ -20,7 +20,7 @@ pub struct CasesArguments {
     cases: Vec<usize>,
     #[command(flatten)]
     output: OutputArguments,
-    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    /// Torque box to use instead of the built-in one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
     /// Scale covers, spars and ribs as groups instead of every panel on its own
@@ -61,7 +61,7 @@ fn chosen(
             }
             .into());
         }
-        let mut case = Case::on(number, reconstruction.clone())?;
+        let mut case = Case::from_reconstruction(number, reconstruction.clone())?;
         arguments.settings.apply(&mut case.settings)?;
         if arguments.groups {
             case.grouping = Grouping::Substructures;
@@ -74,14 +74,14 @@ fn chosen(
 /// Runs the cases asked for and writes the report; whether all of them succeeded.
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
-    let solver = Solver::of(&arguments.solver)?;
+    let solver = Solver::from_arguments(&arguments.solver)?;
     let mut results = Vec::new();
     for case in chosen(arguments, &reconstruction)? {
         let number = case.number;
         let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
         results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
             if !quiet {
-                say(format_args!(
+                note(format_args!(
                     "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
                     counted(done.inner.iterations.len(), "iteration", "iterations"),
                     done.inner.last.errors().sum(),
@@ -94,9 +94,9 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
     if arguments.cases.is_empty() {
         tables.push(tables::published::root_error_table()?);
     }
-    let held = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
+    let here = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
     if let Some(last) = tables.last_mut() {
-        last.notes.push(held);
+        last.notes.push(here);
     }
     arguments.output.write(&tables, || json::cases(&results))?;
     Ok(results.iter().all(CaseResult::succeeded))

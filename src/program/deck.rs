@@ -1,7 +1,7 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, reconstruction, say};
-use super::place::put;
+use super::output::{OutputArguments, note, reconstruction};
+use super::place::write_report;
 use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
@@ -24,13 +24,13 @@ pub struct DeckArguments {
     /// Which case
     #[arg(value_name = "CASE")]
     case: usize,
-    /// The gages after this pass of its correlation instead of the first ones
+    /// Use the gages after this pass of the correlation instead of the first ones
     #[arg(long, value_name = "N", default_value_t = 0)]
     pass: usize,
-    /// Write the deck to this file instead of standard output, which is also -
+    /// Write the deck to this file instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Use another torque box than the reconstructed one (a file like paper/reconstruction.toml)
+    /// Torque box to use instead of the built-in one (a file like paper/reconstruction.toml)
     #[arg(long = "box", value_name = "FILE")]
     box_file: Option<PathBuf>,
 }
@@ -42,17 +42,17 @@ pub struct ModesArguments {
     deck: PathBuf,
     #[command(flatten)]
     output: OutputArguments,
-    /// How many modes, from the lowest; 100 if not given, or all with a finite frequency if there are fewer
+    /// How many of the lowest modes; 100 if not given, or all with a finite frequency if there are fewer
     #[arg(short, long, value_name = "N")]
     count: Option<NonZeroUsize>,
-    /// Leave out cards of these names that are not understood; the report repeats them
+    /// Leave out cards of these names although corfem does not read them; the report lists them
     #[arg(long, value_name = "CARD", value_delimiter = ',')]
     ignore: Vec<String>,
 }
 
 /// Writes the deck of a case.
 pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
-    let case = Case::on(
+    let case = Case::from_reconstruction(
         arguments.case,
         reconstruction(arguments.box_file.as_deref())?,
     )?;
@@ -75,9 +75,9 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
         // A deck is easier to read with round numbers.
         range_hz: [(RANGE[0] * lowest).floor(), (RANGE[1] * highest).ceil()],
     };
-    let bulk = BulkData::of(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
+    let bulk = BulkData::from_model(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    put(
+    write_report(
         arguments.output.as_deref(),
         &deck::write(&bulk, &title, &task)?,
     )
@@ -90,7 +90,7 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
         std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
     let deck = deck::read(&name, &bytes, &arguments.ignore)?;
     for card in &deck.unread {
-        say(format_args!("corfem: {name}: {}", not_read(card)));
+        note(format_args!("corfem: {name}: {}", not_read(card)));
     }
     let modes = deck::modes(
         &deck.model,

@@ -15,7 +15,7 @@ pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
     let check = || match fs::metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(
             ErrorKind::InvalidInput,
-            "standard output is no folder",
+            "standard output is not a folder",
         )),
         Ok(_) => probe(folder),
         Err(_) => probe(folder.parent().unwrap_or(folder)),
@@ -25,7 +25,11 @@ pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
 
 /// Writes the files of a run, by name and text, into a folder, made if it is new. `run` is the command with what it
 /// read, and has no clock in it: the same run writes the same bytes.
-pub fn put_all(folder: &Path, files: &[(String, Vec<u8>)], run: &str) -> Result<(), PresentError> {
+pub fn write_files(
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+    run: &str,
+) -> Result<(), PresentError> {
     if !folder.is_dir() {
         fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
     }

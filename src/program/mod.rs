@@ -21,9 +21,9 @@ use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
-use output::say;
+use output::note;
 use pictures::{DumpArguments, FolderArguments};
-use place::{check, put};
+use place::{check, write_report};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use studies::{FewerModesArguments, TablesArguments};
@@ -44,7 +44,7 @@ struct Arguments {
     command: Option<Command>,
     #[command(flatten)]
     cases: CasesArguments,
-    /// Do not report progress
+    /// Show no progress
     #[arg(short, long, global = true)]
     quiet: bool,
 }
@@ -67,9 +67,9 @@ enum Command {
     Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
-    /// Correct the model of your own structure: a deck or matrices, and a ground vibration test, as a job file names them
+    /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
     Correlate(CorrelateArguments),
-    /// Run a job many times with its test varied, and say how its factors scatter
+    /// Run a job many times with its test varied, and report how its factors scatter
     Study(StudyArguments),
     /// Write a job file, or the table of a test, that explains its entries
     Init(InitArguments),
@@ -112,7 +112,7 @@ pub fn run() -> ExitCode {
             } else {
                 asked.render().to_string()
             };
-            return status(put(None, &text).map(|()| true));
+            return status(write_report(None, &text).map(|()| true));
         }
     };
     status(check_places(&matches).and_then(|()| match command {
@@ -151,7 +151,7 @@ fn status(done: Result<bool, PresentError>) -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NOT_CONVERGED),
         Err(error) => {
-            say(format_args!("corfem: {error}"));
+            note(format_args!("corfem: {error}"));
             ExitCode::from(BAD_INPUT)
         }
     }

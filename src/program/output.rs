@@ -1,6 +1,6 @@
-//! What commands read and write: the box, reports with the same options for every command, and words for the user.
+//! Input and output that commands share: the torque box, the options of reports, and notes to the user.
 
-use super::place::put;
+use super::place::write_report;
 use clap::{Args, ValueEnum};
 use corfem::files::error::FileError;
 use corfem::files::escaped;
@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// How to write the report
+    /// Format of the report
     #[arg(short, long, value_enum, default_value = "text")]
     format: FormatArgument,
-    /// Write the report to this file instead of standard output, which is also -
+    /// Write the report to this file instead of standard output (-)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -28,7 +28,7 @@ enum FormatArgument {
     Markdown,
     /// The whole history as JSON
     Json,
-    /// One number a line
+    /// One number per line
     Csv,
 }
 
@@ -45,12 +45,12 @@ impl OutputArguments {
             FormatArgument::Json => json()?,
             FormatArgument::Csv => render::csv(tables),
         };
-        self.put(&report)
+        self.write_text(&report)
     }
 
     /// Writes a text where the report would go.
-    pub fn put(&self, text: &str) -> Result<(), PresentError> {
-        put(self.output.as_deref(), text)
+    pub fn write_text(&self, text: &str) -> Result<(), PresentError> {
+        write_report(self.output.as_deref(), text)
     }
 }
 
@@ -63,7 +63,7 @@ pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Present
     Ok(Reconstruction::parse(&path.display().to_string(), &text)?)
 }
 
-/// Says something on standard error, with control characters shown. Nobody may be there to hear it.
-pub fn say(words: impl std::fmt::Display) {
+/// Prints a line on standard error, with control characters escaped. A closed standard error is no reason to fail.
+pub fn note(words: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", escaped(&words.to_string()));
 }

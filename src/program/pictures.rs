@@ -1,8 +1,8 @@
 //! `corfem figures`, `corfem report` and `corfem dump`: files in a folder.
 
-use super::folder::put_all;
-use super::output::say as tell;
-use super::place::put;
+use super::folder::write_files;
+use super::output::note;
+use super::place::write_report;
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct FolderArguments {
-    /// Write into this folder, made if it is new (also as --out)
+    /// Write into this folder, created if new (also --out)
     #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
     folder: PathBuf,
 }
@@ -27,7 +27,7 @@ pub fn pictures(
     as_page: bool,
     quiet: bool,
 ) -> Result<(), PresentError> {
-    let say = |words: String| (!quiet).then(|| tell(words));
+    let say = |words: String| (!quiet).then(|| note(words));
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
@@ -47,7 +47,7 @@ pub fn pictures(
             figures: &figures,
             command: &format!("corfem report --output {}", folder.display()),
         })?;
-        put_all(
+        write_files(
             folder,
             &[("report.html".to_owned(), html.into_bytes())],
             "report",
@@ -58,7 +58,7 @@ pub fn pictures(
             .into_iter()
             .map(|figure| (figure.name + ".svg", figure.svg.into_bytes()))
             .collect();
-        put_all(folder, &files, "figures")?;
+        write_files(folder, &files, "figures")?;
         say(format!("{} files in {}", files.len(), folder.display()));
     }
     Ok(())
@@ -69,8 +69,8 @@ pub struct DumpArguments {
     /// Which case
     #[arg(value_name = "CASE")]
     case: usize,
-    /// Write dump.json and every matrix in the format of the Matrix Market into this folder, made if it is new, instead of the
-    /// JSON document alone to standard output
+    /// Write dump.json and every matrix in the format of the Matrix Market into this folder, created if new, instead of only
+    /// the JSON document to standard output
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
 }
@@ -79,7 +79,7 @@ pub struct DumpArguments {
 pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> {
     let dump = open(&Case::new(arguments.case)?)?;
     let Some(folder) = &arguments.folder else {
-        return put(None, &dump.json);
+        return write_report(None, &dump.json);
     };
     let mut files = vec![("dump.json".to_owned(), dump.json.into_bytes())];
     files.extend(
@@ -87,9 +87,9 @@ pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> 
             .into_iter()
             .map(|(name, text)| (name, text.into_bytes())),
     );
-    put_all(folder, &files, &format!("dump {}", arguments.case))?;
+    write_files(folder, &files, &format!("dump {}", arguments.case))?;
     if !quiet {
-        tell(format_args!(
+        note(format_args!(
             "{} files in {}",
             files.len(),
             folder.display()

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 /// Where a report goes.
 enum OutputPlace {
     StandardOutput,
-    /// What is there and no regular file.
-    Through(PathBuf),
+    /// An existing path that is not a regular file, such as a pipe.
+    Device(PathBuf),
     /// A regular file, or a new one; links are followed.
     File(PathBuf),
 }
@@ -19,17 +19,19 @@ enum OutputPlace {
 pub fn check(path: &Path) -> Result<(), PresentError> {
     let check = || match place(Some(path))? {
         OutputPlace::File(path) => probe(path.parent().unwrap_or(&path)),
-        // A pipe is not opened yet: that is to wait for its reader.
-        OutputPlace::StandardOutput | OutputPlace::Through(_) => Ok(()),
+        // A pipe is not opened yet, because that waits for its reader.
+        OutputPlace::StandardOutput | OutputPlace::Device(_) => Ok(()),
     };
     Ok(check().map_err(FileError::of_file(named(Some(path)), "write"))?)
 }
 
 /// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
-pub fn put(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
+pub fn write_report(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
     let write = || match place(path)? {
-        OutputPlace::StandardOutput => to(std::io::stdout().lock(), text),
-        OutputPlace::Through(path) => to(OpenOptions::new().append(true).open(path)?, text),
+        OutputPlace::StandardOutput => write_all_to(std::io::stdout().lock(), text),
+        OutputPlace::Device(path) => {
+            write_all_to(OpenOptions::new().append(true).open(path)?, text)
+        }
         OutputPlace::File(path) => replace(&path, text.as_bytes()),
     };
     Ok(write().map_err(FileError::of_file(named(path), "write"))?)
@@ -57,15 +59,15 @@ fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
     match std::fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
         Ok(found) if is_standard_output(&found) => return Ok(OutputPlace::StandardOutput),
-        Ok(found) if !found.is_file() => return Ok(OutputPlace::Through(path.to_owned())),
+        Ok(found) if !found.is_file() => return Ok(OutputPlace::Device(path.to_owned())),
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}
     }
     let mut path = path.to_owned();
     while let Ok(target) = std::fs::read_link(&path) {
         if is_descriptor(&path) {
-            // A file that is open already is written on, from its end.
-            return Ok(OutputPlace::Through(path));
+            // A file that is already open is appended to.
+            return Ok(OutputPlace::Device(path));
         }
         path = path.parent().unwrap_or(Path::new("")).join(target);
     }
@@ -96,20 +98,20 @@ fn is_standard_output(_: &Metadata) -> bool {
     false
 }
 
-/// Writes all of a text. A reader that has seen enough closes the pipe; that is no error of ours.
-fn to(mut out: impl Write, text: &str) -> io::Result<()> {
+/// Writes a whole text. A reader that closes the pipe early is not an error.
+fn write_all_to(mut out: impl Write, text: &str) -> io::Result<()> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         done => done,
     }
 }
 
-/// Puts a whole new file that is on the disk in the place of a file, or where none is. It has the rights of any new file.
+/// Writes a new file completely and syncs it before it takes the place of the old one, if any. It has the rights of any new file.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(io::Error::new(
             ErrorKind::AlreadyExists,
-            "something else than a file stands there",
+            "it exists and is not a regular file",
         ));
     }
     match OpenOptions::new().write(true).open(path) {

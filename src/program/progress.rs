@@ -12,7 +12,7 @@ pub fn spinner(quiet: bool) -> ProgressBar {
     )
 }
 
-/// Does work with words beside its time.
+/// Does work while showing its name and time.
 pub fn during<T>(quiet: bool, words: &'static str, work: impl FnOnce() -> T) -> T {
     let bar = spinner(quiet);
     bar.set_message(words);
@@ -21,7 +21,7 @@ pub fn during<T>(quiet: bool, words: &'static str, work: impl FnOnce() -> T) -> 
     done
 }
 
-/// So many things to do.
+/// Work of known length: a bar and the time left.
 pub fn bar(quiet: bool, count: u64) -> ProgressBar {
     shown(
         ProgressBar::new(count),

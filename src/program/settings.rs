@@ -17,7 +17,7 @@ pub struct SettingsArguments {
     /// How the step measures a change of stiffness: matrix, own, relative or gage
     #[arg(long, value_name = "RULE", value_parser = rule)]
     rule: Option<StepRule>,
-    /// How changes of several iterations come together: sum or product
+    /// How changes of several iterations combine: sum or product
     #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>)]
     accumulation: Option<Accumulation>,
     /// Relaxation R of a pass's first iteration, and of the others

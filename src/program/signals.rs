@@ -1,4 +1,4 @@
-//! The signals that ask a program to stop: held while files are put in place or another program runs, then obeyed.
+//! The signals that ask a program to stop: postponed while files are written or another program runs, then obeyed.
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -12,20 +12,20 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Whether the signals end the program at once, as they do by default.
 static FREE: AtomicBool = AtomicBool::new(true);
-/// How many hold them.
+/// How many postpone them.
 static HOLDERS: AtomicUsize = AtomicUsize::new(0);
-/// The last signal that came while they did not; 0 for none.
+/// The last signal that came while they were postponed; 0 for none.
 static CAME: AtomicUsize = AtomicUsize::new(0);
 
-/// The signals are held as long as this or another one lives; one that came meanwhile ends the program then.
-pub struct Held(());
+/// Signals are postponed as long as any of these lives; one that came meanwhile then ends the program.
+pub struct PostponedSignals(());
 
-/// Holds the signals.
-pub fn hold() -> Held {
+/// Postpones the signals.
+pub fn postpone() -> PostponedSignals {
     take_over();
     HOLDERS.fetch_add(1, SeqCst);
     FREE.store(false, SeqCst);
-    Held(())
+    PostponedSignals(())
 }
 
 /// Takes the signals over from the operating system, once.
@@ -40,7 +40,7 @@ fn take_over() {
     });
 }
 
-impl Drop for Held {
+impl Drop for PostponedSignals {
     fn drop(&mut self) {
         if HOLDERS.fetch_sub(1, SeqCst) > 1 {
             return;
@@ -54,8 +54,8 @@ impl Drop for Held {
     }
 }
 
-/// Sets the flag too when one of the signals comes while they are held.
-pub fn tell(stop: &Arc<AtomicBool>) {
+/// Sets the flag when one of the signals comes while they are postponed.
+pub fn set_on_signal(stop: &Arc<AtomicBool>) {
     take_over();
     for signal in asked_for() {
         let _ = flag::register(signal, Arc::clone(stop));

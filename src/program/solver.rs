@@ -37,7 +37,7 @@ pub struct Solver(Option<Nastran95>);
 
 impl Solver {
     /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
-    pub fn of(arguments: &SolverArguments) -> Result<Self, PresentError> {
+    pub fn from_arguments(arguments: &SolverArguments) -> Result<Self, PresentError> {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self(None));
         }
@@ -53,7 +53,7 @@ impl Solver {
             .unwrap_or_else(default_folder);
         let mut nastran = Nastran95::in_folder(&folder)?;
         nastran.time_limit = Duration::from_secs(arguments.time_limit.into());
-        signals::tell(&nastran.stop);
+        signals::set_on_signal(&nastran.stop);
         Ok(Self(Some(nastran)))
     }
 
@@ -72,7 +72,7 @@ impl Solver {
             return Ok(model.clone());
         };
         // A signal stops the run first, which removes its files, and then this program.
-        let _held = signals::hold();
+        let _postponed = signals::postpone();
         Ok(nastran.elements(model, factors)?)
     }
 }

@@ -1,8 +1,8 @@
-//! `corfem study`: a job many times, its test varied by what it may be wrong by.
+//! `corfem study`: runs a job many times with its test varied within its uncertainty.
 
-use super::folder::put_all;
+use super::folder::write_files;
 use super::job::file_name;
-use super::output::{OutputArguments, say};
+use super::output::{OutputArguments, note};
 use super::settings::named;
 use super::{progress, signals};
 use clap::Args;
@@ -27,19 +27,19 @@ pub struct StudyArguments {
     /// How many samples
     #[arg(long, value_name = "N", required_unless_present = "sample", value_parser = clap::value_parser!(u64).range(1..))]
     samples: Option<u64>,
-    /// The seed: sample and seed alone decide what is drawn
+    /// Seed of the random numbers; each sample depends on it and its own number alone
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// What varies: noise on the test by its standard deviations, the start, and which subset of sensors or modes is used
+    /// What varies: noise (the test, by its standard deviations), start (the first factors), subset (sensors or modes left out)
     #[arg(long, value_delimiter = ',', default_value = "noise", value_parser = named::<Vary>)]
     vary: Vec<Vary>,
-    /// The folder of samples.csv, made if it is new, which is gone on with, and of summary.csv and histogram.svg
+    /// Results folder (samples.csv, summary.csv, histogram.svg), created if new; an unfinished study in it is resumed
     #[arg(long, value_name = "DIR", required_unless_present = "sample")]
     folder: Option<PathBuf>,
-    /// How many samples are run at a time; as many as there are cores if not given
+    /// How many samples to run at a time; the number of cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     threads: Option<u32>,
-    /// Run this one sample alone, and write its line instead of a report
+    /// Run only this sample and write its line instead of a report
     #[arg(long, value_name = "K", conflicts_with_all = ["samples", "folder", "threads"], value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
     #[command(flatten)]
@@ -50,15 +50,15 @@ pub struct StudyArguments {
 pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError> {
     let study = Study::new(&arguments.job, arguments.seed, &arguments.vary)?;
     let stop = Arc::new(AtomicBool::new(false));
-    signals::tell(&stop);
-    // Held until what is done is written, so that a request to stop ends the program then.
-    let _held = signals::hold();
+    signals::set_on_signal(&stop);
+    // Postponed until what is done is written, so that a request to stop ends the program then.
+    let _postponed = signals::postpone();
     let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
         failure
             .into_iter()
-            .for_each(|failure| say(format_args!("corfem: {failure}")));
-        return arguments.output.put(&line);
+            .for_each(|failure| note(format_args!("corfem: {failure}")));
+        return arguments.output.write_text(&line);
     };
     if !folder.is_dir() {
         std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
@@ -84,7 +84,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
                         return;
                     };
                     let (file, done) = &mut *written.lock().unwrap_or_else(PoisonError::into_inner);
-                    // Behind a line that is torn nothing is written.
+                    // Write nothing after a torn line.
                     if done.is_err() {
                         return;
                     }
@@ -102,8 +102,8 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         .filter(|sample| !samples.contains(*sample))
         .count();
     if left > 0 {
-        say(format_args!(
-            "corfem: stopped by request; {} of {last} samples are done, and the same command goes on",
+        note(format_args!(
+            "corfem: stopped by request; {} of {last} samples are done; the same command resumes",
             last - left as u64
         ));
         return Ok(());
@@ -115,7 +115,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         ("summary.csv", render::csv(&tables)),
         ("histogram.svg", figure),
     ];
-    put_all(
+    write_files(
         folder,
         &files.map(|(name, text)| (name.to_owned(), text.into_bytes())),
         &format!(

@@ -56,7 +56,7 @@ impl Agreement {
         }
     }
 
-    fn of(check: &Check) -> Self {
+    fn from_check(check: &Check) -> Self {
         Self::new(&check.modes, &check.pairing, &check.errors)
     }
 }
@@ -140,10 +140,10 @@ pub fn fewer_modes_run(
             .iter()
             .map(|iteration| iteration.errors.sum())
             .collect(),
-        initial: Agreement::of(&correlation.initial),
+        initial: Agreement::from_check(&correlation.initial),
         inner: Agreement::new(&last.modes, &last.pairing, &last.errors),
-        exact: Agreement::of(&pass.check),
-        exact_all_modes: Agreement::of(&all_modes),
+        exact: Agreement::from_check(&pass.check),
+        exact_all_modes: Agreement::from_check(&all_modes),
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
         gages_in: gages,

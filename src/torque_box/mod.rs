@@ -26,7 +26,7 @@ use crate::torque_box::wing_box::{
 /// Numbers of the paper's cases.
 pub const CASES: [usize; 4] = [1, 2, 3, 4];
 
-/// What the correlation scales as one.
+/// The panels that share one factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Grouping {
     /// Every panel on its own, as in the paper's tables.
@@ -44,7 +44,7 @@ const SUBSTRUCTURES: [(&str, &[usize]); 3] = [
     ("ribs", &[7, 12, 13]),
 ];
 
-/// A case: what the structure really is, what the model says it is, and how it is correlated.
+/// A case: the true structure, the wrong model of it, and how it is correlated.
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Its number, 1 to 4.
@@ -57,7 +57,7 @@ pub struct Case {
     pub rod_area: f64,
     /// Bounds on the gages, in, if the paper set any.
     pub gage_range: Option<Range>,
-    /// What is scaled together.
+    /// Which panels share a factor.
     pub grouping: Grouping,
     /// Tolerances and passes.
     pub settings: Settings,
@@ -67,16 +67,19 @@ impl Case {
     /// A case of the paper on the embedded box.
     ///
     /// # Errors
-    /// [`CaseError::UnknownCase`] for another number; those of [`Self::on`].
+    /// [`CaseError::UnknownCase`] for another number; those of [`Self::from_reconstruction`].
     pub fn new(number: usize) -> Result<Self, CaseError> {
-        Self::on(number, Reconstruction::embedded()?)
+        Self::from_reconstruction(number, Reconstruction::embedded()?)
     }
 
     /// A case of the paper on a given box.
     ///
     /// # Errors
     /// [`CaseError::UnknownCase`] for another number; [`CaseError::Table`] if Table 2 were damaged.
-    pub fn on(number: usize, reconstruction: Reconstruction) -> Result<Self, CaseError> {
+    pub fn from_reconstruction(
+        number: usize,
+        reconstruction: Reconstruction,
+    ) -> Result<Self, CaseError> {
         if !CASES.contains(&number) {
             return Err(CaseError::UnknownCase { found: number });
         }

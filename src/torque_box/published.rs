@@ -1,7 +1,7 @@
 //! The paper's own tables, as printed, from `paper/tables/`.
 //!
-//! They stand beside the computed numbers in reports and are what tests compare with. Nothing is computed from
-//! them except the definitions of the cases (Table 2).
+//! Reports show them next to the computed numbers, and tests compare with them. Only the definitions of the cases (Table 2)
+//! are computed from them.
 
 use crate::torque_box::error::CaseError;
 use std::collections::HashMap;
@@ -13,7 +13,7 @@ macro_rules! tables {
 }
 const TABLES: [(usize, &str); 12] = tables!(2 3 4 5 6 7 8 9 10 11 12 13);
 
-/// How comments begin that say what is wrong with the print.
+/// The beginning of comments that note misprints.
 const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
 
 /// One published table: text cells by row label and column heading.
@@ -29,7 +29,7 @@ pub struct PublishedTable {
     pub headings: Vec<String>,
     /// Row labels, in the order printed.
     pub labels: Vec<String>,
-    /// What is wrong with the print, one sentence each: its misprints and inconsistencies.
+    /// The misprints and inconsistencies, one sentence each.
     pub remarks: Vec<String>,
     cells: HashMap<(String, String), String>,
 }

@@ -74,7 +74,7 @@ impl CaseResult {
     }
 }
 
-/// Correlates a case; `progress` is told of every pass.
+/// Correlates a case; `progress` is called after every pass.
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.

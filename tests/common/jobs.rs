@@ -63,7 +63,7 @@ pub fn torque_box() -> Files {
     let model = case.model().expect("a model");
     let points = dynamic_points(&case.reconstruction).expect("points");
     let ones = vec![1.0; model.parameters().len()];
-    let bulk = BulkData::of(&model, &ones, &points).expect("a deck");
+    let bulk = BulkData::from_model(&model, &ones, &points).expect("a deck");
     let grids: Vec<usize> = bulk.ties.iter().map(|tie| tie.dependent.grid).collect();
     let noisy = with_noise(&case.test_modes().expect("modes"), Noise::USUAL, SEED).expect("noise");
     let sensors = grids
@@ -205,7 +205,7 @@ pub fn delta_wing() -> Files {
         );
     }
     let deck = deck::write(
-        &BulkData::of_structure(model.structure()),
+        &BulkData::from_structure(model.structure()),
         "delta wing",
         &task(),
     )

@@ -6,14 +6,14 @@ use super::known::delta_wing::correlation::{
 };
 use super::known::recovered;
 use corfem::present::PresentError;
-use corfem::present::subject::{Derivatives, SensorPoint, Subject};
+use corfem::present::report::{Derivatives, Report, SensorPoint};
 use nalgebra::Vector3;
 
 /// The delta wing with wrong gages.
 ///
 /// # Errors
 /// Those of its model.
-pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Subject, PresentError> {
+pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, PresentError> {
     let names = GROUPS.map(|group| group.name.to_owned());
     let model = first_model(wing)?;
     let structure = model.structure();
@@ -27,23 +27,23 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Subject, 
     let sensor = |label| up(format!("{label} z"), place(label).unwrap_or_default());
     let held = structure.grids().iter().filter(|grid| grid.constrained[2]);
     let first = model.analyze(&[1.0; GROUPS.len()], &run.test, None)?;
-    Ok(Subject {
+    Ok(Report {
         title: "Delta wing with wrong gages".to_owned(),
         solver: run.solver.to_owned(),
         ranges: model.factor_ranges()?,
         supports: held.map(|grid| grid.position).collect(),
         sensors: measured_grids(structure).into_iter().map(sensor).collect(),
         mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
-        derivatives: Some(Derivatives::of(&first)?),
+        derivatives: Some(Derivatives::at(&first)?),
         truth: GROUPS.iter().map(Group::true_factor).collect(),
-        ..Subject::of(
+        ..Report::from_correlation(
             "delta_wing",
             &names,
             &run.test,
             &run.correlation.initial,
             Some(&run.correlation),
         )
-        .on(structure)
+        .with_structure(structure)
     })
 }
 
@@ -51,7 +51,7 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Subject, 
 ///
 /// # Errors
 /// Those of both correlations, and of [`wing_subject`].
-pub fn wing_subjects() -> Result<[Subject; 2], PresentError> {
+pub fn wing_subjects() -> Result<[Report; 2], PresentError> {
     let (wing, (known, run)) = (DeltaWing::embedded()?, recovered()?);
     let names: Vec<String> = known
         .model
@@ -63,12 +63,12 @@ pub fn wing_subjects() -> Result<[Subject; 2], PresentError> {
         "Wing of 1,458 DOF with wrong gages".to_owned(),
         known.model.factor_ranges()?,
     );
-    let large = Subject::of("wing", &names, &known.test, &run.initial, Some(&run))
-        .on(known.model.structure());
+    let large = Report::from_correlation("wing", &names, &known.test, &run.initial, Some(&run))
+        .with_structure(known.model.structure());
     let delta = wing_subject(&wing, &correlate_wing(&wing, |_, _| {})?)?;
     Ok([
         delta,
-        Subject {
+        Report {
             title,
             ranges,
             truth: known.truth,

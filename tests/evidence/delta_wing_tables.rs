@@ -8,7 +8,7 @@ use crate::common::known::delta_wing::{
 use crate::common::wing_subjects::wing_subject;
 use corfem::present::PresentError;
 use corfem::present::table::{Digits, Table, numbers, percents};
-use corfem::present::tables::subject::{history_table, paired_table};
+use corfem::present::tables::report::{history_table, paired_table};
 use corfem::torque_box::published::PublishedTable;
 
 /// NASTRAN printed seven digits.

@@ -67,7 +67,7 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
             PublishedTable::number(frequency_table)?,
             PublishedTable::number(gage_table)?,
         );
-        let case = Case::on(number, reconstruction.clone())?;
+        let case = Case::from_reconstruction(number, reconstruction.clone())?;
         let test = case.test_modes()?;
         for prefix in prefixes {
             let rows = |table: &PublishedTable, count: usize, unit: &str| {

@@ -173,7 +173,10 @@ pub fn detection(
     reconstruction: &Reconstruction,
     reading: StepRule,
 ) -> Result<Detection, CaseError> {
-    let result = run_by_reading(&Case::on(4, reconstruction.clone())?, reading)?;
+    let result = run_by_reading(
+        &Case::from_reconstruction(4, reconstruction.clone())?,
+        reading,
+    )?;
     let factors = result.unlimited_factors().to_vec();
     let faulty = FAULTY_ELEMENT - 1;
     let others = factors
@@ -199,10 +202,13 @@ pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>
     let mut columns = Vec::new();
     for reading in READINGS {
         for number in 1..=3 {
-            let result = run_by_reading(&Case::on(number, reconstruction.clone())?, reading)?;
+            let result = run_by_reading(
+                &Case::from_reconstruction(number, reconstruction.clone())?,
+                reading,
+            )?;
             columns.extend(columns_of(&result)?);
         }
-        let mut case = Case::on(PUBLISHED_CASE, reconstruction.clone())?;
+        let mut case = Case::from_reconstruction(PUBLISHED_CASE, reconstruction.clone())?;
         case.settings = case.settings_by(reading);
         for run in published_runs(&case)? {
             let table = [(7, 10), (5, 11), (3, 12)]

@@ -6,9 +6,9 @@ use approx::assert_relative_eq;
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
 use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::figures::subject::{derivatives, mode_agreement};
-use corfem::present::figures::{Figure, case_figures, comparison_figures, subject_figures};
-use corfem::present::subject::Subject;
+use corfem::present::figures::report::{derivatives, mode_agreement};
+use corfem::present::figures::{Figure, case_figures, comparison_figures, report_figures};
+use corfem::present::report::Report;
 use corfem::present::table::{Cell, Column, Table};
 use corfem::present::tables::cases::{frequency_table, iteration_table};
 use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
@@ -33,8 +33,8 @@ pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
 }
 
 /// The wings, correlated once.
-pub fn wings() -> &'static [Subject] {
-    static WINGS: OnceLock<[Subject; 2]> = OnceLock::new();
+pub fn wings() -> &'static [Report] {
+    static WINGS: OnceLock<[Report; 2]> = OnceLock::new();
     WINGS.get_or_init(|| wing_subjects().expect("they run"))
 }
 
@@ -55,7 +55,7 @@ pub fn figures() -> &'static [Figure] {
 pub fn all_figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
     FIGURES.get_or_init(|| {
-        let of_wing = |wing| subject_figures(wing).expect("drawn");
+        let of_wing = |wing| report_figures(wing).expect("drawn");
         let of_wings = wings().iter().flat_map(of_wing);
         figures().iter().cloned().chain(of_wings).collect()
     })
@@ -79,7 +79,7 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
 fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
     let counts = iteration_table(results()).expect("it reads");
     for result in &results()[..3] {
-        let data = error_history(&Subject::of_case(result).expect("a subject"));
+        let data = error_history(&Report::from_case(result).expect("a subject"));
         let table = frequency_table(result).expect("it reads");
         let case = result.case.number.to_string();
         assert_eq!(data.len(), result.correlation.passes.len());
@@ -126,8 +126,8 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
 #[test]
 fn drawn_modes_are_those_of_the_tables() {
     for result in &results()[..3] {
-        let subject = Subject::of_case(result).expect("a subject");
-        let modes = DrawnModes::of(&subject)
+        let subject = Report::from_case(result).expect("a subject");
+        let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");
         let table = frequency_table(result).expect("it reads");
@@ -172,7 +172,7 @@ fn drawn_modes_are_those_of_the_tables() {
 fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
     for result in &results()[..3] {
         let masses = &result.case.reconstruction.masses;
-        let subject = Subject::of_case(result).expect("a subject");
+        let subject = Report::from_case(result).expect("a subject");
         let checks = [&result.correlation.initial, subject.corrected()];
         let maps = mode_agreement(&subject).expect("shapes fit");
         let values: Vec<_> = maps
@@ -215,7 +215,7 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
         let maps =
-            derivatives(&Subject::of_case(result).expect("a subject")).expect("they were taken");
+            derivatives(&Report::from_case(result).expect("a subject")).expect("they were taken");
         let values = maps
             .each_ref()
             .map(|map| map.values.map(|value| value.expect("a cell")));

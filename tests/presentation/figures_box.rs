@@ -5,7 +5,7 @@ use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::presentation::figures::results;
 use corfem::present::figures::box_elements::Layer;
 use corfem::present::figures::cover_gages::draw;
-use corfem::present::subject::Subject;
+use corfem::present::report::Report;
 use corfem::torque_box::Case;
 use corfem::torque_box::published::PublishedTable;
 use nalgebra::DVector;
@@ -14,9 +14,9 @@ use nalgebra::DVector;
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let case = &results()[0].case;
     let model = case.model().expect("a model");
-    let subject = Subject::of_case(&results()[0])
+    let subject = Report::from_case(&results()[0])
         .expect("a subject")
-        .on(model.structure());
+        .with_structure(model.structure());
     let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
     assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
     for (label, at) in &subject.grids {
@@ -54,7 +54,7 @@ fn box_elements_are_the_models_in_three_layers() {
         let here = structure
             .elements()
             .iter()
-            .filter(|element| Layer::of(&structure.corners(element)) == layer);
+            .filter(|element| Layer::from_corners(&structure.corners(element)) == layer);
         here.map(|element| element.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);

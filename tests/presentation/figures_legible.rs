@@ -7,7 +7,7 @@ use crate::presentation::figures::{all_figures, results};
 use corfem::present::figures::Figure;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::subject::Subject;
+use corfem::present::report::Report;
 use nalgebra::{DMatrix, Vector3};
 
 fn of_kind(what: &str) -> impl Iterator<Item = &'static Figure> {
@@ -87,8 +87,8 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
 #[test]
 fn node_lines_stay_out_of_the_strip_between_root_and_first_rib() {
     for result in &results()[..3] {
-        let subject = Subject::of_case(result).expect("a subject");
-        let modes = DrawnModes::of(&subject)
+        let subject = Report::from_case(result).expect("a subject");
+        let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");
         let normal = modes.normal().expect("a plane");

@@ -6,7 +6,7 @@ use crate::common::golden::{Numbers, assert_golden};
 use corfem::present::figures::frame::Frame;
 use corfem::present::figures::mode_shapes::{DrawnMode, DrawnModes};
 use corfem::present::figures::structure::draw_structure;
-use corfem::present::subject::{SensorPoint, Subject};
+use corfem::present::report::{Report, SensorPoint};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -19,14 +19,14 @@ fn at(x: f64, y: f64, z: f64) -> Vector3<f64> {
 fn with_sensors(
     sensors: Vec<(String, Option<Vector3<f64>>)>,
     frame: Vec<Vec<Vector3<f64>>>,
-) -> Subject {
+) -> Report {
     let sensor = |(name, place): (String, _)| SensorPoint {
         name,
         place,
         direction: Vector3::z(),
     };
     let sensors = sensors.into_iter().map(sensor).collect();
-    Subject {
+    Report {
         sensors,
         frame,
         ..chain("rod", &[1.0; 3], |row| {
@@ -35,7 +35,7 @@ fn with_sensors(
     }
 }
 
-fn drawn(subject: &Subject) -> String {
+fn drawn(subject: &Report) -> String {
     draw_structure("structure", "Structure", subject).expect("drawn")
 }
 

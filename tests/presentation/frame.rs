@@ -21,7 +21,7 @@ proptest! {
         });
         let other = Vector3::new(places[9], places[10], places[11]);
         subject.frame.push(vec![subject.sensors[0].place.expect("a place"), other]);
-        let frame = Frame::of(&subject);
+        let frame = Frame::from_report(&subject);
         let moved = frame.moved(&shape, None);
         let largest = shape.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
         let unit = shape.map(|component| component / largest);
@@ -42,7 +42,7 @@ proptest! {
         let mut subject = chain("rod", &[1.0; 8], |row| (Vector3::new((row / 2) as f64, (row % 2) as f64, 0.0), Vector3::z()));
         let at = |x: f64, y: f64| Vector3::new(x, y, 0.0);
         subject.frame = (0..3).map(f64::from).map(|x| vec![at(x, 0.0), at(x, 1.0), at(x + 1.0, 1.0), at(x + 1.0, 0.0)]).collect();
-        let frame = Frame::of(&subject);
+        let frame = Frame::from_report(&subject);
         let plane = |x: f64, y: f64| x - zero + tilt * (y - 0.5);
         let shape: Vec<f64> = (0..8).map(|row| plane((row / 2) as f64, (row % 2) as f64)).collect();
         prop_assume!(shape.iter().all(|w| w.abs() > 1e-6));
@@ -153,16 +153,16 @@ fn a_line_that_measures_along_itself_is_drawn_across_and_zero_has_one_sign() {
                 .map(|sensor| sensor.1)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(directions(&Frame::of(&along)), [across; 3]);
+        assert_eq!(directions(&Frame::from_report(&along)), [across; 3]);
         let mut subject = along.clone();
         subject.sensors[1].direction = Vector3::ith((axis + 1) % 3, 1.0);
-        let directions = directions(&Frame::of(&subject));
+        let directions = directions(&Frame::from_report(&subject));
         assert_eq!(
             directions,
             [line, subject.sensors[1].direction, line],
             "one of them measures across already"
         );
         subject.sensors[0].place = Some(Vector3::repeat(-0.0));
-        assert_eq!(Frame::of(&subject).nodes.len(), 3);
+        assert_eq!(Frame::from_report(&subject).nodes.len(), 3);
     }
 }

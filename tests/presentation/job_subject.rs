@@ -15,7 +15,7 @@ use corfem::job::{Study, Summary, Vary, run};
 use corfem::method::error::Error;
 use corfem::method::model::Range;
 use corfem::present::render::text;
-use corfem::present::subject::{Derivatives, Subject};
+use corfem::present::report::{Derivatives, Report};
 use corfem::present::tables::job::{doubts_table, places_table, study_table, suspects_table};
 use nalgebra::Vector3;
 
@@ -31,7 +31,7 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
         "elements = [1]",
         "elements = [1]\nlower = 0.5\nupper = 2.0",
     ));
-    let subject = Subject::of_job(&prepared, None).expect("a subject");
+    let subject = Report::from_job(&prepared, None).expect("a subject");
     // Point masses have one grid, and are no lines.
     assert_eq!(
         subject.frame,
@@ -75,7 +75,7 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
     let first = prepared.analyze(&[1.0; 2]).expect("analyzed");
     assert_eq!(
         subject.derivatives,
-        Some(Derivatives::of(&first).expect("taken"))
+        Some(Derivatives::at(&first).expect("taken"))
     );
     assert_eq!(
         (subject.converged(), subject.best, subject.stages.len()),
@@ -89,12 +89,12 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
         .clear();
     lined.data.lines = vec![[1, 2], [2, 99]];
     assert_eq!(
-        Subject::of_job(&lined, None).expect("a subject").frame,
+        Report::from_job(&lined, None).expect("a subject").frame,
         [vec![at(0.0), at(10.0)]]
     );
     let mut turned = prepared.clone();
     turned.placed[0].direction = 3;
-    let subject = Subject::of_job(&turned, None).expect("a subject");
+    let subject = Report::from_job(&turned, None).expect("a subject");
     assert_eq!(
         subject.sensors[0].direction,
         Vector3::zeros(),
@@ -113,7 +113,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
     for (files, is_within) in [(&each, true), (&rods(), false)] {
         let prepared = prepared(files);
         let finished = run(&prepared, |_| {}, || true).expect("it runs");
-        let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
+        let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
         assert_eq!(
             (finished.verdict.is_within, subject.converged()),
             (is_within, is_within)
@@ -122,7 +122,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
     }
     let prepared = prepared(&each);
     let finished = run(&prepared, |_| {}, || false).expect("it runs");
-    let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
+    let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
     assert_eq!((subject.best, subject.stages.len()), (Some(0), 1));
     assert_eq!(
         (subject.stages[0].stop.as_str(), &subject.stages[0].factors),
@@ -210,7 +210,7 @@ fn suspects_have_their_own_unlimited_factors() {
 #[test]
 fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
     let result = &results()[1];
-    let subject = Subject::of_case(result).expect("a subject");
+    let subject = Report::from_case(result).expect("a subject");
     assert_eq!(
         subject.ranges,
         result
@@ -291,7 +291,7 @@ fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
         .analyze(&test, None)
     };
     let found = model(1.0)
-        .and_then(|first| Derivatives::of(&first))
+        .and_then(|first| Derivatives::at(&first))
         .expect("taken");
     const STEP: f64 = 1e-5;
     let hertz = |factor: f64| Ok::<_, Error>(model(factor)?.exact().modes.frequencies_hz());

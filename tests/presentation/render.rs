@@ -76,7 +76,7 @@ fn small() -> Table {
 #[test]
 fn a_published_number_stands_below_its_own() {
     let expected = "\
-Computed numbers, the published ones in rows of their own below them.
+Computed values; the paper's are in the rows marked \"published\".
 
 A title
 
@@ -108,7 +108,7 @@ fn a_table_as_wide_as_the_page_stays_whole_and_a_wider_one_goes_on_below() {
 #[test]
 fn markdown_has_it_in_parentheses() {
     let expected = "\
-Computed numbers, the published ones behind them in parentheses.
+Computed values; the paper's follow in parentheses.
 
 ## A title
 

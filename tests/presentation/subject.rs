@@ -11,13 +11,13 @@ use corfem::method::model::{DynamicModel, Range, Share};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::Pairing;
-use corfem::present::figures::{Figure, subject_figures};
+use corfem::present::figures::{Figure, report_figures};
 use corfem::present::json;
-use corfem::present::page::subject_page;
+use corfem::present::page::report_page;
 use corfem::present::render::{WIDTH, csv, text};
-use corfem::present::subject::{Derivatives, SensorPoint, Subject};
+use corfem::present::report::{Derivatives, Report, SensorPoint};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::subject::{
+use corfem::present::tables::report::{
     derivative_table, factor_table, history_table, paired_table,
 };
 use nalgebra::{DMatrix, Vector3};
@@ -29,7 +29,7 @@ pub fn chain(
     name: &str,
     wrong: &[f64],
     places: impl Fn(usize) -> (Vector3<f64>, Vector3<f64>),
-) -> Subject {
+) -> Report {
     let count = wrong.len();
     let shares: Vec<DMatrix<f64>> = (0..count)
         .map(|spring| spring_stiffness(count, spring, 4e4 * wrong[spring]))
@@ -84,7 +84,7 @@ pub fn chain(
         .windows(2)
         .map(|pair| pair.iter().filter_map(|sensor| sensor.place).collect())
         .collect();
-    Subject {
+    Report {
         title: name.to_owned(),
         ranges,
         deviations: Some((0..count).map(|e| 0.01 * e as f64).collect()),
@@ -92,9 +92,9 @@ pub fn chain(
         frame,
         mass: Some(mass.clone()),
         derivatives: Some(
-            Derivatives::of(&model(&vec![1.0; count]).expect("analyzed")).expect("taken"),
+            Derivatives::at(&model(&vec![1.0; count]).expect("analyzed")).expect("taken"),
         ),
-        ..Subject::of("chain", &names, &test, &run.initial, Some(&run))
+        ..Report::from_correlation("chain", &names, &test, &run.initial, Some(&run))
     }
 }
 
@@ -102,13 +102,13 @@ fn along(row: usize) -> (Vector3<f64>, Vector3<f64>) {
     (Vector3::new(row as f64, 0.0, 0.0), Vector3::x())
 }
 
-static WING: LazyLock<Subject> = LazyLock::new(|| {
+static WING: LazyLock<Report> = LazyLock::new(|| {
     let wing = DeltaWing::embedded().expect("the wing");
     let run = correlate_wing(&wing, |_, _| {}).expect("it runs");
     wing_subject(&wing, &run).expect("a subject")
 });
 
-fn subject_tables(subject: &Subject) -> Vec<Table> {
+fn subject_tables(subject: &Report) -> Vec<Table> {
     vec![
         paired_table(subject).expect("a table"),
         factor_table(subject),
@@ -152,7 +152,7 @@ fn escaped(name: &str) -> String {
 }
 
 /// What must be true of the figures of any subject.
-fn check_figures(subject: &Subject, figures: &[Figure]) {
+fn check_figures(subject: &Report, figures: &[Figure]) {
     let all: String = figures.iter().map(|figure| figure.svg.as_str()).collect();
     for figure in figures {
         assert!(is_well_formed(&figure.svg), "{}", figure.name);
@@ -189,7 +189,7 @@ fn names(figures: &[Figure]) -> Vec<&str> {
 #[test]
 fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
     let subject = chain("rod <\"&'> x", &[0.9, 1.1, 0.95, 1.0], along);
-    let figures = subject_figures(&subject).expect("drawn");
+    let figures = report_figures(&subject).expect("drawn");
     check_figures(&subject, &figures);
     assert_eq!(
         names(&figures),
@@ -203,7 +203,7 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
         ]
         .map(|what| format!("chain_{what}"))
     );
-    let page = subject_page(&subject, &[], "corfem correlate <job>").expect("a page");
+    let page = report_page(&subject, &[], "corfem correlate <job>").expect("a page");
     assert!(is_well_formed(&page));
     for parameter in &subject.parameters {
         assert!(
@@ -219,7 +219,7 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
 
 #[test]
 fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
-    let figures = subject_figures(&WING).expect("drawn");
+    let figures = report_figures(&WING).expect("drawn");
     check_figures(&WING, &figures);
     assert!(
         !names(&figures)
@@ -235,7 +235,7 @@ fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
         assert!(words.contains(&label.to_string()), "{label}");
     }
     assert!(words.iter().any(|word| word.contains("depth drawn")));
-    let page = subject_page(&WING, &[], "corfem").expect("a page");
+    let page = report_page(&WING, &[], "corfem").expect("a page");
     assert!(is_well_formed(&page) && page.contains("MAC is not mass-weighted"));
 }
 
@@ -257,7 +257,7 @@ fn tables_hold_every_mode_and_factor_and_fit_a_page() {
                 .iter()
                 .all(|row| row.cells.len() == table.columns.len())
         }));
-        let json = json::subject(subject).expect("a value");
+        let json = json::report(subject).expect("a value");
         assert_eq!(
             json["factors"].as_array().map(Vec::len),
             Some(subject.parameters.len())
@@ -273,7 +273,7 @@ fn tables_hold_every_mode_and_factor_and_fit_a_page() {
 }
 
 /// The mark of every row of the paired table.
-fn marks(subject: &Subject) -> Vec<String> {
+fn marks(subject: &Report) -> Vec<String> {
     let table = paired_table(subject).expect("a table");
     table
         .rows
@@ -325,7 +325,7 @@ fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
     }
     assert_eq!(table.rows[2].cells[1].computed(), "0.020");
     assert_eq!(table.columns.len(), 5);
-    let without = Subject {
+    let without = Report {
         deviations: None,
         ..subject
     };
@@ -346,7 +346,7 @@ fn stages_without_an_inner_loop_are_one_iteration_each() {
             .iter()
             .all(|row| row.cells[0] == Cell::count(1) && row.cells[2] == Cell::Blank)
     );
-    let figures = subject_figures(&subject).expect("drawn");
+    let figures = report_figures(&subject).expect("drawn");
     check_figures(&subject, &figures);
     let errors = figures
         .iter()
@@ -380,7 +380,7 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
             .map(|&mode| check.frequencies_hz[mode])
             .collect();
     }
-    let figures = subject_figures(&Subject {
+    let figures = report_figures(&Report {
         derivatives: None,
         ..subject
     })
@@ -407,10 +407,10 @@ proptest! {
         let place = |row: usize| Vector3::from_fn(|axis, _| if flat[axis] { 0.0 } else { places[3 * row + axis] });
         let direction = |row: usize| if is_rotation { Vector3::zeros() } else { Vector3::ith(row % 3, 1.0) };
         let subject = chain(name.trim(), &wrong, |row| (place(row), direction(row)));
-        let figures = subject_figures(&subject).expect("drawn");
+        let figures = report_figures(&subject).expect("drawn");
         check_figures(&subject, &figures);
         prop_assert_eq!(names(&figures).contains(&"chain_mode_shapes"), !is_rotation);
-        prop_assert!(is_well_formed(&subject_page(&subject, &[], &name).expect("a page")));
+        prop_assert!(is_well_formed(&report_page(&subject, &[], &name).expect("a page")));
         prop_assert!(text(&subject_tables(&subject)).lines().all(|line| line.chars().count() <= WIDTH));
     }
 }

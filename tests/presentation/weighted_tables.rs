@@ -7,7 +7,7 @@ use crate::evidence::coverage::{Coverage, Held, all_coverages, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::places::{filled, goldens};
-use corfem::job::Prepared;
+use corfem::job::LoadedJob;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
@@ -149,7 +149,7 @@ fn a_job_names_its_suspects() {
             .join("tests/jobs")
             .join(name)
             .join("job.toml");
-        let mut prepared = Prepared::new(&path).expect("a job");
+        let mut prepared = LoadedJob::new(&path).expect("a job");
         // The test as it would be were the fifth parameter alone wrong: a third of what it is in the model.
         let mut factors = vec![1.0; prepared.source.whole.parameters().len()];
         factors[4] = 0.3;

@@ -120,7 +120,8 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
 fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     let case = Case::new(number).expect("a case");
     let points = dynamic_points(&case.reconstruction).expect("points");
-    let bulk = BulkData::of(&case.model().expect("a model"), factors, &points).expect("bulk data");
+    let bulk =
+        BulkData::from_model(&case.model().expect("a model"), factors, &points).expect("bulk data");
     let task = Task::Modes {
         count: 9,
         range_hz: [5.0, 3000.0],

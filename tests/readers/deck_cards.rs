@@ -77,9 +77,9 @@ fn all_of_them_stand_in_one_error_before_any_other() {
         deck::read("wing.dat", deck.as_bytes(), &[])
             .expect_err("three cards")
             .to_string(),
-        "wing.dat: expected cards that are read here, found CBAR (line 1, 2 cards), CSHAER (line 9, 1 card); they may \
-         carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them out \
-         with --ignore 'CBAR,CSHAER'"
+        "wing.dat: corfem does not read CBAR (line 1, 2 cards), CSHAER (line 9, 1 card), which may carry stiffness, \
+         mass, supports or coordinates; correct them, or take responsibility for leaving them out with --ignore \
+         'CBAR,CSHAER'"
     );
 }
 
@@ -143,7 +143,9 @@ fn what_is_read_cannot_be_ignored() {
             deck::read("wing.dat", GOOD.as_bytes(), &["CBAR".into(), name.into()]).expect_err(name);
         assert_eq!(
             error.to_string(),
-            format!("--ignore: expected a card that is not read here, found {name}")
+            format!(
+                "--ignore: corfem reads {name}; only cards that it does not read can be left out"
+            )
         );
     }
     assert!(

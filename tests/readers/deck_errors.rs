@@ -30,7 +30,7 @@ fn the_deck_without_errors_reads() {
     assert!(deck::read("wing.dat", GOOD.as_bytes(), &[]).is_ok());
 }
 
-/// Line replaced (or `-` for one more), the card, and of its error the field, part of what is expected, and what is found.
+/// Line replaced (or `-` for one more), the card, and of its error the field and two parts of the reason.
 const BAD_FIELDS: &str = "\
 1 | GRID,x,,0.,0.,0. | 2 | a positive integer | X
 1 | GRID,0,,0.,0.,0. | 2 | a positive integer | 0
@@ -40,16 +40,16 @@ const BAD_FIELDS: &str = "\
 2 | GRID,2,,10.,0.,1.X | 6 | a real number | 1.X
 2 | GRID,2,3,10.,0.,0. | 3 | no coordinate systems but the basic one | 3
 2 | GRID,2,,10.,0.,0.,5 | 7 | no coordinate systems but the basic one | 5
-2 | GRID,2,,10.,0.,0.,,127 | 8 | components from 1 to 6 | 127
-2 | GRID,1,,10.,0.,0. | 2 | other than that of the card in line 1 | 1
-- | CROD,1,1,2,1 | 2 | other than that of the card in line 3 | 1
-- | CONROD,1,1,2,1,.5 | 2 | other than that of the card in line 3 | 1
-- | PROD,1,1,.5 | 2 | other than that of the card in line 4 | 1
-- | MAT1,1,1.+7,,.3 | 2 | other than that of the card in line 5 | 1
-- | CONM2,7,2,,1. | 2 | other than that of the card in line 7 | 7
+2 | GRID,2,,10.,0.,0.,,127 | 8 | a list of components 1 to 6 | 127
+2 | GRID,1,,10.,0.,0. | 2 | the card in line 1 | 1
+- | CROD,1,1,2,1 | 2 | the card in line 3 | 1
+- | CONROD,1,1,2,1,.5 | 2 | the card in line 3 | 1
+- | PROD,1,1,.5 | 2 | the card in line 4 | 1
+- | MAT1,1,1.+7,,.3 | 2 | the card in line 5 | 1
+- | CONM2,7,2,,1. | 2 | the card in line 7 | 7
 3 | CROD,1,9,1,2 | 3 | the number of a PROD card | 9
 3 | CROD,1,1,1,3 | 5 | the number of a GRID card | 3
-3 | CROD,1,1,,2 | 4 | a positive integer | a blank
+3 | CROD,1,1,,2 | 4 | a positive integer | missing
 - | CROD,2,1,1,2,3,1,1,8 | 9 | the number of a GRID card | 8
 - | CSHEAR,2,1,1,2,1,2 | 3 | the number of a PSHEAR card | 1
 - | CQDMEM,2,1,1,2,1,2 | 3 | the number of a PQDMEM card | 1
@@ -60,7 +60,7 @@ const BAD_FIELDS: &str = "\
 7 | CMASS2,7,.4,3,1 | 4 | the number of a GRID card | 3
 - | CONM2,8,3,,.4 | 3 | the number of a GRID card | 3
 4 | PROD,1,1,0. | 4 | a positive real number | 0.
-4 | PROD,1,1 | 4 | a positive real number | a blank
+4 | PROD,1,1 | 4 | a positive real number | missing
 4 | PROD,1,1,-.5 | 4 | a positive real number | -.5
 4 | PROD,1,1,.5,.1 | 5 | no torsion of rods | .1
 4 | PROD,1,1,.5,,,.1 | 7 | no nonstructural mass | .1
@@ -77,24 +77,24 @@ const BAD_FIELDS: &str = "\
 - | CONM2,8,2,,0. | 5 | a positive real number | 0.
 - | CONM2,8,2,,.4,1. | 6 | no offsets of masses | 1.
 - | CONM2,8,2,,.4,,,1. | 8 | no offsets of masses | 1.
-6 | SPC1,1,1234567,1 | 3 | components from 1 to 6 | 1234567
-6 | SPC1,1,,1 | 3 | components from 1 to 6 | a blank
-6 | SPC1,1,1 | 4 | a grid | a blank
+6 | SPC1,1,1234567,1 | 3 | a list of components 1 to 6 | 1234567
+6 | SPC1,1,,1 | 3 | a list of components 1 to 6 | missing
+6 | SPC1,1,1 | 4 | a grid | missing
 6 | SPC1,1,1,5 | 4 | the number of a GRID card | 5
 6 | SPC1,1,1,1,5 | 5 | the number of a GRID card | 5
 6 | SPC1,1,1,3,THRU,8 | 4 | the number of a GRID card | 3
-6 | SPC1,1,1,2,THRU,1 | 6 | a grid after 2 | 1
-6 | SPC1,1,1,1,1,1,1,1,THRU | 12 | a grid after THRU | a blank
-6 | SPC1,1,1,1,THRU | 6 | a grid after THRU | a blank
+6 | SPC1,1,1,2,THRU,1 | 6 | a grid number above 2 | 1
+6 | SPC1,1,1,1,1,1,1,1,THRU | 12 | a grid after THRU | missing
+6 | SPC1,1,1,1,THRU | 6 | a grid after THRU | missing
 6 | SPC1,1,1,THRU,2 | 4 | a positive integer | THRU
-- | SPC1,2,1,2 | 2 | set 1 again | 2
-- | MPC,1 | 3 | a grid | a blank
+- | SPC1,2,1,2 | 2 | set 2 beside set 1 | 2
+- | MPC,1 | 3 | a grid | missing
 - | MPC,1,3,1,-1.,2,1,1. | 3 | the number of a GRID card | 3
 - | MPC,1,2,1,-1.,3,1,1. | 6 | the number of a GRID card | 3
 - | MPC,1,2,5,-1.,1,1,1. | 4 | component 1, 2 or 3 | 5
-- | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient that is not zero | 0.
+- | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient other than zero | 0.
 - | MPC,1,2,1,1,1,1,1. | 5 | a real number with a decimal point | 1
-- | MPC,1,1,1,-1.,2,1,1. | 3 | no SPC1 card constrains | 1
+- | MPC,1,1,1,-1.,2,1,1. | 3 | an SPC1 card constrains this | degree
 ";
 
 #[test]
@@ -112,8 +112,7 @@ fn a_bad_field_is_named_with_file_line_and_card() {
             line: at,
             card: of,
             field: number,
-            expected: wanted,
-            found: there,
+            reason,
         } = &error
         else {
             panic!("{card}: {error}");
@@ -123,8 +122,11 @@ fn a_bad_field_is_named_with_file_line_and_card() {
             ("wing.dat", line.unwrap_or(8), name),
             "{card}"
         );
-        assert_eq!((*number, there.as_str()), (field, found), "{card}: {error}");
-        assert!(wanted.contains(expected), "{card}: {error}");
+        assert_eq!(*number, field, "{card}: {error}");
+        assert!(
+            reason.contains(expected) && reason.contains(found),
+            "{card}: {error}"
+        );
     }
 }
 
@@ -161,7 +163,7 @@ MPC,1,3,1,-1.,1,2,1.,,+M
 ";
     let error = deck::read("wing.dat", deck.as_bytes(), &[]).expect_err("grid 2 x is dependent");
     assert!(
-        matches!(&error, FileError::DeckField { line: 6, field: 16, expected, .. } if expected == "a degree of freedom that no MPC card makes dependent"),
+        matches!(&error, FileError::DeckField { line: 6, field: 16, reason, .. } if reason.contains("another MPC card makes this degree of freedom dependent")),
         "{error}"
     );
     let error = deck::read(
@@ -171,7 +173,7 @@ MPC,1,3,1,-1.,1,2,1.,,+M
     )
     .expect_err("tied twice");
     assert!(
-        matches!(&error, FileError::DeckField { line: 5, field: 3, expected, .. } if expected == "a degree of freedom that line 4 does not tie"),
+        matches!(&error, FileError::DeckField { line: 5, field: 3, reason, .. } if reason == "line 4 ties this degree of freedom already"),
         "{error}"
     );
     let error = deck::read(
@@ -181,20 +183,20 @@ MPC,1,3,1,-1.,1,2,1.,,+M
     )
     .expect_err("two sets");
     assert!(
-        matches!(&error, FileError::DeckField { line: 5, field: 2, expected, .. } if expected.starts_with("set 1 again")),
+        matches!(&error, FileError::DeckField { line: 5, field: 2, reason, .. } if reason.starts_with("set 7 beside set 1")),
         "{error}"
     );
 }
 
 #[test]
-fn messages_say_what_was_expected_and_found() {
+fn messages_say_what_is_wrong_and_where() {
     assert_eq!(
         error(Some(4), "PROD,1,1,-.5").to_string(),
-        "wing.dat, line 4: card PROD, field 4: expected a positive real number, found -.5"
+        "wing.dat, line 4: card PROD, field 4: \"-.5\" is not a positive real number"
     );
     assert_eq!(
         error(None, "+B,1").to_string(),
-        "wing.dat, line 8: expected a card that this line continues, found none that ends with tag B"
+        "wing.dat, line 8: this line continues a card that ends with tag B, but none does"
     );
 }
 

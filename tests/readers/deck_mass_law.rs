@@ -64,7 +64,7 @@ pub fn whole_box(density: f64, points: &[f64]) -> FiniteElementModel {
 fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
     let dynamic = model.matrices(factors).expect("an analysis");
     let own = solve(&dynamic.stiffness, &dynamic.mass, DOF).expect("modes");
-    let bulk = BulkData::of(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
+    let bulk = BulkData::from_model(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
     let text = bulk_data(&bulk).expect("a deck");
     let read = deck::read("box", text.as_bytes(), &[])
         .expect("it reads")
@@ -113,8 +113,8 @@ proptest! {
 fn the_deck_keeps_the_mass_of_the_first_size() {
     let model = whole_box(DENSITY, &[0.0; DOF]);
     let factors = [1.5, 1.0, 1.0, 4.0, 1.0, 1.0];
-    let bulk = BulkData::of(&model, &factors, &[Vector3::zeros(); DOF]).expect("bulk data");
-    let first = BulkData::of_structure(model.structure());
+    let bulk = BulkData::from_model(&model, &factors, &[Vector3::zeros(); DOF]).expect("bulk data");
+    let first = BulkData::from_structure(model.structure());
     for (element, before) in bulk.elements.iter().zip(&first.elements) {
         let gage = element.size / before.size;
         let mass = gage * element.material.density / before.material.density;

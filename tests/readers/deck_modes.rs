@@ -180,7 +180,7 @@ fn an_element_at_a_tied_grid_is_refused() {
     );
     assert_eq!(
         error.to_string(),
-        "element 2: expected its grids free of MPC equations, found grid 3 tied along x"
+        "element 2: an MPC equation ties its grid 3 along x; an element's grids must move freely"
     );
 }
 
@@ -244,8 +244,8 @@ fn parts_too_unlike_are_named() {
         assert_eq!(
             error.to_string(),
             format!(
-                "stiffness: expected no element more than 1e10 times as stiff as another, found {stiff:.3e} in element \
-                 2 and 1.000e5 in element 1"
+                "element 2 ({stiff:.3e} lbf/in) is more than 1e10 times as stiff as element 1 (1.000e5 lbf/in): double \
+                 precision loses the softer one"
             )
         );
     }
@@ -254,14 +254,16 @@ fn parts_too_unlike_are_named() {
     let both = chain([1e16, 1e5], [1.0; 2]) + "CONROD,3,1,2,1,1.\nCONROD,4,2,3,2,1.\n";
     let error = modes(&both).expect_err("too unlike").to_string();
     assert!(
-        error.ends_with("found 1.000e15 in element 1 and 1.000e4 in element 2"),
+        error.starts_with(
+            "element 1 (1.000e15 lbf/in) is more than 1e10 times as stiff as element 2 (1.000e4"
+        ),
         "{error}"
     );
     let error = modes(&chain([1e6; 2], [1.0, 1e-16])).expect_err("a mode is lost");
     assert_eq!(
         error.to_string(),
-        "modes: expected 2, one for every mass that moves by itself, found 1: frequencies some three million times the \
-         lowest are lost, for the masses go from 1.000e-16 at grid 3 x to 1.000e0 at grid 2 x"
+        "modes: found only 1 of 2, one for each mass that moves independently; frequencies some three million times \
+         the lowest are lost, and the masses range from 1.000e-16 at grid 3 x to 1.000e0 at grid 2 x"
     );
 }
 
@@ -288,7 +290,7 @@ fn numbers_beyond_the_range_are_refused() {
         (
             "1.+300",
             "1.-40",
-            "modes: expected 1, one for every mass that moves by itself, found 0: ",
+            "modes: found only 0 of 1, one for each mass that moves independently; ",
         ),
     ] {
         let deck = format!("{ROD}CMASS2,7,{mass},2,1")

@@ -179,10 +179,10 @@ proptest! {
         let model = whole_box(if has_density { DENSITY } else { 0.0 }, &points);
         let places = [Vector3::zeros(); DOF];
         let ones = [1.0; 6];
-        let first = bulk_data(&BulkData::of(&model, &ones, &places).expect("bulk data")).expect("a deck");
+        let first = bulk_data(&BulkData::from_model(&model, &ones, &places).expect("bulk data")).expect("a deck");
         let mass = mass.unwrap_or(vec![1.0; 2]);
         let factors = [&stiffness[..], &mass, &[1.0; 2]].concat();
-        let wanted = BulkData::of(&model, &factors, &places).expect("bulk data").elements;
+        let wanted = BulkData::from_model(&model, &factors, &places).expect("bulk data").elements;
         let text = rewrite("box", first.as_bytes(), &wanted).expect("it rewrites");
         let read = deck::read("box", &text, &[]).expect("it reads").model;
         let found = deck::modes(&read, usize::MAX).expect("modes").modes.omega_squared().clone();
@@ -194,7 +194,7 @@ proptest! {
         for (own, found) in own.iter().zip(&found) {
             prop_assert!((own / found - 1.0).abs() < tolerance, "{own} {found} {tolerance}");
         }
-        let untouched = BulkData::of(&model, &ones, &places).expect("bulk data").elements;
+        let untouched = BulkData::from_model(&model, &ones, &places).expect("bulk data").elements;
         prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched).expect("it rewrites"), first.as_bytes());
     }
 }

@@ -1,8 +1,8 @@
-//! Mistakes in jobs: every one is named with what was expected and what was found.
+//! Mistakes in jobs: every one is named with its entry, its value and what would be right.
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::job::{Prepared, run};
+use corfem::job::{LoadedJob, run};
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -32,7 +32,7 @@ pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
 /// What is said of a job, without its folder.
 pub fn said(files: &Files) -> String {
     let (folder, path) = placed(files);
-    let error = Prepared::new(&path)
+    let error = LoadedJob::new(&path)
         .and_then(|prepared| run(&prepared, |_| {}, || true))
         .map(drop);
     let error = error.expect_err("a mistake").to_string();
@@ -55,31 +55,22 @@ const COMPARE: &str = "[compare]";
 fn the_small_jobs_are_right_before_their_mistakes() {
     for files in [rods(), building()] {
         let (_folder, path) = placed(&files);
-        Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
 #[test]
 fn a_job_names_its_model_once_and_whole() {
     const DECK: &str = "deck = \"model.bdf\"";
-    let what = "job.toml: expected either model.deck, or model.stiffness and model.mass, found";
-    for (model, found) in [
-        ("", "neither"),
-        (
-            "deck = \"model.bdf\"\nstiffness = \"k.mtx\"",
-            "a deck and matrices",
-        ),
-        (
-            "deck = \"model.bdf\"\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"",
-            "a deck and matrices",
-        ),
-        ("stiffness = \"k.mtx\"", "one matrix alone"),
-        ("mass = \"m.mtx\"", "one matrix alone"),
+    let what = "job.toml: [model] must name either a deck, or both stiffness and mass";
+    for model in [
+        "",
+        "deck = \"model.bdf\"\nstiffness = \"k.mtx\"",
+        "deck = \"model.bdf\"\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"",
+        "stiffness = \"k.mtx\"",
+        "mass = \"m.mtx\"",
     ] {
-        assert_eq!(
-            said(&with(rods(), "job.toml", DECK, model)),
-            format!("{what} {found}")
-        );
+        assert_eq!(said(&with(rods(), "job.toml", DECK, model)), what);
     }
     check(&[
         (
@@ -105,11 +96,11 @@ fn a_job_names_its_model_once_and_whole() {
         .to_owned();
     assert_eq!(
         said(&none),
-        "job.toml: expected at least one [[parameter]], found none"
+        "job.toml: a job needs at least one [[parameter]]"
     );
     let (folder, path) = placed(&rods());
     std::fs::remove_file(&path).expect("removed");
-    let missing = Prepared::new(&path)
+    let missing = LoadedJob::new(&path)
         .map(drop)
         .expect_err("no job")
         .to_string();
@@ -128,22 +119,22 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [\"9-3\"]",
-            "job.toml: expected a range of numbers such as \"10-19\", in all at most 10000000, found",
+            "job.toml: \"9-3\" is not a range of numbers such as \"10-19\"",
         ),
         (
             A,
             "elements = [\"1-x\"]",
-            "expected a range of numbers such as \"10-19\", in all at most 10000000, found 1-x",
+            "\"1-x\" is not a range of numbers such as \"10-19\"",
         ),
         (
             A,
             "elements = [\"2-10000002\"]",
-            "in all at most 10000000, found 2-10000002",
+            "all of them together may be at most 10000000",
         ),
         (
             A,
             "elements = [3, \"1-10000000\"]",
-            "in all at most 10000000, found 1-10000000",
+            "\"1-10000000\" is not a range",
         ),
         (
             A,
@@ -158,27 +149,23 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "properties = [1, 7]",
-            "expected properties and materials of the deck's elements in parameter a, found 7",
+            "parameter \"a\": no element of the deck has property or material 7",
         ),
         (
             A,
             "materials = [8]",
-            "expected properties and materials of the deck's elements in parameter a, found 8",
+            "parameter \"a\": no element of the deck has property or material 8",
         ),
-        (
-            A,
-            "",
-            "expected elements or masses in parameter a, found none that the deck has",
-        ),
+        (A, "", "parameter \"a\" names no elements and no masses"),
         (
             A,
             "matrix = \"k.mtx\"",
-            "expected parameters of a deck by elements or masses, found a matrix",
+            "parameter \"a\": in a deck, name elements or masses instead of a matrix",
         ),
         (
             A,
             "masses = [12]",
-            "expected scales = \"mass\" for point masses, found stiffness in parameter a",
+            "parameter \"a\": point mass 12 needs scales = \"mass\"",
         ),
         (
             A,
@@ -188,12 +175,12 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower = 0.5",
-            "expected both lower and upper in parameter a, found one of them",
+            "parameter \"a\" needs both lower and upper, or neither",
         ),
         (
             A,
             "elements = [1]\nlower_size = 0.5",
-            "expected both lower_size and upper_size in parameter a, found one of them",
+            "parameter \"a\" needs both lower_size and upper_size, or neither",
         ),
         (
             A,
@@ -203,7 +190,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nscales = \"mass\"\nlower_size = 0.05\nupper_size = 0.3",
-            "expected the stiffness of a deck's elements where parameter a has bounds on sizes, found another",
+            "parameter \"a\": bounds on sizes are for the stiffness of a deck's elements",
         ),
         (
             A,
@@ -220,11 +207,7 @@ fn a_parameter_names_what_the_deck_has() {
             "elements = [\"1-2\"]",
             "element 2 is in two parameters, a and b; it may be in one",
         ),
-        (
-            "\"b\"",
-            "\"a\"",
-            "job.toml: expected every name of a parameter once, found a again",
-        ),
+        ("\"b\"", "\"a\"", "job.toml: parameter a is named twice"),
     ]);
 }
 
@@ -240,7 +223,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
         "elements = [3]",
     );
     let (_folder, path) = placed(&files);
-    let range = Prepared::new(&path)
+    let range = LoadedJob::new(&path)
         .unwrap_or_else(|error| panic!("{error}"))
         .source
         .whole
@@ -253,7 +236,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
     );
     let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
     let (_folder, path) = placed(&narrow);
-    let range = Prepared::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
+    let range = LoadedJob::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
     assert_eq!(range.lower, 0.5);
 }
 
@@ -261,7 +244,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
 fn properties_materials_masses_and_each_say_what_they_scale() {
     let members = |old: &str, new: &str| {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
-        let source = Prepared::new(&path)
+        let source = LoadedJob::new(&path)
             .unwrap_or_else(|error| panic!("{new}: {error}"))
             .source;
         let names: Vec<String> = source
@@ -313,7 +296,7 @@ fn point_masses_count_once_and_have_no_corrected_deck() {
         let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
         (
             folder,
-            Prepared::new(&path).unwrap_or_else(|error| panic!("{error}")),
+            LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}")),
         )
     };
     let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
@@ -324,7 +307,9 @@ fn point_masses_count_once_and_have_no_corrected_deck() {
         .expect_err("a factor of point masses")
         .to_string();
     assert!(
-        refused.contains("a is one of point masses, found a factor of 1.1"),
+        refused.contains(
+            "parameter \"a\" scales point masses by 1.1; a corrected deck can only change elements"
+        ),
         "{refused}"
     );
 }
@@ -341,12 +326,12 @@ fn sensors_are_those_of_the_test_at_what_moves() {
         (
             SENSORS,
             "[sensors]\nleave_out = [\"S9\"]",
-            "expected names of sensors that the test has, found S9",
+            "sensors: the test has no sensor S9",
         ),
         (
             SENSORS,
             &place("S9", 2, "x"),
-            "expected names of sensors that the test has, found S9",
+            "sensors: the test has no sensor S9",
         ),
         (
             SENSORS,
@@ -366,17 +351,17 @@ fn sensors_are_those_of_the_test_at_what_moves() {
         (
             SENSORS,
             &place("S2", 2, "w"),
-            "expected a direction x, y, z or -x, -y, -z of sensor S2, found w",
+            "sensor S2: \"w\" is not a direction x, y, z",
         ),
         (
             SENSORS,
             &place("S2", 3, "x"),
-            "expected one sensor a degree of freedom, found S2 and S3 at grid 3 x",
+            "sensors S2 and S3 are both at grid 3, direction x",
         ),
         (
             SENSORS,
             "[sensors]\nby = \"name\"",
-            "expected sensors of the test on the model, found none",
+            "no sensor of the test is on the model",
         ),
     ]);
     let far = with(
@@ -387,7 +372,7 @@ fn sensors_are_those_of_the_test_at_what_moves() {
     );
     assert_eq!(
         said(&far),
-        "job.toml: expected sensor S2 within 0.5 of a grid, found grid 2 at 1.0000"
+        "job.toml: sensor S2: grid 2 is 1.0000 away; sensors.distance allows 0.5"
     );
     let nowhere = with(
         with(rods(), "job.toml", SENSORS, distant),
@@ -395,8 +380,7 @@ fn sensors_are_those_of_the_test_at_what_moves() {
         "+,10.0,0.0,0.0",
         "+,,,",
     );
-    let expected =
-        "job.toml: expected a place of sensor S2 and of the model's grids, found none in the test";
+    let expected = "job.toml: sensor S2 cannot be placed at the nearest grid: the test does not say where it is";
     assert_eq!(said(&nowhere), expected);
     let rows = building().into_iter().map(|(name, text)| match &name[..] {
         "rows.csv" => (name, (1..=10).map(|row| format!("{row},x\n")).collect()),
@@ -404,10 +388,13 @@ fn sensors_are_those_of_the_test_at_what_moves() {
         _ => (name, text),
     });
     let error = said(&rows.collect());
-    assert!(error.ends_with("found none in the model"), "{error}");
+    assert!(
+        error.ends_with("no grid of the model that could move it has a place"),
+        "{error}"
+    );
     let unnamed = said(&with(rods(), "test.csv", "\n2,", "\n,"));
     assert!(
-        unnamed.ends_with("expected a grid for sensor S2, found none in the test"),
+        unnamed.ends_with("sensor S2 has no grid in the test; place it in [sensors]"),
         "{unnamed}"
     );
 }
@@ -420,17 +407,17 @@ fn test_modes_are_there_and_named_once() {
         (
             FILE,
             &modes("[4]"),
-            "expected test.modes from 1 to 3, found 4",
+            "test.modes: there is no mode 4; the test has 1 to 3",
         ),
         (
             FILE,
             &modes("[0]"),
-            "expected test.modes from 1 to 3, found 0",
+            "test.modes: there is no mode 0; the test has 1 to 3",
         ),
         (
             FILE,
             &modes("[2, 1, 2]"),
-            "expected every mode of test.modes once, found 2 again",
+            "test.modes: mode 2 is named twice",
         ),
         (FILE, &modes("[]"), "test modes: at least one is needed"),
         (COMPARE, "[compare]\nanalysis_modes = 0", "at least one"),
@@ -447,7 +434,7 @@ fn test_modes_are_there_and_named_once() {
         (
             "method = \"gauss_newton\"",
             "starts = 2",
-            "expected one of compare.starts where the method is \"paper\", found 2",
+            "compare.starts is 2, but method \"paper\" has one start",
         ),
     ]);
 }
@@ -517,7 +504,7 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
         .map(|(line, more)| format!("{line}{more}\n"))
         .collect();
     let (_folder, path) = placed(&files);
-    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(prepared.modes, [0, 1, 2]);
     assert!(
         matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0)
@@ -530,12 +517,12 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         (
             COMPARE,
             "[compare]\nshape_weights = [1, 1]",
-            "expected 3 shape_weights, one a test mode of the job, found 2",
+            "compare.shape_weights: 2 given for 3 test modes",
         ),
         (
             COMPARE,
             "[compare]\nfrequency_weights = [1]",
-            "expected 3 frequency_weights, one a test mode of the job",
+            "compare.frequency_weights: 1 given for 3 test modes",
         ),
         (
             COMPARE,
@@ -560,7 +547,7 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         "[compare]\nshape_weights = [0, 0, 0]",
     );
     let (_folder, path) = placed(&frequencies);
-    let prepared = Prepared::new(&path).expect("a job");
+    let prepared = LoadedJob::new(&path).expect("a job");
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] =
@@ -581,7 +568,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     let paper = |weights: &str| with(rods(), "job.toml", "method = \"gauss_newton\"", weights);
     let ran = |files: &Files| {
         let (_folder, path) = placed(files);
-        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
         (finished.first.exact().errors, finished.factors)
     };
@@ -619,7 +606,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     );
     let short = said(&paper("shape_weights = [1, 1]"));
     assert!(
-        short.contains("expected 3 shape_weights, one a test mode of the job, found 2"),
+        short.contains("compare.shape_weights: 2 given for 3 test modes"),
         "{short}"
     );
     let none = said(&paper(

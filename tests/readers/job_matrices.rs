@@ -2,11 +2,11 @@
 
 use super::job_errors::{placed, said, with};
 use crate::common::jobs::{Files, building, rods};
-use corfem::job::Prepared;
+use corfem::job::LoadedJob;
 
 #[test]
 fn rows_of_matrices_are_a_table_of_grids_and_directions() {
-    let wrong = "rows.csv: expected lines of grid, direction and perhaps x, y, z, found line 3: ";
+    let wrong = "is not a line of grid, direction and perhaps x, y, z";
     for line in [
         "2",
         "2,q",
@@ -18,7 +18,7 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         "-2,x",
     ] {
         let error = said(&with(building(), "rows.csv", "2,x,0.,0.,240", line));
-        assert_eq!(error, format!("{wrong}{line}"));
+        assert_eq!(error, format!("rows.csv, line 3: \"{line}\" {wrong}"));
     }
     // As a spreadsheet may write it, with a remark.
     let mark = with(
@@ -34,7 +34,7 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         "\n# the second floor\n2,x,",
     ));
     assert_eq!(
-        Prepared::new(&path)
+        LoadedJob::new(&path)
             .unwrap_or_else(|error| panic!("{error}"))
             .source
             .motions
@@ -44,7 +44,7 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
     let short = said(&with(building(), "rows.csv", "2,x,0.,0.,240\n", ""));
     assert_eq!(
         short,
-        "job.toml: expected 10 rows in model.rows, one a row of the stiffness, found 9"
+        "job.toml: model.rows has 9 rows, but the stiffness 10"
     );
     let twice = said(&with(
         building(),
@@ -53,28 +53,20 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         "1,x,0.,0.,240",
     ));
     assert!(
-        twice.contains("expected every grid and direction in one row of the matrices"),
+        twice.contains("rows 1 and 2 of the matrices have the same grid and direction"),
         "{twice}"
     );
     let none = said(&with(building(), "job.toml", "rows = \"rows.csv\"", ""));
     assert_eq!(
         none,
-        "job.toml: expected model.rows for matrices that do not name their rows, found none"
+        "job.toml: model.rows is missing: these matrices do not name their rows"
     );
     let story = "matrix = \"story_1.mtx\"";
-    for (rule, found) in [
-        ("", "no matrix"),
-        (
-            "matrix = \"story_1.mtx\"\nelements = [1]",
-            "entries of a deck",
-        ),
-    ] {
+    for rule in ["", "matrix = \"story_1.mtx\"\nelements = [1]"] {
         let error = said(&with(building(), "job.toml", story, rule));
         assert_eq!(
             error,
-            format!(
-                "job.toml: expected a matrix, and nothing of a deck, in parameter story 1, found {found}"
-            )
+            "job.toml: parameter \"story 1\" needs a matrix, and no entry of a deck"
         );
     }
 }
@@ -121,7 +113,7 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let (_, mass) = prepared.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
         mass.entries(),
@@ -131,7 +123,7 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let stranger = said(&named_matrices(&[(3, 1.0), (9, 1.0)]));
     assert_eq!(
         stranger,
-        "job.toml: expected rows of the stiffness in model.pch#MAAX, found grid 9 component 1"
+        "job.toml: model.pch#MAAX: the stiffness has no row of grid 9, component 1"
     );
     let columns = with(
         named_matrices(&[(4, 1.0)]),
@@ -147,7 +139,7 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     ));
     assert_eq!(
         others,
-        "job.toml: expected rows and columns of the same names in model.pch#KAAX, found others"
+        "job.toml: model.pch#KAAX: rows and columns have different names"
     );
     let unknown = said(&with(
         named_matrices(&[(4, 1.0)]),
@@ -156,11 +148,14 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
         "#KTWO",
     ));
     assert!(
-        unknown.contains("model.pch, line 1") && unknown.contains("found KAAX, KONE, MAAX"),
+        unknown.contains("model.pch, line 1") && unknown.contains("the file has KAAX, KONE, MAAX"),
         "{unknown}"
     );
     let ambiguous = said(&with(named_matrices(&[(4, 1.0)]), "job.toml", "#KONE", ""));
-    assert!(ambiguous.contains("found KAAX, KONE, MAAX"), "{ambiguous}");
+    assert!(
+        ambiguous.contains("the file has KAAX, KONE, MAAX"),
+        "{ambiguous}"
+    );
 }
 
 /// Matrices without names of their own beside one with: the table of rows gives the order of both.
@@ -177,7 +172,7 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
     let (_folder, path) = placed(&files);
-    let source = Prepared::new(&path)
+    let source = LoadedJob::new(&path)
         .unwrap_or_else(|error| panic!("{error}"))
         .source;
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");

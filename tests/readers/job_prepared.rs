@@ -9,13 +9,13 @@ use crate::common::tolerances::ROUND_OFF;
 use crate::common::whole_models::shear_building;
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::Prepared;
+use corfem::job::LoadedJob;
 use nalgebra::{DMatrix, dmatrix};
 
 /// A job that has no mistake, ready to run.
-pub fn prepared(files: &Files) -> Prepared {
+pub fn prepared(files: &Files) -> LoadedJob {
     let (_folder, path) = placed(files);
-    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"))
+    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A building whose stories are scaled as one, with its lowest modes measured at every floor.
@@ -202,13 +202,10 @@ fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
     let no_number = said(&no_number);
     assert_eq!(
         no_number,
-        "job.toml: expected sensor S2 within NaN of a grid, found grid 2 at 0.0000"
+        "job.toml: sensor S2: grid 2 is 0.0000 away; sensors.distance allows NaN"
     );
     let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
     let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
     let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));
-    assert_eq!(
-        twice,
-        "job.toml: expected every sensor of sensors.place once, found S2 again"
-    );
+    assert_eq!(twice, "job.toml: sensors.place: sensor S2 is named twice");
 }

@@ -5,7 +5,7 @@ use super::job_prepared::prepared;
 use crate::common::jobs::{Files, rods};
 use crate::common::tolerances::{PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
-use corfem::job::{Finished, History, Study, Vary, run};
+use corfem::job::{History, JobResult, Study, Vary, run};
 use corfem::method::verdict::Outcome;
 use corfem::weighted::residuals::residuals;
 use std::cell::Cell;
@@ -15,7 +15,7 @@ const B: &str = "elements = [\"2-3\"]";
 /// Rods 2 and 3 one by one: what the test was made of can be found.
 const EACH: &str = "elements = [\"2-3\"]\neach = true";
 
-fn ran(files: &Files) -> Finished {
+fn ran(files: &Files) -> JobResult {
     run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -10,16 +10,16 @@ use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, RECOVERED_STORY, WEIGHTED_FACTOR, WHOLE_SHAPE,
 };
-use corfem::job::{Finished, History, Prepared, run};
+use corfem::job::{History, JobResult, LoadedJob, run};
 use corfem::method::error::Error;
 use corfem::method::model::ModalModel;
 use corfem::method::outer_loop::correlate;
 use corfem::method::pairing::Pairing;
 use corfem::method::pairing::paired;
 use corfem::present::render;
-use corfem::present::subject::Subject;
+use corfem::present::report::Report;
 use corfem::present::tables::job::{doubts_table, places_table, seen_table};
-use corfem::present::tables::subject::{factor_table, history_table, paired_table, swaps};
+use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -59,11 +59,11 @@ fn check_files(name: &str, files: &Files) {
     }
 }
 
-fn finished(name: &str) -> (Prepared, Finished) {
+fn finished(name: &str) -> (LoadedJob, JobResult) {
     let prepared =
-        Prepared::new(&folder(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
+        LoadedJob::new(&folder(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-    let subject = Subject::of_job(&prepared, Some(&finished)).expect("a subject");
+    let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
     let mut tables = vec![
         doubts_table(&prepared).expect("doubts"),
         places_table(&prepared, Some(&finished)).expect("sensors"),
@@ -87,12 +87,12 @@ fn finished(name: &str) -> (Prepared, Finished) {
 fn condensed(
     name: &str,
 ) -> (
-    Prepared,
-    impl Fn(&Prepared, &[f64]) -> Result<ModalModel, Error>,
+    LoadedJob,
+    impl Fn(&LoadedJob, &[f64]) -> Result<ModalModel, Error>,
 ) {
     let path = folder(name).join("job.toml");
-    let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
-    let analyze = |job: &Prepared, factors: &[f64]| {
+    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let analyze = |job: &LoadedJob, factors: &[f64]| {
         let whole = &job.source.whole;
         analyze_condensed(whole, factors, &job.sensors, &job.test, None)
     };
@@ -135,7 +135,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     }
     let path = folder.path().join("job.toml");
     let finished = || {
-        let prepared = Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
         (prepared, finished.factors)
     };
@@ -210,7 +210,7 @@ fn negated(value: &str) -> String {
 /// A job's first model is analyzed once: what prepares it keeps it, unless something else is compared then.
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
-    let prepared = Prepared::new(&folder("building").join("job.toml"))
+    let prepared = LoadedJob::new(&folder("building").join("job.toml"))
         .unwrap_or_else(|error| panic!("{error}"));
     let first = prepared.analyze(&[1.0; 10]).expect("a model");
     let mut fewer = prepared.clone();
@@ -277,7 +277,7 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     );
     shapes_at_all_grids_are_those_of_the_sensors(&prepared, &found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
-    let subject = Subject::of_job(&prepared, Some(&found)).expect("a subject");
+    let subject = Report::from_job(&prepared, Some(&found)).expect("a subject");
     let mut exchanged = subject.clone();
     let pairing = &mut exchanged.stages[2].check.pairing;
     let mut places = pairing.analysis_mode().to_vec();
@@ -299,8 +299,8 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
 }
 
 /// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
-fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &Prepared, found: &Finished) {
-    let subject = Subject::of_job(prepared, Some(found)).expect("a subject");
+fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &LoadedJob, found: &JobResult) {
+    let subject = Report::from_job(prepared, Some(found)).expect("a subject");
     let moved = subject.moved.as_ref().expect("the whole model");
     let states = [&found.first, &found.last]
         .map(|model| paired(&model.exact().modes, &model.exact().pairing).expect("modes"));

@@ -176,7 +176,7 @@ fn reports_name_another_solver() {
     assert_eq!(noted(&other), expected);
     for run in [&*RUN, &other] {
         let subject = wing_subject(&wing(), run).expect("a subject");
-        let json = json::subject(&subject).expect("a value");
+        let json = json::report(&subject).expect("a value");
         assert_eq!(json["solver"], run.solver);
     }
 }
@@ -192,11 +192,11 @@ fn the_command_asks_the_solver_it_is_given() {
         (&[][..], "exit status: 9"),
         (
             &["--nastran", slow, "--time-limit", "1"],
-            "expected it to end within 1 s",
+            "still running after 1 s",
         ),
         (
             &["--nastran", "no/such/folder"],
-            "found none at no/such/folder",
+            "no folder with bin/nastrn and rf/ at no/such/folder",
         ),
     ] {
         let output = assert_cmd::Command::cargo_bin("corfem")

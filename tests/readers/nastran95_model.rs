@@ -79,7 +79,7 @@ fn a_deck_holds_point_masses_alone() {
         model.parameters().to_vec(),
     )
     .expect("a model");
-    let error = BulkData::of(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
+    let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
     assert!(matches!(
         error,
         Err(FileError::Method(Error::CoupledMass(0)))

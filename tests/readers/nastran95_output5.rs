@@ -33,12 +33,7 @@ fn a_file_of_module_output5_reads() {
     assert_eq!(read["B"], DMatrix::zeros(1, 1));
     // No header is too large, but both together are.
     let error = read_output5(&two, 6).expect_err("seven entries");
-    assert!(
-        error
-            .to_string()
-            .contains("at most 6 entries in all in line 9 "),
-        "{error}"
-    );
+    assert!(error.to_string().contains("line 9: "), "{error}");
 }
 
 #[test]
@@ -49,29 +44,30 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
         let mut lines = lines.clone();
         lines[line - 1] = text;
         let error = read_output5(&lines.join("\n"), 144).expect_err(text);
-        let FileError::SolverAnswer {
-            expected: wanted, ..
-        } = &error
-        else {
+        let FileError::SolverAnswer { reason } = &error else {
             panic!("{error}");
         };
-        assert_eq!(*wanted, format!("{expected} of the OUTPUT5 file"), "{text}");
+        let (what, line) = expected.rsplit_once(" in ").expect("a line");
+        assert!(
+            reason.starts_with(&format!("OUTPUT5 file, {line}: ")) && reason.contains(what),
+            "{text}: {reason}"
+        );
     };
     let header = |columns: usize, kind: usize| {
         format!(
             "   0.00000000000000000D+00{columns:8}      12       6{kind:8}      12    2500KGG     "
         )
     };
-    refused(2, "  x", "an integer in line 2");
+    refused(2, "  x", "a line of integers in line 2");
     refused(
         2,
         "       1       1       1",
-        "a matrix's header before its columns in line 2",
+        "the header that precedes a matrix's columns in line 2",
     );
     refused(
         3,
         "   0.00000000000000000D+00      1x",
-        "an integer in line 3",
+        "a line of integers in line 3",
     );
     refused(
         3,
@@ -82,7 +78,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
         refused(
             3,
             &header(columns, 2),
-            "matrices of at most 144 entries in all in line 3",
+            "the header of a matrix within the 144 entries of all in line 3",
         );
     }
     for outside in [
@@ -93,26 +89,30 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
     ] {
         refused(4, outside, "a column and rows within the matrix in line 4");
     }
-    refused(5, "", "reals in line 5");
+    refused(
+        5,
+        "",
+        "a line of the column's reals in format D26.17 is missing in line 5",
+    );
     refused(
         5,
         "   0.20188163729412143X+05",
-        "reals of the format D26.17, as many as rows in line 5",
+        "is not a line of the column's reals in format D26.17 in line 5",
     );
     refused(
         4,
         "       1       1       4",
-        "reals of the format D26.17, as many as rows in line 5",
+        "is not a line of the column's reals in format D26.17 in line 5",
     );
     refused(
         4,
         "       1       1       7",
-        "reals of the format D26.17, as many as rows in line 6",
+        "is not a line of the column's reals in format D26.17 in line 6",
     );
     let cut = lines[..4].join("\n");
     let error = read_output5(&cut, 144).expect_err("its end");
     assert!(
-        matches!(&error, FileError::SolverAnswer { expected, found } if expected == "reals in line 5 of the OUTPUT5 file" && found == "its end"),
+        matches!(&error, FileError::SolverAnswer { reason } if reason.starts_with("OUTPUT5 file, line 5: the file ends before")),
         "{error}"
     );
 }

@@ -142,7 +142,7 @@ fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkDat
     let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
     let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
     let points = dynamic_points(&case.reconstruction).expect("points");
-    let bulk = BulkData::of(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
+    let bulk = BulkData::from_model(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
     (modes.omega_squared().as_slice().to_vec(), bulk)
 }
 

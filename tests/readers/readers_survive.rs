@@ -11,7 +11,7 @@ use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::nastran95::read_output5;
 use corfem::files::test_data::read as read_test;
-use corfem::job::{Job, Prepared};
+use corfem::job::{Job, LoadedJob};
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::Reconstruction;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -71,7 +71,7 @@ fn prepares(job: &[u8], rows: &[u8]) -> bool {
     let path = folder.path().join("job.toml");
     std::fs::write(&path, text).expect("written");
     std::fs::write(folder.path().join("rows.csv"), rows).expect("written");
-    Prepared::new(&path).is_ok()
+    LoadedJob::new(&path).is_ok()
 }
 
 const JOB: &[u8] = include_bytes!("../jobs/building/job.toml");

@@ -108,7 +108,7 @@ fn noise_start_and_subset_are_drawn_independently() {
         let [noise, start, subset, together] = [&noise, &start_alone, &subset, &together]
             .map(|study| study.draw(sample).expect("a draw"));
         assert_eq!((&noise.0.data, &start.1), (&together.0.data, &together.1));
-        assert_eq!(start.0.test, start_alone.prepared.test);
+        assert_eq!(start.0.test, start_alone.loaded.test);
         assert_eq!(subset.0.job, together.0.job);
         assert_eq!((noise.1, subset.1), (vec![1.0; 10], vec![1.0; 10]));
         assert!(start.1.iter().all(|factor| (0.5..2.0).contains(factor)));
@@ -139,7 +139,7 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
         |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", weights));
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Subset]);
-    let whole = study.prepared.weights().expect("weights");
+    let whole = study.loaded.weights().expect("weights");
     let mut fewer = 0;
     for sample in 1..=20 {
         let (prepared, _) = study.draw(sample).expect("a draw");
@@ -207,7 +207,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
-    let found = corfem::job::run(&study.prepared, |_| {}, || true).expect("it runs");
+    let found = corfem::job::run(&study.loaded, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
     let summary = place
         .read(&study, text.as_bytes())
@@ -298,7 +298,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
             .expect_err(&text)
             .to_string();
         assert!(
-            error.contains(", line 3: expected ") && error.contains(expected),
+            error.contains(", line 3: ") && error.contains(expected),
             "{error}"
         );
     };
@@ -313,14 +313,17 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
             "a sample of this job, seed and choice of what varies",
         );
     }
-    refused("hello\n".to_owned(), "a line of a sample of this study");
+    refused(
+        "hello\n".to_owned(),
+        "is not a line of a sample of this study",
+    );
     refused(
         lines[1].replacen(',', "", 1),
-        "a line of a sample of this study",
+        "is not a line of a sample of this study",
     );
     refused(
         lines[1].replacen("2,", "-2,", 1),
-        "a line of a sample of this study",
+        "is not a line of a sample of this study",
     );
     let cells: Vec<&str> = lines[1].split(',').collect();
     refused(
@@ -329,7 +332,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
     );
     refused(
         lines[0].replacen(",local", ",  local", 1),
-        "a sample once, or again as it was",
+        "is not what another line says of this sample",
     );
     // Another first byte of any file is another job.
     for name in ["job.toml", "test.csv", "model.bdf"] {

@@ -157,20 +157,17 @@ fn coordinate_systems_that_are_none_are_refused() {
     let points = |points| dataset("18", &system(3, 0, 0, points));
     let origin = said(points([[1.0; 3], [1.0; 3], [0.0; 3]]));
     assert!(
-        origin.contains("line 6: expected a point beside the origin, found the origin"),
+        origin.contains("line 6: the point on the x axis is the origin"),
         "{origin}"
     );
     let on_axis = said(points([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
     assert!(
-        on_axis.contains("line 6: expected a point beside the x axis, found one on it"),
+        on_axis.contains("line 6: the point in the xz plane is on the x axis"),
         "{on_axis}"
     );
     // Seen from its origin as a point a hundred times farther away is: at less than a ten-thousandth of a radian.
     let near_axis = |far: f64| points([[0.0; 3], [1.0, 0.0, 0.0], [far, 0.0, 0.05]]);
-    assert!(
-        said(near_axis(1000.0))
-            .contains("line 6: expected a point beside the x axis, found one on it")
-    );
+    assert!(said(near_axis(1000.0)).contains("line 6: the point in the xz plane is on the x axis"));
     parsed(&(near_axis(100.0) + &real_mode(TIP)));
     let unknown = said(dataset(
         "18",
@@ -178,7 +175,7 @@ fn coordinate_systems_that_are_none_are_refused() {
     ));
     assert!(
         unknown.contains(
-            "a reference that is zero or a Cartesian coordinate system of before, found 2"
+            "\"2\" is not zero or the number of a Cartesian coordinate system before this one"
         ),
         "{unknown}"
     );
@@ -189,11 +186,11 @@ fn coordinate_systems_that_are_none_are_refused() {
     parsed(&(skewed(1e-4) + &real_mode(TIP)));
     let skew = said(skewed(1.1e-4));
     assert!(
-        skew.contains("expected three unit vectors at right angles above it, found others"),
+        skew.contains("the three rows above are not unit vectors at right angles"),
         "{skew}"
     );
     let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
     let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
-    let expected = "line 10: expected a node with Cartesian coordinate systems, found a cylindrical or spherical one";
+    let expected = "line 10: this node has a cylindrical or spherical coordinate system";
     assert!(cylinder.contains(expected), "{cylinder}");
 }

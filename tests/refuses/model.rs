@@ -144,7 +144,10 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     }
     let mut data = Case::new(1).unwrap().reconstruction;
     data.masses[4] = f64::NAN;
-    let refused = Case::on(1, data).unwrap().model().unwrap_err();
+    let refused = Case::from_reconstruction(1, data)
+        .unwrap()
+        .model()
+        .unwrap_err();
     assert!(
         matches!(
             refused,

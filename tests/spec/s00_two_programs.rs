@@ -31,7 +31,7 @@ fn random_model() -> impl Strategy<Value = FiniteElementModel> {
             .chain(&mut reconstruction.masses)
             .zip(&mut off)
             .for_each(|(number, off)| *number *= off);
-        let case = Case::on(number, reconstruction).ok()?;
+        let case = Case::from_reconstruction(number, reconstruction).ok()?;
         let bare = structure(&case.reconstruction, &case.panels, case.rod_area).ok()?;
         let mut elements = bare.elements().to_vec();
         for element in &mut elements {

@@ -248,7 +248,11 @@ fn on_other_boxes_the_relative_change_is_nearer_to_the_print_too() {
         let other = other_box().new_tree(&mut runner).expect("a box").current();
         // Mean over the passes of correlation and difference.
         let means = |number: usize, reading| {
-            let result = run_by_reading(&Case::on(number, other.clone()).ok()?, reading).ok()?;
+            let result = run_by_reading(
+                &Case::from_reconstruction(number, other.clone()).ok()?,
+                reading,
+            )
+            .ok()?;
             let columns = columns_of(&result).ok()?;
             let mean = |of: fn(&ReadingColumn) -> f64| {
                 columns.iter().map(of).sum::<f64>() / columns.len() as f64

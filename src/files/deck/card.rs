@@ -1,7 +1,7 @@
 //! One bulk data card as it is read: a name and its fields, with where they came from.
 
 use super::number::parse_real;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub(crate) struct Card {
     pub fields: Vec<Field>,
 }
 
-/// What a card says, and where its entry begins: in field 2, or in field 6 for the second of two on a card.
+/// The value read from a card, and the field where its entry begins: 2, or 6 for the second of two entries on a card.
 #[derive(Debug)]
 pub(crate) struct Kept<T> {
     pub value: T,
@@ -38,7 +38,7 @@ pub(crate) struct Kept<T> {
     pub start: usize,
 }
 
-/// What the cards of one kind say, by number.
+/// The values of the cards of one kind, by number.
 pub(crate) type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
@@ -62,24 +62,27 @@ impl Card {
     }
 
     /// An error about a field.
-    pub fn error(&self, field: usize, expected: impl Into<String>) -> FileError {
-        let text = self.text(field);
+    pub fn error(&self, field: usize, reason: impl Into<String>) -> FileError {
         FileError::DeckField {
             file: self.file.to_string(),
             line: self.field(field).map_or(self.line, |field| field.line),
             card: self.name.clone(),
             field,
-            expected: expected.into(),
-            found: if text.is_empty() { "a blank" } else { text }.to_owned(),
+            reason: reason.into(),
         }
     }
 
-    /// Refuses a field for which something that is expected of it does not hold.
-    pub fn require(&self, is_met: bool, field: usize, expected: &str) -> Result<(), FileError> {
+    /// An error about a field whose text is not what belongs there.
+    pub fn wrong(&self, field: usize, what: &str) -> FileError {
+        self.error(field, is_not(self.text(field), what))
+    }
+
+    /// Refuses a field unless its text is what belongs there.
+    pub fn require(&self, is_met: bool, field: usize, what: &str) -> Result<(), FileError> {
         if is_met {
             Ok(())
         } else {
-            Err(self.error(field, expected))
+            Err(self.wrong(field, what))
         }
     }
 
@@ -87,7 +90,7 @@ impl Card {
     pub fn label(&self, field: usize) -> Result<usize, FileError> {
         match self.text(field).parse() {
             Ok(label) if (1..=LARGEST_LABEL).contains(&label) => Ok(label),
-            _ => Err(self.error(field, "a positive integer of at most eight digits")),
+            _ => Err(self.wrong(field, "a positive integer of at most eight digits")),
         }
     }
 
@@ -96,7 +99,7 @@ impl Card {
         match (self.text(field), parse_real(self.text(field))) {
             ("", _) => Ok(None),
             (_, Some(value)) => Ok(Some(value)),
-            _ => Err(self.error(field, "a real number with a decimal point")),
+            _ => Err(self.wrong(field, "a real number with a decimal point")),
         }
     }
 
@@ -109,19 +112,21 @@ impl Card {
     pub fn positive(&self, field: usize) -> Result<f64, FileError> {
         match self.optional_real(field)? {
             Some(value) if value > 0.0 => Ok(value),
-            _ => Err(self.error(field, "a positive real number")),
+            _ => Err(self.wrong(field, "a positive real number")),
         }
     }
 
-    /// Refuses what the crate's elements do not have, `meaning`: the field must be blank or zero.
+    /// Requires a blank or zero where the crate has nothing for the field's `meaning`.
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
         let is_zero = text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0);
-        self.require(
-            is_zero,
+        if is_zero {
+            return Ok(());
+        }
+        Err(self.error(
             field,
-            &format!("a blank or zero, for the crate has no {meaning}"),
-        )
+            format!("\"{text}\" must be blank or zero: corfem has no {meaning}"),
+        ))
     }
 
     /// Directions x, y, z among components such as `123`; the rotations, 4 to 6, are allowed and left out.
@@ -130,7 +135,7 @@ impl Card {
         self.require(
             components.chars().all(|c| ('1'..='6').contains(&c)),
             field,
-            "components from 1 to 6",
+            "a list of components 1 to 6",
         )?;
         Ok(['1', '2', '3'].map(|component| components.contains(component)))
     }
@@ -138,7 +143,7 @@ impl Card {
     /// The one direction, 0 to 2, of a component 1, 2 or 3.
     pub fn direction(&self, field: usize) -> Result<usize, FileError> {
         let direction = ["1", "2", "3"].iter().position(|c| *c == self.text(field));
-        direction.ok_or_else(|| self.error(field, "component 1, 2 or 3"))
+        direction.ok_or_else(|| self.wrong(field, "component 1, 2 or 3"))
     }
 
     /// Adds an entry to others by the number in its first field, which no other card may have.
@@ -159,13 +164,14 @@ impl Card {
         Err(self.error(
             start,
             format!(
-                "a number other than that of the card in line {}",
-                first.card.line
+                "the card in line {} has the number {} already",
+                first.card.line,
+                self.text(start)
             ),
         ))
     }
 
-    /// What a field refers to by its number, which must exist; `card` is the name of the card looked for.
+    /// The entry that a field refers to by its number, which must exist; `card` is the name of the card it is on.
     pub fn referred<'a, T>(
         &self,
         field: usize,
@@ -173,6 +179,6 @@ impl Card {
         card: &str,
     ) -> Result<&'a T, FileError> {
         all.get(&self.label(field)?)
-            .ok_or_else(|| self.error(field, format!("the number of a {card} card")))
+            .ok_or_else(|| self.wrong(field, &format!("the number of a {card} card")))
     }
 }

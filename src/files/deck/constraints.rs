@@ -34,8 +34,8 @@ impl Sets {
             card.label(3)?;
             for field in card.filled().into_iter().filter(|&field| field > 2) {
                 let set = card.label(field)?;
-                let expected = format!("the set of an {} card", card.name.replace("ADD", "1"));
-                card.require(known.contains(&set), field, &expected)?;
+                let what = format!("the set of an {} card", card.name.replace("ADD", "1"));
+                card.require(known.contains(&set), field, &what)?;
                 sets.insert(set);
             }
         }
@@ -92,7 +92,7 @@ impl Constraints {
                 if let (Some(first), Some(other)) = (first, sets.select(first)?.first()) {
                     return Err(other.error(
                         2,
-                        format!("set {first} again, for no case control selects one"),
+                        format!("set {} beside set {first}: a deck without case control may have one set", other.text(2)),
                     ));
                 }
                 continue;
@@ -102,8 +102,7 @@ impl Constraints {
                 return Err(FileError::line(
                     file,
                     line,
-                    "a set of constraints that the deck has",
-                    set.to_string(),
+                    format!("the deck has no set {set} of constraints"),
                 ));
             }
         }
@@ -114,7 +113,7 @@ impl Constraints {
     pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
         for (_, card) in &self.supports.cards {
             let directions = card.directions(3)?;
-            card.require(!card.text(3).is_empty(), 3, "components from 1 to 6")?;
+            card.require(!card.text(3).is_empty(), 3, "a list of components 1 to 6")?;
             let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
             card.require(fields.peek().is_some(), 4, "a grid")?;
             while let Some(field) = fields.next() {
@@ -125,9 +124,9 @@ impl Constraints {
                     let after = if word % 10 == 9 { word + 3 } else { word + 1 };
                     let end = fields
                         .next()
-                        .ok_or_else(|| card.error(after, "a grid after THRU"))?;
+                        .ok_or_else(|| card.wrong(after, "a grid after THRU"))?;
                     last = card.label(end)?;
-                    card.require(last >= first, end, &format!("a grid after {first}"))?;
+                    card.require(last >= first, end, &format!("a grid number above {first}"))?;
                 }
                 let mut run = grids.range_mut(first..=last).peekable();
                 card.require(run.peek().is_some(), field, "the number of a GRID card")?;
@@ -160,17 +159,18 @@ impl Constraints {
                 .take_while(|&field| field <= last)
                 .map(term);
             let mut terms = terms.collect::<Result<Vec<_>, FileError>>()?.into_iter();
-            let (dependent, coefficient) = terms.next().ok_or_else(|| card.error(3, "a grid"))?;
+            let (dependent, coefficient) = terms.next().ok_or_else(|| card.wrong(3, "a grid"))?;
             let key = (dependent.grid, dependent.direction);
-            card.require(coefficient != 0.0, 5, "a coefficient that is not zero")?;
+            card.require(coefficient != 0.0, 5, "a coefficient other than zero")?;
             let is_constrained = grids
                 .get(&key.0)
                 .is_some_and(|grid| grid.constrained[key.1]);
-            card.require(
-                !is_constrained,
-                3,
-                "a degree of freedom that no SPC1 card constrains",
-            )?;
+            if is_constrained {
+                return Err(card.error(
+                    3,
+                    "an SPC1 card constrains this degree of freedom; it cannot also depend on others",
+                ));
+            }
             let tie = Tie {
                 dependent,
                 coefficient,
@@ -179,7 +179,7 @@ impl Constraints {
             if let Some((_, first)) = ties.insert(key, (tie, card)) {
                 return Err(card.error(
                     3,
-                    format!("a degree of freedom that line {} does not tie", first.line),
+                    format!("line {} ties this degree of freedom already", first.line),
                 ));
             }
         }
@@ -187,8 +187,8 @@ impl Constraints {
             let is_tied =
                 |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
             if let Some(row) = tie.terms.iter().position(is_tied) {
-                let expected = "a degree of freedom that no MPC card makes dependent";
-                return Err(card.error(term_field(row + 1), expected));
+                let reason = "another MPC card makes this degree of freedom dependent; no equation may refer to it";
+                return Err(card.error(term_field(row + 1), reason));
             }
         }
         Ok(ties.into_values().map(|(tie, _)| tie).collect())

@@ -21,7 +21,7 @@ const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 /// What elements refer to, by their numbers.
 pub(super) type Members = BTreeMap<usize, Membership>;
 
-/// What the cards say of elements before they are put together.
+/// The cards of elements, properties and materials before they are joined to elements.
 #[derive(Debug, Default)]
 pub(super) struct ElementCards {
     /// The place of every element's kind in [`ELEMENT_CARDS`]; none for a CONROD.
@@ -80,7 +80,7 @@ impl ElementCards {
         Ok(())
     }
 
-    /// What has the size and the material of an element: its property's card, which must exist, or its own.
+    /// The card with the size and the material of an element: its property's, which must exist, or its own.
     pub fn holder<'a>(
         &'a self,
         connection: &'a Kept<Option<usize>>,
@@ -151,11 +151,11 @@ fn material(card: &Card) -> Result<Material, FileError> {
         (Some(e), _, Some(nu)) => (e, nu),
         (Some(e), Some(g), None) => (e, nearest_in_field(e / (2.0 * g) - 1.0)),
         (None, Some(g), Some(nu)) => (nearest_in_field(2.0 * g * (1.0 + nu)), nu),
-        _ => return Err(card.error(3, "two of E, G and NU")),
+        _ => return Err(card.error(3, "a material needs two of E, G and NU")),
     };
     let derived = Material::isotropic(e, nu).map_err(|error| match error {
-        Error::Setting { .. } => card.error(5, "Poisson's ratio above -1 and at most 0.5"),
-        _ => card.error(3, "a positive Young's modulus"),
+        Error::Setting { .. } => card.wrong(5, "a Poisson's ratio above -1 and at most 0.5"),
+        _ => card.wrong(3, "a positive Young's modulus"),
     })?;
     let shear_modulus = if g.is_some() {
         card.positive(4)?
@@ -163,7 +163,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
         derived.shear_modulus
     };
     let density = card.real(6)?;
-    card.require(density >= 0.0, 6, "a density that is not negative")?;
+    card.require(density >= 0.0, 6, "a density of zero or more")?;
     Ok(Material {
         shear_modulus,
         density,

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
 const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
-/// What stands behind the first word of such a statement, or of a parameter.
+/// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does.
@@ -44,7 +44,7 @@ pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
 
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
-/// What stands in front of the bulk data and yet is part of the model, parameters and other files, is among its lines.
+/// PARAM and INCLUDE statements in front of the bulk data belong to the model too and are among its lines.
 pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| {
         line.split('$')
@@ -88,7 +88,7 @@ fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
     names.iter().find(begins).copied()
 }
 
-/// Takes notice of `SPC = n` and `MPC = n`.
+/// Notes the sets that `SPC = n` and `MPC = n` select.
 fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Result<(), FileError> {
     let (slot, set) = match text.split_once('=').map(|(name, set)| (name.trim(), set)) {
         Some(("SPC", set)) => (spc, set),
@@ -101,8 +101,10 @@ fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Res
             return Err(FileError::line(
                 file,
                 line,
-                "one set of constraints, by its number",
-                text.trim(),
+                format!(
+                    "\"{}\" must select one set of constraints by its number",
+                    text.trim()
+                ),
             ));
         }
     }
@@ -166,7 +168,13 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
             tag: String::new(),
         });
     }
-    let wrong = |expected, found: &str| FileError::line(file, number, expected, found.trim());
+    let wrong = |text: &str, what: &str| {
+        Err(FileError::line(
+            file,
+            number,
+            format!("\"{}\" {what}", text.trim()),
+        ))
+    };
     let Cut {
         name,
         mut parts,
@@ -181,7 +189,7 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     let first = name.trim();
     let continues = first.is_empty() || first.starts_with(['+', '*']);
     if !continues && !first.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        return Err(wrong("a card's name or a continuation", first));
+        return wrong(first, "is neither a card's name nor a continuation");
     }
     let first = if continues {
         first.trim_start_matches(['+', '*'])
@@ -190,7 +198,7 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     }
     .to_owned();
     if parts.len() > count + 1 {
-        return Err(wrong("no more fields than a line has", text));
+        return wrong(text, "has more fields than a line may have");
     }
     let field = |part: &String| Field {
         text: part.trim().to_owned(),
@@ -206,10 +214,10 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     );
     let tag = data.pop().map(|last| last.text).unwrap_or_default();
     if let Some(long) = data.iter().find(|field| field.text.chars().count() > width) {
-        return Err(wrong(
-            "a field of 8 characters, or of 16 with an asterisk",
+        return wrong(
             &long.text,
-        ));
+            "is longer than a field: 8 characters, or 16 with an asterisk",
+        );
     }
     let tag = tag.trim_start_matches(['+', '*']).to_owned();
     Ok(Line {
@@ -265,13 +273,11 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
             open = None;
             let (tag, number) = (line.first.clone(), line.number);
             if let Some(first) = waiting.insert(tag.clone(), line) {
-                let found = format!("{tag}, which the one in line {} has", first.number);
-                return Err(FileError::line(
-                    file,
-                    number,
-                    "a continuation with a tag of its own",
-                    found,
-                ));
+                let reason = format!(
+                    "the continuation in line {} has the tag {tag} already",
+                    first.number
+                );
+                return Err(FileError::line(file, number, reason));
             }
         }
     }
@@ -284,13 +290,8 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
             tag = line.tag;
         }
         if let Some(first) = taken.get(&tag) {
-            let found = format!("tag {tag}, which continues the card of line {first}");
-            return Err(FileError::line(
-                file,
-                card.line,
-                "a card with continuations of its own",
-                found,
-            ));
+            let reason = format!("tag {tag} continues the card of line {first} already");
+            return Err(FileError::line(file, card.line, reason));
         }
     }
     match waiting.values().min_by_key(|line| line.number) {
@@ -300,11 +301,11 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileE
 }
 
 fn no_parent(file: &str, line: &Line) -> FileError {
-    let found = match line.first.as_str() {
-        "" => "none before it".to_owned(),
-        tag => format!("none that ends with tag {tag}"),
+    let reason = match line.first.as_str() {
+        "" => "this line continues a card, but there is none before it".to_owned(),
+        tag => format!("this line continues a card that ends with tag {tag}, but none does"),
     };
-    FileError::line(file, line.number, "a card that this line continues", found)
+    FileError::line(file, line.number, reason)
 }
 
 fn append(card: &mut Card, line: &Line) {

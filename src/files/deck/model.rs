@@ -1,4 +1,4 @@
-//! What a deck says: grids, elements, ties and masses, whatever the order and the format of its cards.
+//! The model that a deck describes: grids, elements, ties and masses, whatever the order and the format of its cards.
 
 use crate::files::error::FileError;
 use crate::method::assembly::{ElementMatrix, lumped_mass};
@@ -80,7 +80,7 @@ pub struct BulkData {
 
 impl BulkData {
     /// A structure alone, without ties and point masses.
-    pub fn of_structure(structure: &Structure) -> Self {
+    pub fn from_structure(structure: &Structure) -> Self {
         let (grids, elements) = (structure.grids().to_vec(), structure.elements().to_vec());
         Self {
             grids,
@@ -100,7 +100,7 @@ impl BulkData {
     /// # Errors
     /// Those of [`at`](crate::method::model::ScaledStructure::at); [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
-    pub fn of(
+    pub fn from_model(
         model: &FiniteElementModel,
         factors: &[f64],
         points: &[Vector3<f64>],
@@ -109,7 +109,7 @@ impl BulkData {
         let at = model.at(factors)?;
         let (t, mass) = (model.load_distribution(), &at.point_masses);
         check_length("positions of dynamic points", points.len(), t.ncols())?;
-        let mut all = Self::of_structure(structure);
+        let mut all = Self::from_structure(structure);
         let sizes = at.sizes.iter().zip(&at.mass_sizes);
         for (element, (&size, mass_size)) in all.elements.iter_mut().zip(sizes) {
             element.size = size;
@@ -280,7 +280,7 @@ impl BulkData {
                     .collect(),
                 None => vec![(own, 1.0)],
             };
-            // A constrained DOF does not move and adds nothing; one that stands in the equation twice counts twice.
+            // A constrained DOF does not move and adds nothing; one that the equation names twice counts twice.
             let mut motion: BTreeMap<usize, f64> = BTreeMap::new();
             for (term, coefficient) in terms {
                 if let Some(row) = structure.free_dof_index(term.grid, term.direction) {

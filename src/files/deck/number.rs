@@ -23,7 +23,7 @@ pub fn parse_real(text: &str) -> Option<f64> {
     let exponent = exponent
         .strip_prefix(['E', 'D', 'e', 'd'])
         .unwrap_or(exponent);
-    // What is wrong with the digits on either side, the parser of Rust's own reals finds.
+    // Rust's own parser finds what is wrong with the digits on either side.
     let sign = if text.starts_with('-') { "-" } else { "" };
     let value: f64 = format!("{sign}{whole}.{fraction}e{exponent}")
         .parse()
@@ -85,7 +85,7 @@ fn layout(scientific: &str) -> Option<String> {
         let (whole, fraction) = digits.split_at(power as usize);
         format!("{whole}.{fraction}")
     };
-    // After the first digit is where a reader expects the point; other places may save a digit of the exponent.
+    // A reader expects the point after the first digit; another place may save a digit of the exponent.
     let with_exponent = (1..=count).chain([0]).map(|point| {
         let (whole, fraction) = digits.split_at(point as usize);
         format!("{whole}.{fraction}{:+}", power - point)

@@ -1,4 +1,4 @@
-//! From cards to the model they describe: which are read, which say nothing of it, and which may but are not understood.
+//! From cards to the model they describe: which cards are read, which do not matter to it, and which may matter but are unknown.
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
@@ -31,7 +31,7 @@ pub struct Deck {
 ///
 /// # Errors
 /// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and
-/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Input`] for the name of a card to be ignored that is
+/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Refused`] for the name of a card to be ignored that is
 /// read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored
@@ -39,10 +39,9 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         .map(|card| card.trim().to_ascii_uppercase())
         .collect();
     if let Some(card) = ignored.iter().find(|name| is_read(name)) {
-        return Err(FileError::input(
+        return Err(FileError::refused(
             "--ignore",
-            "a card that is not read here",
-            card,
+            format!("corfem reads {card}; only cards that it does not read can be left out"),
         ));
     }
     let (selected, lines) = sections(file, &decoded(text))?;
@@ -79,8 +78,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
                 return Err(FileError::line(
                     file,
                     card.line,
-                    "one GRDSET card at most",
-                    "another",
+                    "this is the second GRDSET card; a deck may have one",
                 ));
             }
             "PARAM" if weight.is_none() => weight = Some(card),
@@ -88,8 +86,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
                 return Err(FileError::line(
                     file,
                     card.line,
-                    "one PARAM,WTMASS at most",
-                    "another",
+                    "this is the second PARAM,WTMASS; a deck may have one",
                 ));
             }
             "CMASS2" | "CONM2" => card.keep(2, point_mass(&card)?, &mut masses)?,
@@ -150,13 +147,13 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
         card.require(
             mass.is_normal(),
             3,
-            "a factor that leaves every mass within the range of numbers",
+            "a factor that keeps every mass within the range of numbers",
         )?;
     }
     Ok(())
 }
 
-/// A grid; what GRDSET says counts where its own card has blanks.
+/// A grid; GRDSET fills the blanks of its own card.
 fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
     let chosen = |field: usize| {
         default

@@ -1,4 +1,4 @@
-//! A deck with other sizes and densities of its elements, and all else of it byte by byte as it was.
+//! Rewrites a deck with other sizes and densities of its elements; every other byte stays.
 
 use super::card::{Card, FIELDS_PER_LINE, Kept};
 use super::elements::{ElementCards, Holder};
@@ -13,10 +13,10 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Size and density of an element by their bits, so that they can be told apart and sorted.
 type SizeBits = (u64, u64);
-/// Elements with one property by what they are to have.
+/// Elements with one property, grouped by the size and density they need.
 type Groups<'a> = BTreeMap<SizeBits, Vec<&'a Kept<Option<usize>>>>;
 
-/// What is to change: fields by line and place, counted from the line's last field, and cards behind a line.
+/// The changes: fields by line and place, counted from the line's last field, and cards to insert after a line.
 struct Changes<'a> {
     fields: BTreeMap<usize, BTreeMap<usize, String>>,
     added: BTreeMap<usize, String>,
@@ -30,11 +30,11 @@ struct Changes<'a> {
 }
 
 /// The deck `bytes`, `file` in messages, with the sizes and densities of these elements, found by their numbers; those of
-/// [`BulkData::of`](super::BulkData::of) give the deck a model's modes.
+/// [`BulkData::from_model`](super::BulkData::from_model) give the deck a model's modes.
 ///
-/// Where elements of one property need different sizes, those without a change keep it, or else the most; the others refer
-/// to new cards behind it, and a new density to a new MAT1 card. A number that does not fit in its field turns its line into
-/// two of the large format. All else stays, byte by byte.
+/// Where elements of one property need different sizes, the unchanged ones keep the card, or else the largest group does; the
+/// others get new cards after it, and a new density gets a new MAT1 card. A number that does not fit in its field turns its line
+/// into two of the large format. Every other byte stays.
 ///
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read or would not hold a number,
@@ -49,7 +49,7 @@ pub fn rewrite(file: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
             weight = card.positive(3)?;
         }
     }
-    // No name of a continuation, and no remark in field 10, begins with letters that the deck has nowhere.
+    // Letters that occur nowhere in the deck begin no continuation's name and no remark in field 10.
     let capitals = text.to_ascii_uppercase();
     let prefix = (1..)
         .map(|count| "Z".repeat(count))
@@ -161,7 +161,9 @@ impl Changes<'_> {
                 self.set(
                     card,
                     size_field,
-                    text.ok_or_else(|| card.error(size_field, "a finite new number"))?,
+                    text.ok_or_else(|| {
+                        card.error(size_field, "the new size is not a finite number")
+                    })?,
                 )?;
             }
             if stays.1 != own.1 {
@@ -226,10 +228,10 @@ impl Changes<'_> {
         Ok(label.to_string())
     }
 
-    /// Puts a card of the same name behind another.
+    /// Inserts a card of the same name after another.
     fn add(&mut self, card: &Card, entries: &str) -> Result<(), FileError> {
         self.writer.text.clear();
-        self.writer.put(&card.name, entries)?;
+        self.writer.push(&card.name, entries)?;
         let line = card
             .fields
             .iter()
@@ -249,7 +251,7 @@ impl Changes<'_> {
         let own = card.fields.get(place..).unwrap_or_default();
         let line = own
             .first()
-            .ok_or_else(|| card.error(field, "a field to write in"))?
+            .ok_or_else(|| card.error(field, "the card has no such field to write in"))?
             .line;
         let from_last = own.iter().take_while(|other| other.line == line).count();
         self.fields.entry(line).or_default().insert(from_last, text);

@@ -12,7 +12,7 @@ use crate::method::structure::{Element, Grid, Material};
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
 
-/// What a deck asks of NASTRAN.
+/// What NASTRAN is to do with a deck.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Task {
     /// Normal modes by the inverse power method, which allows a singular mass matrix.
@@ -26,7 +26,7 @@ pub enum Task {
     Matrices,
 }
 
-/// A whole deck: executive control, case control and bulk data; `title` stands in the output's headings.
+/// A whole deck: executive control, case control and bulk data; `title` goes into the output's headings.
 ///
 /// `BANDIT=-1` keeps the grids in the order of their numbers, and `DIAG 44` takes the decomposition that gives right
 /// answers (the default one of the 1995 release does not).
@@ -59,7 +59,7 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
         ..Cards::default()
     };
     cards.model(model)?;
-    cards.put(
+    cards.push(
         "EIGR",
         &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"),
     )?;
@@ -99,7 +99,7 @@ impl Cards {
             ..
         } in &model.grids
         {
-            self.put(
+            self.push(
                 "GRID",
                 &format!("{label},,{:?},{:?},{:?}", at.x, at.y, at.z),
             )?;
@@ -120,8 +120,8 @@ impl Cards {
             });
             for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == *kind) {
                 let corners: String = grids.iter().map(|grid| format!(",{grid}")).collect();
-                self.put(connection, &format!("{label},{label}{corners}"))?;
-                self.put(property, &format!("{label},{},{size:?}", row + 1))?;
+                self.push(connection, &format!("{label},{label}{corners}"))?;
+                self.push(property, &format!("{label},{},{size:?}", row + 1))?;
             }
         }
         for (row, material) in (1..).zip(materials) {
@@ -142,7 +142,7 @@ impl Cards {
             } else {
                 format!(",{density:?}")
             };
-            self.put("MAT1", &format!("{row},{e:?},{shear},{nu:?}{density}"))?;
+            self.push("MAT1", &format!("{row},{e:?},{shear},{nu:?}{density}"))?;
         }
         for PointMass {
             label,
@@ -152,11 +152,11 @@ impl Cards {
         } in &model.masses
         {
             match direction {
-                Some(direction) => self.put(
+                Some(direction) => self.push(
                     "CMASS2",
                     &format!("{label},{mass:?},{grid},{}", direction + 1),
                 ),
-                None => self.put("CONM2", &format!("{label},{grid},,{mass:?}")),
+                None => self.push("CONM2", &format!("{label},{grid},,{mass:?}")),
             }?;
         }
         for Tie {
@@ -172,7 +172,7 @@ impl Cards {
                 entries += if row > 0 && row % 2 == 0 { ",,," } else { "," };
                 entries += &format!("{},{},{coefficient:?}", dof.grid, dof.direction + 1);
             }
-            self.put("MPC", &entries)?;
+            self.push("MPC", &entries)?;
         }
         let alike = |a: &Grid, b: &Grid| a.constrained == b.constrained && a.label + 1 == b.label;
         for run in model.grids.chunk_by(alike) {
@@ -190,7 +190,7 @@ impl Cards {
             } else {
                 String::new()
             };
-            self.put(
+            self.push(
                 "SPC1",
                 &format!("{SET},{components},{}{through}", first.label),
             )?;
@@ -200,7 +200,7 @@ impl Cards {
 
     /// A card with these fields, as in free format but with numbers as Rust writes them; a number with a decimal point or an
     /// exponent is a real one. Fields of 8 characters are taken if they hold all exactly and it is no GRID, else of 16.
-    pub fn put(&mut self, name: &str, entries: &str) -> Result<(), FileError> {
+    pub fn push(&mut self, name: &str, entries: &str) -> Result<(), FileError> {
         let mut is_large = name == "GRID";
         let mut fields = Vec::new();
         for (column, entry) in entries.split(',').enumerate() {

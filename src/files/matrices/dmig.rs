@@ -32,7 +32,7 @@ pub(super) fn read(
     for card in others {
         let own = columns
             .get_mut(card.text(2))
-            .ok_or_else(|| card.error(2, "the name of a matrix with a header"))?;
+            .ok_or_else(|| card.wrong(2, "the name of a matrix with a header"))?;
         own.push(card);
     }
     let names = headers
@@ -54,12 +54,12 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     header.require(
         is_square || ["2", "9"].contains(&header.text(4)),
         4,
-        "form 1, 2, 6 or 9",
+        "a form (1, 2, 6 or 9)",
     )?;
     header.require(
         ["1", "2"].contains(&header.text(5)),
         5,
-        "type 1 or 2, a real matrix",
+        "the type of a real matrix (1 or 2)",
     )?;
     let (mut entries, mut places) = (Vec::new(), HashSet::new());
     let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
@@ -75,18 +75,16 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
             let row = label(card, start)?;
             let value = card
                 .optional_real(start + 2)?
-                .ok_or_else(|| card.error(start + 2, "a real number"))?;
+                .ok_or_else(|| card.wrong(start + 2, "a real number"))?;
             card.absent(start + 3, "complex matrices")?;
             let place = if is_symmetric {
                 (row.min(column), row.max(column))
             } else {
                 (row, column)
             };
-            card.require(
-                places.insert(place),
-                start,
-                "a place of the matrix that no other entry has",
-            )?;
+            if !places.insert(place) {
+                return Err(card.error(start, "another entry has this place of the matrix"));
+            }
             rows.extend(if is_square { [row, column] } else { [row; 2] });
             columns.extend(if is_square {
                 [row, column]
@@ -122,6 +120,6 @@ fn label(card: &Card, field: usize) -> Result<Label, FileError> {
     };
     Ok((
         card.label(field)?,
-        component.ok_or_else(|| card.error(field + 1, "a component from 0 to 6"))?,
+        component.ok_or_else(|| card.wrong(field + 1, "a component from 0 to 6"))?,
     ))
 }

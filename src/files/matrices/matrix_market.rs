@@ -1,12 +1,13 @@
 //! The exchange format of the Matrix Market (Boisvert, Pozo, Remington, NISTIR 5935, 1996).
 
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use crate::sparse::SparseMatrix;
 use std::fmt::Write;
 
 /// Reads a matrix; entries of one place in the coordinate format add up.
 pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
-    let wrong = |line: usize, expected, found: &str| FileError::line(file, line, expected, found);
+    let wrong =
+        |line: usize, what: &str, found: &str| FileError::line(file, line, is_not(found, what));
     let end = text.lines().count() + 1;
     let mut lines = (1..)
         .zip(text.lines().map(str::trim))
@@ -14,41 +15,42 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let words = banner.to_ascii_lowercase();
     // The factor on the triangle that the file has gives the other one.
-    let (is_array, mirror): (bool, Option<f64>) =
-        match words.split_whitespace().collect::<Vec<_>>()[..] {
-            [
-                _,
-                "matrix",
-                format @ ("array" | "coordinate"),
-                "real" | "integer",
-                symmetry,
-            ] => {
-                let mirror = match symmetry {
-                    "general" => None,
-                    "symmetric" => Some(1.0),
-                    "skew-symmetric" => Some(-1.0),
-                    _ => {
-                        return Err(wrong(
-                            first,
-                            "a general, symmetric or skew-symmetric matrix",
-                            symmetry,
-                        ));
-                    }
-                };
-                (format == "array", mirror)
-            }
-            _ => {
-                return Err(wrong(
-                    first,
-                    "a matrix, array or coordinate, real or integer, and its symmetry",
-                    banner,
-                ));
-            }
-        };
+    let (is_array, mirror): (bool, Option<f64>) = match words.split_whitespace().collect::<Vec<_>>()
+        [..]
+    {
+        [
+            _,
+            "matrix",
+            format @ ("array" | "coordinate"),
+            "real" | "integer",
+            symmetry,
+        ] => {
+            let mirror = match symmetry {
+                "general" => None,
+                "symmetric" => Some(1.0),
+                "skew-symmetric" => Some(-1.0),
+                _ => {
+                    return Err(wrong(
+                        first,
+                        "general, symmetric or skew-symmetric",
+                        symmetry,
+                    ));
+                }
+            };
+            (format == "array", mirror)
+        }
+        _ => {
+            return Err(wrong(
+                first,
+                "the banner of a matrix: array or coordinate, real or integer, and its symmetry",
+                banner,
+            ));
+        }
+    };
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
     let (at, sizes) = lines
         .next()
-        .ok_or_else(|| wrong(end, "the line of sizes", "the end of the file"))?;
+        .ok_or_else(|| FileError::line(file, end, "the file ends before the line of sizes"))?;
     let numbers: Option<Vec<usize>> = sizes
         .split_whitespace()
         .map(|word| word.parse().ok())
@@ -63,15 +65,22 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         _ => {
             return Err(wrong(
                 at,
-                "rows, columns and, in the coordinate format, the number of entries",
+                "a line of sizes: rows, columns and, in the coordinate format, the number of entries",
                 sizes,
             ));
         }
     };
+    let too_many = |number| {
+        FileError::line(
+            file,
+            number,
+            "there are more entries than the line of sizes says",
+        )
+    };
     if mirror.is_some() && rows != columns {
         return Err(wrong(
             at,
-            "as many rows as columns of a symmetric matrix",
+            "the size of a symmetric matrix, which is square",
             sizes,
         ));
     }
@@ -84,9 +93,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let (row, column, word) = match words[..] {
             [value] if is_array => {
-                let place = places
-                    .next()
-                    .ok_or_else(|| wrong(number, "no more entries than places", line))?;
+                let place = places.next().ok_or_else(|| too_many(number))?;
                 (place.0, place.1, value)
             }
             [row, column, value] if !is_array && read < count => {
@@ -102,18 +109,14 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
                     _ => {
                         return Err(wrong(
                             number,
-                            "a row and column in the part of the matrix that is stored",
+                            "an entry within the part of the matrix that is stored",
                             line,
                         ));
                     }
                 }
             }
             [_, _, _] if !is_array => {
-                return Err(wrong(
-                    number,
-                    "no more entries than the line of sizes says",
-                    line,
-                ));
+                return Err(too_many(number));
             }
             _ if is_array => return Err(wrong(number, "a value", line)),
             _ => return Err(wrong(number, "a row, a column and a value", line)),
@@ -134,12 +137,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         read < count
     };
     if is_cut_off {
-        let found = format!("the end of the file after {read}");
-        return Err(wrong(
-            end,
-            "as many entries as the line of sizes says",
-            &found,
-        ));
+        let reason = format!("the file ends after entry {read}; the line of sizes promises more");
+        return Err(FileError::line(file, end, reason));
     }
     Ok(SparseMatrix::new(
         "matrix of a file",

@@ -1,6 +1,6 @@
 //! Matrices as other programs write them: Matrix Market, DMIG cards of NASTRAN, and the text of its module OUTPUT4.
 //!
-//! Memory is bounded by a file's own size: what a header promises takes no room before it is there.
+//! Memory is bounded by a file's own size: no room is reserved for what a header promises.
 
 mod dmig;
 mod matrix_market;
@@ -46,17 +46,17 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
     let read = if is_dmig { dmig::read } else { output4::read };
     let (names, mut found) = read(name, &text, wanted)?;
-    let names = names.join(", ");
-    let expected =
-        "one matrix of the name asked for, which may be left out where there is one alone";
     let one = found.pop().filter(|_| found.is_empty());
     one.ok_or_else(|| {
-        FileError::line(
-            name,
-            1,
-            expected,
-            if names.is_empty() { "none" } else { &names },
-        )
+        let asked = wanted.map_or("name one matrix".to_owned(), |name| {
+            format!("there is not one matrix {name}")
+        });
+        let names = if names.is_empty() {
+            "none".to_owned()
+        } else {
+            names.join(", ")
+        };
+        FileError::line(name, 1, format!("{asked}; the file has {names}"))
     })
 }
 

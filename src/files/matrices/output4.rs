@@ -68,15 +68,15 @@ pub(super) fn read(
 }
 
 impl Lines<'_> {
-    fn wrong(&self, at: usize, expected: &'static str) -> FileError {
-        FileError::at(self.file, &self.lines, at, expected)
+    fn wrong(&self, at: usize, what: &str) -> FileError {
+        FileError::at(self.file, &self.lines, at, what)
     }
 
-    fn require(&self, is_met: bool, at: usize, expected: &'static str) -> Result<(), FileError> {
+    fn require(&self, is_met: bool, at: usize, what: &str) -> Result<(), FileError> {
         if is_met {
             Ok(())
         } else {
-            Err(self.wrong(at, expected))
+            Err(self.wrong(at, what))
         }
     }
 
@@ -86,7 +86,7 @@ impl Lines<'_> {
             let rest = line.get(place * INTEGER..)?;
             rest.get(..INTEGER).unwrap_or(rest).trim().parse().ok()
         });
-        field.ok_or_else(|| self.wrong(at, "integers of eight characters"))
+        field.ok_or_else(|| self.wrong(at, "a line of integers of eight characters"))
     }
 
     fn is_string(&self, at: usize) -> bool {
@@ -108,19 +108,19 @@ impl Lines<'_> {
             .and_then(|text| text.trim().parse().ok());
         let rows = rows
             .filter(|rows| *rows != 0)
-            .ok_or_else(|| self.wrong(*at, "a number of rows"))?;
+            .ok_or_else(|| self.wrong(*at, "a header with a number of rows"))?;
         let is_large = !(0..ROWS_IN_HEADER as i64).contains(&rows);
         let rows = rows.unsigned_abs() as usize;
         let has_form = [1, 2, 6, 9].contains(&form) && (form != 6 || rows == columns);
         self.require(
             has_form,
             *at,
-            "a matrix of form 1, 2, 6 or 9, square if it is 6",
+            "the header of a matrix of form 1, 2 or 9, or 6 if it is square",
         )?;
         self.require(
             [1, 2].contains(&kind),
             *at,
-            "a matrix of type 1 or 2, which is real",
+            "the header of a real matrix (type 1 or 2)",
         )?;
         let format = header
             .get(5 * INTEGER..)
@@ -128,7 +128,8 @@ impl Lines<'_> {
         let width = format
             .and_then(|(_, width)| width.split('.').next()?.parse().ok())
             .filter(|width| *width > 0);
-        let width = width.ok_or_else(|| self.wrong(*at, "a format such as 1P,5E16.9"))?;
+        let width =
+            width.ok_or_else(|| self.wrong(*at, "a header with a format such as 1P,5E16.9"))?;
         let (mut entries, mut last_column) = (Vec::new(), 0);
         loop {
             *at += 1;
@@ -138,7 +139,11 @@ impl Lines<'_> {
                 *at += 2; // The last record has one number, which says nothing.
                 break;
             }
-            self.require(column > last_column, *at, "a column after the one before")?;
+            self.require(
+                column > last_column,
+                *at,
+                "the header of a column after the last one",
+            )?;
             last_column = column;
             let (head, before, mut next_row, mut strings) = (*at, entries.len(), 1, Vec::new());
             if first > 0 {
@@ -151,11 +156,16 @@ impl Lines<'_> {
                     (self.integer(string, 0)?, self.integer(string, 1)?)
                 } else {
                     let both = line.trim().parse::<usize>().ok();
-                    let both =
-                        both.ok_or_else(|| self.wrong(string, "the one integer of a string"))?;
+                    let both = both.ok_or_else(|| {
+                        self.wrong(string, "the one integer of a string's header")
+                    })?;
                     (both / ROWS_IN_HEADER, both % ROWS_IN_HEADER)
                 };
-                self.require(row >= next_row, string, "a string after the one before")?;
+                self.require(
+                    row >= next_row,
+                    string,
+                    "the header of a string below the last one",
+                )?;
                 let count = self.numbers(at, width, (row, rows, column), &mut entries)?;
                 next_row = row + count;
                 strings.push((string, words, count));
@@ -166,14 +176,14 @@ impl Lines<'_> {
             } else {
                 !strings.is_empty()
             };
-            self.require(is_whole, head, "a column with as many numbers as it says")?;
+            self.require(is_whole, head, "a header that counts the numbers below it")?;
             // A number has one word or two. Some programs count one in any case, or all of the column for every string.
             let counts = |count: usize| [count, 2 * count, 2 * all].map(|words| words + 1);
             if let Some((string, ..)) = strings
                 .iter()
                 .find(|(_, words, count)| !counts(*count).contains(words))
             {
-                return Err(self.wrong(*string, "a string with as many numbers as it says"));
+                return Err(self.wrong(*string, "a header that counts the numbers below it"));
             }
         }
         let mirrored = entries
@@ -207,10 +217,14 @@ impl Lines<'_> {
         while let Some(line) = self.lines.get(*at + 1).filter(|line| line.contains('.')) {
             *at += 1;
             let reals = parse_reals(line, width);
-            for value in
-                reals.ok_or_else(|| self.wrong(*at, "real numbers in the header's format"))?
+            for value in reals
+                .ok_or_else(|| self.wrong(*at, "a line of real numbers in the header's format"))?
             {
-                self.require(row <= rows, *at, "no more numbers than rows")?;
+                self.require(
+                    row <= rows,
+                    *at,
+                    "a line of numbers that ends within the column",
+                )?;
                 entries.push((row - 1, column - 1, value));
                 row += 1;
             }

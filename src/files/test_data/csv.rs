@@ -19,7 +19,7 @@
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
 use super::{DIRECTIONS, Sensor, TestData, default_name, real};
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 use nalgebra::{DMatrix, Vector3};
 
 /// First cells of the rows with a number for every mode.
@@ -50,13 +50,12 @@ impl TestRow<'_> {
             .map_or("", String::as_str)
     }
 
-    fn wrong<T>(&self, expected: &'static str, found: &str) -> Result<T, FileError> {
-        Err(FileError::line(
-            self.file,
-            self.number,
-            expected,
-            if found.is_empty() { "nothing" } else { found },
-        ))
+    fn wrong<T>(&self, reason: String) -> Result<T, FileError> {
+        Err(FileError::line(self.file, self.number, reason))
+    }
+
+    fn is_not<T>(&self, found: &str, what: &str) -> Result<T, FileError> {
+        self.wrong(is_not(found, what))
     }
 
     fn numbers(&self, columns: &[usize]) -> Result<Vec<f64>, FileError> {
@@ -67,7 +66,7 @@ impl TestRow<'_> {
             } else {
                 cell.replace(',', ".")
             });
-            value.map_or_else(|| self.wrong("a number", cell), Ok)
+            value.map_or_else(|| self.is_not(cell, "a number"), Ok)
         };
         columns.iter().map(number).collect()
     }
@@ -85,9 +84,9 @@ impl TestRow<'_> {
                 Some(place) if titles[place].is_none() => titles[place] = Some(column),
                 None if title.starts_with("mode") => modes.push(column),
                 _ => {
-                    return self.wrong(
-                        "a header with name, grid, direction, sign, x, y, z once each, and modes",
+                    return self.is_not(
                         cell,
+                        "a title: name, grid, direction, sign, x, y and z once each, and modes",
                     );
                 }
             }
@@ -97,11 +96,11 @@ impl TestRow<'_> {
             && titles[..2] != [None; 2]
             && [0, 3].contains(&axes)
             && !modes.is_empty();
-        let expected = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
+        let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
         if complete {
             Ok((titles, modes))
         } else {
-            self.wrong(expected, &self.cells.join(" "))
+            self.is_not(&self.cells.join(" "), what)
         }
     }
 
@@ -112,14 +111,14 @@ impl TestRow<'_> {
             .iter()
             .position(|name| *name == word.to_lowercase())
         else {
-            return self.wrong("a direction x, y, z, rx, ry or rz", word);
+            return self.is_not(word, "a direction x, y, z, rx, ry or rz");
         };
         let sign = match sign {
             "" | "+" | "1" | "+1" => 1.0,
             "-" | "-1" => -1.0,
-            other => return self.wrong("a sign + or -", other),
+            other => return self.is_not(other, "a sign + or -"),
         };
-        let number = |text: &str| text.parse().or_else(|_| self.wrong("a grid number", text));
+        let number = |text: &str| text.parse().or_else(|_| self.is_not(text, "a grid number"));
         let grid = if grid.is_empty() {
             None
         } else {
@@ -130,7 +129,7 @@ impl TestRow<'_> {
         let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
         let place = place.map(|numbers| Vector3::from_column_slice(&numbers));
         let name = match grid {
-            None if name.is_empty() => return self.wrong("a name or a grid number", ""),
+            None if name.is_empty() => return self.is_not("", "a name or a grid number"),
             Some(grid) if name.is_empty() => default_name(grid, direction),
             _ => name.to_owned(),
         };
@@ -172,10 +171,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
         } else if line.matches('"').count() % 2 == 1 {
-            return row.wrong("quotation marks in pairs", line);
+            return row.wrong(format!("a quotation mark is not closed: {line}"));
         } else if let Some(place) = ROWS.iter().position(|row| *row == name) {
             if by_mode[place].is_some() {
-                return row.wrong("each row by mode once", &name);
+                return row.wrong(format!("this is the second row {name}"));
             }
             by_mode[place] = Some(row);
         } else if header.is_none() {
@@ -184,9 +183,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             rows.push(row);
         }
     }
-    let (end, expected) = (text.lines().count(), "a header and a row frequency_hz");
-    let missing = || FileError::line(file, end, expected, "the end of the file");
-    let (titles, modes) = header.ok_or_else(missing)?;
+    let missing = |what| {
+        let reason = format!("the file ends without {what}");
+        FileError::line(file, text.lines().count(), reason)
+    };
+    let (titles, modes) = header.ok_or_else(|| missing("a header"))?;
     let list = |place: usize| {
         by_mode[place]
             .as_ref()
@@ -194,7 +195,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             .transpose()
     };
     let mut data = TestData {
-        frequencies_hz: list(0)?.ok_or_else(missing)?,
+        frequencies_hz: list(0)?.ok_or_else(|| missing("a row frequency_hz"))?,
         ..TestData::default()
     };
     (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
@@ -209,7 +210,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     Ok(data)
 }
 
-/// What separates the cells of a line.
+/// The separator of a line's cells.
 pub(crate) fn separator(line: &str) -> char {
     ['\t', ';']
         .into_iter()

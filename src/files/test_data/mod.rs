@@ -61,7 +61,7 @@ pub struct TestData {
 }
 
 impl TestData {
-    /// Refuses what cannot be a test.
+    /// Checks that these data can be a test.
     ///
     /// # Errors
     /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
@@ -130,7 +130,7 @@ impl TestData {
 /// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] with file, line, what is expected and what is found; those of [`TestData::check`].
+/// [`FileError::DeckLine`] names file and line; those of [`TestData::check`].
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     let text = decoded(bytes);
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());

@@ -22,12 +22,12 @@ use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-/// Columns of a node in dataset 15.
+/// Column widths of a node in dataset 15.
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 
-/// What has been read so far; the modes' values by node and direction.
+/// The data read so far, with the modes' values by node and direction.
 #[derive(Default)]
 struct FoundModes {
     data: TestData,
@@ -44,7 +44,7 @@ fn is_mark(line: &str) -> bool {
 
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let lines: Vec<&str> = text.lines().collect();
-    let wrong = |at, expected| FileError::at(file, &lines, at, expected);
+    let wrong = |at, what| FileError::at(file, &lines, at, what);
     let (mut found, mut at) = (FoundModes::default(), 0);
     while let Some(blank) = lines[at..].iter().position(|line| !line.trim().is_empty()) {
         at += blank;
@@ -67,7 +67,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         let end = at
             + 2
             + count.ok_or_else(|| {
-                wrong(lines.len(), "the end of the dataset, -1 in columns 5 and 6")
+                wrong(
+                    lines.len(),
+                    "the dataset's last line, -1 in columns 5 and 6",
+                )
             })?;
         let mut block = Block::new(file, &lines[at + 2..end], at + 3);
         match dataset {
@@ -88,12 +91,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
 impl FoundModes {
     /// Dataset 15 has a line for every node, dataset 2411 two with longer coordinates. A node may come again at its place.
     fn nodes(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
-        let expected =
-            "the number of a node, two coordinate systems, a color, and three coordinates";
+        let what = "the number of a node, two coordinate systems, a color, and three coordinates";
         while !block.is_done() {
-            let mut numbers =
-                block.reals(expected, if dataset == 15 { &NODE } else { &NODE[..4] })?;
-            let node = integer(numbers[0]).ok_or_else(|| block.wrong(expected, numbers[0]))?;
+            let mut numbers = block.reals(what, if dataset == 15 { &NODE } else { &NODE[..4] })?;
+            let node = integer(numbers[0]).ok_or_else(|| block.is_not(numbers[0], what))?;
             // The coordinates of dataset 2411 are global ones.
             let of_place = if dataset == 15 { numbers[1] } else { 0.0 };
             let (systems, line) = (
@@ -105,10 +106,7 @@ impl FoundModes {
             }
             let place = Vector3::from_column_slice(&numbers[4..]);
             if self.nodes.entry(node).or_insert((place, systems, line)).0 != place {
-                return Err(block.wrong(
-                    "a node once, or again at the same place",
-                    format!("node {node} elsewhere"),
-                ));
+                return Err(block.wrong(format!("node {node} was given at another place before")));
             }
         }
         Ok(())
@@ -118,11 +116,11 @@ impl FoundModes {
     fn trace(&mut self, block: &mut Block) -> Result<(), FileError> {
         while !block.is_done() {
             let mut left =
-                block.integers("number, count of nodes and color of a trace line", 3)?[1];
+                block.integers("the number, node count and color of a trace line", 3)?[1];
             block.line("the name of a trace line")?;
             let mut pen = 0;
             while left > 0 {
-                for node in block.integers("nodes of a trace line, eight to a line", left.min(8))? {
+                for node in block.integers("a line of a trace line's nodes", left.min(8))? {
                     self.data
                         .lines
                         .extend(Some([pen, node]).filter(|ends| !ends.contains(&0)));
@@ -153,8 +151,8 @@ impl FoundModes {
 
     /// Dataset 55, if it is a mode.
     fn mode(&mut self, block: &mut Block) -> Result<(), FileError> {
-        (0..5).try_for_each(|_| block.line("five lines of identification").map(drop))?;
-        let codes = block.integers("six codes of a dataset 55", 6)?;
+        (0..5).try_for_each(|_| block.line("all five lines of identification").map(drop))?;
+        let codes = block.integers("the six codes of a dataset 55", 6)?;
         let [analysis, characteristic, specific, data_type, count] =
             [1, 2, 3, 4, 5].map(|place| codes[place]);
         if ![2, 3, 7].contains(&analysis)
@@ -165,14 +163,12 @@ impl FoundModes {
             return Ok(());
         }
         if count != 3 * (characteristic - 1) || ![2, 5].contains(&data_type) {
-            let found =
-                format!("characteristic {characteristic}, {count} values of type {data_type}");
-            return Err(block.wrong(
-                "a mode with three or six values a node, real (2) or complex (5)",
-                found,
-            ));
+            return Err(block.wrong(format!(
+                "a mode has three or six values a node, real (2) or complex (5), not characteristic {characteristic}, \
+                 {count} values of type {data_type}"
+            )));
         }
-        block.line("integers that describe a mode")?;
+        block.line("the integers that describe a mode")?;
         let root = block.reals(
             "a frequency, or a complex eigenvalue",
             &VALUES[..if analysis == 2 { 1 } else { 2 }],
@@ -183,7 +179,7 @@ impl FoundModes {
             _ => root[0],
         };
         if frequency <= 0.0 {
-            return Err(block.wrong("a positive frequency", frequency));
+            return Err(block.is_not(frequency, "a positive frequency"));
         }
         let omega = 2.0 * PI * frequency;
         let divisor = [1.0, omega, -omega * omega][specific.saturating_sub(10)];
@@ -194,14 +190,12 @@ impl FoundModes {
             let mut values = Vec::with_capacity(parts * count);
             while values.len() < parts * count {
                 let widths = &VALUES[..(parts * count).min(VALUES.len())];
-                values.extend(block.reals("values of a mode, six to a line", widths)?);
+                values.extend(block.reals("a line of a mode's values", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {
                 let value = Complex::new(value[0], value.get(1).copied().unwrap_or(0.0)) / divisor;
                 if shape.insert((node, direction), value).is_some() {
-                    return Err(
-                        block.wrong("each node once in a mode", format!("node {node} again"))
-                    );
+                    return Err(block.wrong(format!("node {node} is in this mode twice")));
                 }
             }
         }
@@ -243,17 +237,12 @@ impl FoundModes {
                 .flatten()
                 .any(|axes| !axes.is_cartesian);
             if let (Some((.., line)), true) = (at, is_other) {
-                let found = "a cylindrical or spherical one";
-                return Err(FileError::line(
-                    file,
-                    *line,
-                    "a node with Cartesian coordinate systems",
-                    found,
-                ));
+                let reason = "this node has a cylindrical or spherical coordinate system; only Cartesian ones are read";
+                return Err(FileError::line(file, *line, reason));
             }
             let to_global =
                 |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
-            // What six digits leave beside a global axis is none of a sensor's.
+            // Components below the file's six digits are round-off: snap them to zero.
             let snapped = |component: f64| {
                 if component.abs() < ROTATION {
                     0.0

@@ -5,7 +5,7 @@ use crate::files::error::FileError;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
-/// How far a matrix may be from a rotation: what six digits leave.
+/// How far a matrix may be from a rotation: the round-off of six digits.
 pub(super) const ROTATION: f64 = 1e-4;
 
 /// A Cartesian coordinate system, or one of another type, which no node may refer to.
@@ -20,16 +20,16 @@ pub(super) struct Axes {
 /// Coordinate systems by their numbers; one that is not there has the global axes.
 pub(super) type Systems = BTreeMap<usize, Axes>;
 
-/// Dataset 18: origin, a point on the x axis and one in the xz plane, in a system of before or in the global one, which is zero.
+/// Dataset 18: origin, a point on the x axis and one in the xz plane, in an earlier system or in the global one, number zero.
 pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     while !block.is_done() {
-        let numbers = block.integers("number, type and reference of a coordinate system", 3)?;
+        let numbers = block.integers("the number, type and reference of a coordinate system", 3)?;
         let global = Axes {
             is_cartesian: true,
             origin: Vector3::zeros(),
             rotation: Matrix3::identity(),
         };
-        let expected = "a reference that is zero or a Cartesian coordinate system of before";
+        let what = "zero or the number of a Cartesian coordinate system before this one";
         let base = if numbers[2] == 0 {
             Some(&global)
         } else {
@@ -37,7 +37,7 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
         };
         let base = *base
             .filter(|base| base.is_cartesian)
-            .ok_or_else(|| block.wrong(expected, numbers[2]))?;
+            .ok_or_else(|| block.is_not(numbers[2], what))?;
         block.line("the name of a coordinate system")?;
         let mut points = block.reals("an origin and a point on the x axis", &VALUES)?;
         points.extend(block.reals("a point in the xz plane", &VALUES[..3])?);
@@ -47,10 +47,10 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
         let (origin, along) = (point(0), |at: usize| point(at) - point(0));
         let x = along(3)
             .try_normalize(0.0)
-            .ok_or_else(|| block.wrong("a point beside the origin", "the origin"))?;
+            .ok_or_else(|| block.wrong("the point on the x axis is the origin"))?;
         let z = along(6) - x * x.dot(&along(6));
         let z = z.try_normalize(ROTATION * along(6).norm());
-        let z = z.ok_or_else(|| block.wrong("a point beside the x axis", "one on it"))?;
+        let z = z.ok_or_else(|| block.wrong("the point in the xz plane is on the x axis"))?;
         let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
         systems.insert(
             numbers[0],
@@ -69,13 +69,13 @@ pub(super) fn by_matrices(block: &mut Block, systems: &mut Systems) -> Result<()
     block.line("the number of a part")?;
     block.line("the name of a part")?;
     while !block.is_done() {
-        let numbers = block.integers("number and type of a coordinate system", 2)?;
+        let numbers = block.integers("the number and type of a coordinate system", 2)?;
         block.line("the name of a coordinate system")?;
         let mut row = || block.reals("a row of three numbers", &[LONG_REAL; 3]);
         let rows = [row()?, row()?, row()?, row()?].map(|row| Vector3::from_column_slice(&row));
         let (rotation, origin) = (Matrix3::from_columns(&rows[..3]), rows[3]);
         if (rotation.tr_mul(&rotation) - Matrix3::identity()).amax() > ROTATION {
-            return Err(block.wrong("three unit vectors at right angles above it", "others"));
+            return Err(block.wrong("the three rows above are not unit vectors at right angles"));
         }
         systems.insert(
             numbers[0],

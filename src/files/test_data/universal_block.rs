@@ -1,7 +1,7 @@
 //! The lines of one dataset of a Universal File, in columns.
 
 use super::real;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, is_not};
 
 /// Columns of a record of node numbers or codes, of one of values, of a line of these.
 pub(super) const INTEGER: usize = 10;
@@ -31,8 +31,9 @@ impl<'a> Block<'a> {
         self.lines.iter().all(|line| line.trim().is_empty())
     }
 
-    pub fn line(&mut self, expected: &'static str) -> Result<&'a str, FileError> {
-        let end = || FileError::line(self.file, self.number, expected, "the end of the dataset");
+    pub fn line(&mut self, what: &str) -> Result<&'a str, FileError> {
+        let reason = || format!("the dataset ends before {what}");
+        let end = || FileError::line(self.file, self.number, reason());
         let (first, rest) = self.lines.split_first().ok_or_else(end)?;
         (self.lines, self.number) = (rest, self.number + 1);
         Ok(first)
@@ -44,17 +45,17 @@ impl<'a> Block<'a> {
     }
 
     /// An error about the line read last.
-    pub fn wrong(&self, expected: &'static str, found: impl ToString) -> FileError {
-        FileError::line(self.file, self.last_number(), expected, found.to_string())
+    pub fn wrong(&self, reason: impl Into<String>) -> FileError {
+        FileError::line(self.file, self.last_number(), reason)
     }
 
-    /// The numbers of the next line in columns of the given widths; what stands behind them is passed over.
-    pub fn reals(
-        &mut self,
-        expected: &'static str,
-        widths: &[usize],
-    ) -> Result<Vec<f64>, FileError> {
-        let line = self.line(expected)?;
+    pub fn is_not(&self, found: impl ToString, what: &str) -> FileError {
+        self.wrong(is_not(&found.to_string(), what))
+    }
+
+    /// The numbers of the next line in columns of the given widths; the rest of the line is ignored.
+    pub fn reals(&mut self, what: &str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
+        let line = self.line(what)?;
         let mut start = 0;
         let column = |&width: &usize| {
             let text = line.get(start..line.len().min(start + width));
@@ -71,18 +72,14 @@ impl<'a> Block<'a> {
         let numbers = by_columns
             .or_else(by_blanks)
             .filter(|numbers| numbers.len() == widths.len());
-        numbers.ok_or_else(|| self.wrong(expected, line.trim()))
+        numbers.ok_or_else(|| self.is_not(line.trim(), what))
     }
 
-    pub fn integers(
-        &mut self,
-        expected: &'static str,
-        count: usize,
-    ) -> Result<Vec<usize>, FileError> {
-        let numbers = self.reals(expected, &[INTEGER].repeat(count))?;
+    pub fn integers(&mut self, what: &str, count: usize) -> Result<Vec<usize>, FileError> {
+        let numbers = self.reals(what, &[INTEGER].repeat(count))?;
         numbers
             .into_iter()
-            .map(|number| integer(number).ok_or_else(|| self.wrong(expected, number)))
+            .map(|number| integer(number).ok_or_else(|| self.is_not(number, what)))
             .collect()
     }
 }

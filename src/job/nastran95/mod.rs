@@ -3,10 +3,10 @@
 //!
 //! For every analysis a deck is written at the present gages and run once. Beside the structure it holds every element
 //! a second time, alone, on fixed grids of its own: its matrix is then a block of KGG, while KAA and MAA are the
-//! structure's alone. Taken over is each element's stiffness; their sum is $K_S$, which must be NASTRAN's own KAA. Of
-//! the mass nothing is taken over, but MAA must be $T M T^t$ with the lumped mass of elements that have a density.
+//! structure's alone. Each element's stiffness is taken over; their sum is $K_S$, which must equal NASTRAN's own
+//! KAA. No mass is taken over, but MAA must equal $T M T^t$ plus the lumped mass of elements with a density.
 //!
-//! All else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
+//! Everything else is computed here: $M_S$ is singular, and NASTRAN's own eigenvalues are good to five or six digits only. It keeps
 //! coordinates, gages and material in single precision: its matrices differ from the crate's by up to 1.5e-7 of the largest
 //! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
@@ -48,7 +48,7 @@ pub fn default_folder() -> PathBuf {
         .join(".cache/nastran95/nastran95/_data")
 }
 
-/// What a run leaves.
+/// The output of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Answer {
     /// The printed output.
@@ -97,31 +97,28 @@ impl Nastran95 {
     /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
     pub fn matrices(&self, deck: &str, numbers: usize) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
-        let found = || {
-            format!(
-                "none; printed last: {}",
-                process::last_lines(&answer.printed)
-            )
-        };
-        let unit_15 = answer
-            .unit_15
-            .ok_or_else(|| FileError::answer("matrices on Fortran unit 15", found()))?;
+        let unit_15 = answer.unit_15.ok_or_else(|| {
+            let last = process::last_lines(&answer.printed);
+            FileError::answer(format!(
+                "nothing was written on Fortran unit 15; printed last: {last}"
+            ))
+        })?;
         read_output5(&unit_15, numbers)
     }
 
     /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`] and [`BulkData::of`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
+    /// Those of [`Self::matrices`] and [`BulkData::from_model`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
     /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
     pub fn elements(
         &self,
         model: &FiniteElementModel,
         factors: &[f64],
     ) -> Result<FiniteElementModel, FileError> {
-        // Where a dynamic point lies does not enter: its MPC equation alone ties it to the structure.
+        // The position of a dynamic point does not matter: its MPC equation alone ties it to the structure.
         let points = vec![Vector3::zeros(); model.mass().nrows()];
-        let bulk = BulkData::of(model, factors, &points)?;
+        let bulk = BulkData::from_model(model, factors, &points)?;
         let all = with_single_elements(&bulk);
         let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
         // KGG, KAA and MAA have no more than so many rows.
@@ -218,9 +215,12 @@ fn check_assembled(
         let there = matrix(answer, name, free.len())?;
         let here = here.select_rows(&order).select_columns(&order);
         let difference = (there - &here).amax() / here.amax();
-        let expected = || format!("{name} to be {meaning} within {limit:.0e} of its largest entry");
-        let wrong = || FileError::answer(expected(), format!("them {difference:.1e} apart"));
-        (difference <= limit).then_some(()).ok_or_else(wrong)
+        if difference <= limit {
+            return Ok(());
+        }
+        Err(FileError::answer(format!(
+            "{name} is {difference:.1e} of its largest entry off {meaning}, more than {limit:.0e}"
+        )))
     };
     same(
         "KAA",
@@ -243,11 +243,10 @@ fn matrix<'a>(
 ) -> Result<&'a DMatrix<f64>, FileError> {
     let found = match answer.get(name) {
         Some(matrix) if matrix.shape() == (size, size) => return Ok(matrix),
-        Some(matrix) => format!("{} x {}", matrix.nrows(), matrix.ncols()),
-        None => "none".to_owned(),
+        Some(matrix) => format!("is {} x {}", matrix.nrows(), matrix.ncols()),
+        None => "is missing".to_owned(),
     };
-    Err(FileError::answer(
-        format!("a matrix {name} of {size} rows and columns"),
-        found,
-    ))
+    Err(FileError::answer(format!(
+        "matrix {name} {found}; the model has {size} rows and columns"
+    )))
 }

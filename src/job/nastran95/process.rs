@@ -35,7 +35,7 @@ impl Nastran95 {
     /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
         let mut builder = tempfile::Builder::new();
-        // What is analyzed may be nobody else's business.
+        // The model may be confidential.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let scratch = builder.prefix("corfem-nastran95-").tempdir();
@@ -43,7 +43,7 @@ impl Nastran95 {
         let answer = in_scratch(self, deck, scratch.path());
         let failed = FileError::of_file(scratch.path(), "remove");
         let removed = scratch.close();
-        // What went wrong with the run matters more than what went wrong in tidying up.
+        // An error of the run matters more than one of tidying up.
         answer.and_then(|answer| removed.map(|()| answer).map_err(failed))
     }
 }
@@ -98,8 +98,8 @@ fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, 
     Ok(Answer { printed, unit_15 })
 }
 
-/// Waits for the end of the program, but not for ever, and ends what is left of it: nothing of it writes into the
-/// folder that is read and removed next.
+/// Waits for the program, within its time limit, and kills whatever is left of it, so that nothing writes into the folder
+/// that is read and removed next.
 fn wait(
     solver: &Nastran95,
     mut child: Child,
@@ -107,7 +107,7 @@ fn wait(
     scratch: &Path,
 ) -> Result<ExitStatus, FileError> {
     let ended = watch(solver, &mut child, program, scratch);
-    // What it started is in its group, whose number is not given to others before the program is waited for.
+    // Its children are in its group, whose number is not reused before the program is reaped.
     #[cfg(unix)]
     let _ =
         rustix::process::kill_process_group(Pid::from_child(&child), rustix::process::Signal::KILL);
@@ -143,7 +143,7 @@ fn watch(
     Ok(())
 }
 
-/// Whether the program has ended; where that can be, it is not waited for yet, and its number not given to others.
+/// Whether the program has ended. On Unix it is not reaped yet, so that its number is not given to another process.
 fn has_ended(child: &mut Child) -> std::io::Result<bool> {
     #[cfg(unix)]
     let ended = waitid(
@@ -187,19 +187,18 @@ pub(super) fn last_lines(text: &str) -> String {
     }
 }
 
-/// A file's text, if it is there; NASTRAN prints bytes that are no text.
+/// A file's text, if it is there; bytes that are not UTF-8 are replaced.
 fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileError> {
     let path = scratch.join(name);
-    // Nothing else is opened: a pipe would be waited for. The program has ended and cannot exchange it.
+    // Only a regular file is opened, since opening a pipe would block. The program has ended and cannot swap it.
     let found = match std::fs::symlink_metadata(&path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         found => found.map_err(FileError::of_file(&path, "read"))?,
     };
     if !found.is_file() {
-        return Err(FileError::answer(
-            format!("a regular file {name}"),
-            "something else in its place",
-        ));
+        return Err(FileError::answer(format!(
+            "its {name} is not a regular file"
+        )));
     }
     within_limit(name, found.len(), limit)?;
     let mut bytes = Vec::new();
@@ -209,13 +208,10 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
 }
 
 fn within_limit(name: &str, bytes: u64, limit: u64) -> Result<(), FileError> {
-    let too_large = FileError::answer(
-        format!("at most {limit} bytes in its file {name}"),
-        bytes.to_string(),
-    );
     if bytes <= limit {
-        Ok(())
-    } else {
-        Err(too_large)
+        return Ok(());
     }
+    Err(FileError::answer(format!(
+        "its file {name} has {bytes} bytes, more than the {limit} allowed"
+    )))
 }

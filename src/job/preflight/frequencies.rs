@@ -1,14 +1,14 @@
-//! Frequencies that are wrong by one factor, or stand beside the wrong shapes.
+//! Frequencies that are all wrong by one factor, or that belong to other shapes.
 
 use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// How far the median ratio may be from a named factor: a first model is up to 30 % wrong.
 const MODEL_ERROR: f64 = 1.35;
-/// Median ratio beyond which a factor without a name is reported: a stiffness more than twice wrong in all modes.
+/// Median ratio beyond which even an unnamed factor is reported: the stiffness would be wrong more than twofold in all modes.
 const UNNAMED: f64 = 1.5;
 /// Least gain of the mean deviation, times the number of modes, for two frequencies to be exchanged: three times what
-/// 0.3 % of noise makes of ten modes.
+/// 0.3 % of noise causes in ten modes.
 const LEAST_GAIN: f64 = 0.05;
 /// Least part of the deviation that the exchange must mend; in a model with an element a hundred times too thin an
 /// exchange mends 0.10 of it.
@@ -38,7 +38,7 @@ const THOUSAND: f64 = 31.622_776_601_683_793;
 const INCHES: f64 = 19.649_173_010_587_493;
 const METERS: f64 = 3.132_091_952_673_165;
 
-/// The factors known, in both directions.
+/// The known factors, in both directions.
 pub const FACTORS: [NamedFactor; 10] = [
     named(TAU, "2π", "the test is in rad/s"),
     named(
@@ -83,7 +83,7 @@ pub struct CommonFactor {
     pub median: f64,
     /// Mean of $\lvert\ln(f_G/f_F) - \ln \text{median}\rvert$.
     pub deviation: f64,
-    /// The mistake it smells of, if it is near a factor known.
+    /// The mistake it suggests, if it is near a known factor.
     pub named: Option<NamedFactor>,
 }
 
@@ -123,7 +123,7 @@ pub(super) fn common_factor(test: &[f64], analysis: &[f64]) -> Option<CommonFact
     })
 }
 
-/// Two frequencies that would fit each other's shapes better.
+/// Two frequencies that would fit better if they were exchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FrequenciesExchanged {
     /// The test modes, from zero.

@@ -1,17 +1,16 @@
 //! A pre-flight: what looks wrong with model and test before the first step, each finding with its evidence.
 //!
-//! The loops scale gages until modes agree, whatever stands between: one reversed sensor, and the gages become nonsense
-//! without a word. So every single mistake that is often made is undone here on trial, and the one that makes model and
-//! test agree best is named. The *agreement* is the mean over the test modes of the paired cross-orthogonality (4),
+//! The loops fit gages to whatever data they get: with one reversed sensor the gages are silently wrong. So each common
+//! mistake is undone here on trial, and the one whose correction makes model and test agree best is named. The *agreement* is the mean over the test modes of the paired cross-orthogonality (4),
 //!
 //! $$ a = \frac{1}{g} \sum_j \lvert m_{i(j) j} \rvert, \qquad m = V_F^t M V_G, $$
 //!
 //! with every test shape at unit generalized mass. In all d modes of a right model a reversed sensor makes $m_{jj}$
 //! lower by $2 m_i v_{ij}^2$, which sum to 2 over the modes whatever the mass there is: no sensor is too light to be
-//! seen. Frequencies do not enter it; they are judged by their ratios after shapes have been paired.
+//! seen. It does not use frequencies; their ratios are judged after shapes have been paired.
 
 mod frequencies;
-mod look;
+mod comparison;
 mod order;
 mod shapes;
 mod words;
@@ -25,7 +24,7 @@ use crate::method::model::{DynamicModel, FiniteElementModel, Range};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
-use look::{Look, paired_values, reordered};
+use comparison::{Comparison, paired_values, reordered};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use shapes::{changed, mend};
@@ -36,10 +35,10 @@ use shapes::{changed, mend};
 pub const NEARLY_SAME: f64 = 0.9;
 /// Frequencies that differ by less are one mode's, measured twice.
 const SAME_FREQUENCY: f64 = 0.02;
-/// Singular value of the test shapes at unit generalized mass below which they are not told apart: orthogonal shapes
+/// Singular value of the test shapes at unit generalized mass below which the points do not distinguish them: orthogonal shapes
 /// have one, and noise of 1 % leaves 0.78 where masses differ several hundredfold.
 pub const LEAST_SINGULAR: f64 = 0.3;
-/// Tolerance that nobody means: a fifth of the frequency, or of the largest component.
+/// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
 
 /// Something that looks wrong. Places count from zero here and from one in [`std::fmt::Display`]'s words.
@@ -54,7 +53,7 @@ pub enum Finding {
     CommonFactor(CommonFactor),
     /// One change of shapes or model makes them agree.
     Mended(Mended),
-    /// Two frequencies stand beside each other's shapes.
+    /// Two frequencies belong to each other's shapes.
     FrequenciesExchanged(FrequenciesExchanged),
     /// Two test modes have nearly the same shape, by their modal assurance. Where the second frequency over the first is close to
     /// one, the mode was measured twice.
@@ -80,13 +79,13 @@ pub enum Finding {
     },
     /// The value of a tolerance looks like percent.
     Percent { setting: &'static str, value: f64 },
-    /// A parameter may not keep its first value, for the bounds on its factor.
+    /// The bounds on a parameter's factor exclude its first value.
     ExcludesStart { parameter: usize, range: Range },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
 }
 
-/// Looks at a finite element model and its test before the first step.
+/// Checks a finite element model and its test before the first step.
 ///
 /// # Errors
 /// Those of the model's analysis and of [`preflight`].
@@ -108,8 +107,8 @@ pub fn preflight_of(
 ///
 /// `model` has the first stiffness (lbf/in) and mass (lbf·s²/in) at the d points, `test` the modes as measured, of any
 /// scale; `ranges` bounds each parameter's factor, as [`crate::method::model::ScaledStructure::factor_ranges`] gives
-/// them, which itself refuses bounds that exclude the start. With more test modes than points nothing is said of pairs.
-/// Of modes that are nearly the same shape, pairs are made of the first alone.
+/// them, which itself refuses bounds that exclude the start. With more test modes than points, pairs are not judged.
+/// Of modes with nearly the same shape only the first is paired.
 ///
 /// # Errors
 /// Those of [`crate::method::modes::solve`] and [`ModeSet::scaled_with`].
@@ -120,18 +119,21 @@ pub fn preflight(
     ranges: &[Option<Range>],
 ) -> Result<Vec<Finding>, Error> {
     test.scaled_with(&model.mass)?;
-    let (places, mut findings) = apart(test)?;
+    let (places, mut findings) = distinct_shapes(test)?;
     let mut modes = test.select(&places);
     if modes.len() <= model.mass.nrows() {
-        modes.shapes = beside_the_model(model, &modes, &places, &mut findings)?;
+        modes.shapes = compare_with_model(model, &modes, &places, &mut findings)?;
     }
-    findings.extend(told_apart(&modes.scaled_with(&model.mass)?, &model.mass)?);
-    findings.extend(of_settings(settings, ranges));
+    findings.extend(too_many_modes(
+        &modes.scaled_with(&model.mass)?,
+        &model.mass,
+    )?);
+    findings.extend(check_settings(settings, ranges));
     Ok(findings)
 }
 
-/// The test modes without those that are nearly the same shape as one before, and these.
-fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
+/// The places of test modes without near copies of earlier ones, and a finding for each such copy.
+fn distinct_shapes(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
     let frequencies = test.frequencies_hz();
     let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
@@ -150,29 +152,29 @@ fn apart(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     Ok((apart, findings))
 }
 
-/// What pairs of the model's modes and test modes, which have these places, say; the shapes after the change that mends
-/// them.
-fn beside_the_model(
+/// Adds the findings from the pairs of the model's modes with these test modes, whose `places` in the test are given. Returns the
+/// shapes after the change that mends them.
+fn compare_with_model(
     model: &DynamicModel,
     test: &ModeSet,
     places: &[usize],
     findings: &mut Vec<Finding>,
 ) -> Result<DMatrix<f64>, Error> {
-    let mut look = Look::new(&model.stiffness, &model.mass)?;
-    let mended = mend(model, &look, test)?;
+    let mut comparison = Comparison::new(&model.stiffness, &model.mass)?;
+    let mended = mend(model, &comparison, test)?;
     let change = mended.as_ref().map(|mended| &mended.change);
     let shapes = change.map_or_else(
         || test.shapes.clone(),
         |change| changed(&test.shapes, change),
     );
     if let Some(Change::Columns(order)) = change {
-        look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
+        comparison = Comparison::new(&reordered(&model.stiffness, order), &model.mass)?;
     }
-    let Some(cross) = look.cross(&shapes) else {
+    let Some(cross) = comparison.cross(&shapes) else {
         return Ok(shapes);
     };
     let pairing = pair_modes(&cross)?;
-    let all = look.analysis.frequencies_hz();
+    let all = comparison.analysis.frequencies_hz();
     let analysis: Vec<f64> = pairing
         .analysis_mode
         .iter()
@@ -209,8 +211,8 @@ fn beside_the_model(
     Ok(shapes)
 }
 
-/// Whether the points tell test modes of unit generalized mass apart.
-fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
+/// Reports test modes of unit generalized mass that the points do not distinguish.
+fn too_many_modes(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
     let (points, modes) = test.shapes.shape();
     let overlap = symmetric_part(&test.shapes.tr_mul(&(mass * &test.shapes)));
     let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
@@ -227,7 +229,7 @@ fn told_apart(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>, Er
     }))
 }
 
-fn of_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
+fn check_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),

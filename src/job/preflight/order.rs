@@ -1,6 +1,6 @@
-//! Points in another order: a first guess from what does not depend on the order of modes or signs, then exchanges.
+//! Points in another order: a first guess that does not depend on the order of modes or their signs, then exchanges.
 
-use super::look::{Look, reordered};
+use super::comparison::{Comparison, reordered};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
 use crate::method::modes::ModeSet;
@@ -18,7 +18,7 @@ fn exchange(
     mut agreement_above: impl FnMut(&[usize], f64) -> Result<Option<f64>, Error>,
 ) -> Result<(Vec<usize>, f64), Error> {
     let mut reached = agreement_above(&order, 0.0)?.unwrap_or(0.0);
-    // Far more exchanges than sorting takes.
+    // Sorting takes far fewer exchanges.
     for _ in 0..2 * order.len() {
         let mut best = None;
         for b in 0..order.len() {
@@ -40,20 +40,21 @@ fn exchange(
 ///
 /// A point is known by what it does in all modes, each scaled to unit largest component. At first the modes are taken
 /// in the order of their frequencies and without sign; then they are paired by the order found, and so on.
-pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
+pub(super) fn best_order(comparison: &Comparison, test: &ModeSet) -> (Vec<usize>, f64) {
     let count = test.len();
     let mut by_frequency: Vec<usize> = (0..count).collect();
     by_frequency.sort_by(|&a, &b| test.omega_squared[a].total_cmp(&test.omega_squared[b]));
-    let analysis = unit(look.analysis.shapes.columns(0, count).into_owned()).abs();
+    let analysis = unit(comparison.analysis.shapes.columns(0, count).into_owned()).abs();
     let shapes = unit(test.shapes.clone());
     let Some(mut order) = matched(&analysis, &shapes.select_columns(&by_frequency).abs()) else {
         return ((0..test.shapes.nrows()).collect(), 0.0);
     };
     for _ in 0..ROUNDS {
-        let pairing = look
+        let pairing = comparison
             .cross(&test.shapes.select_rows(&order))
             .and_then(|cross| pair_modes(&cross).ok());
-        let Some(analysis) = pairing.and_then(|pairing| paired(&look.analysis, &pairing).ok())
+        let Some(analysis) =
+            pairing.and_then(|pairing| paired(&comparison.analysis, &pairing).ok())
         else {
             break;
         };
@@ -62,12 +63,13 @@ pub(super) fn best_order(look: &Look, test: &ModeSet) -> (Vec<usize>, f64) {
             _ => break,
         }
     }
-    let agreement =
-        |order: &[usize], least| Ok(look.agreement_above(&test.shapes.select_rows(order), least));
+    let agreement = |order: &[usize], least| {
+        Ok(comparison.agreement_above(&test.shapes.select_rows(order), least))
+    };
     exchange(order.clone(), agreement).unwrap_or((order, 0.0))
 }
 
-/// Shapes, none of which is zero, scaled to unit largest component.
+/// Nonzero shapes scaled to unit largest component.
 fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
@@ -96,12 +98,12 @@ pub(super) fn flexibility_order(
     test: &ModeSet,
 ) -> Result<(Vec<usize>, f64), Error> {
     let agreement = |order: &[usize], least: f64| {
-        let look = Look::new(&reordered(&model.stiffness, order), &model.mass)?;
-        Ok(look.agreement_above(&test.shapes, least))
+        let comparison = Comparison::new(&reordered(&model.stiffness, order), &model.mass)?;
+        Ok(comparison.agreement_above(&test.shapes, least))
     };
     let count = model.mass.nrows();
     let given = exchange((0..count).collect(), agreement)?;
-    let look = Look::new(&model.stiffness, &model.mass)?;
+    let comparison = Comparison::new(&model.stiffness, &model.mass)?;
     let ranks = |modes: &ModeSet| {
         let term = |(shape, omega_squared): (&f64, &f64)| shape * shape / omega_squared;
         let flexibility = |point: usize| -> f64 {
@@ -118,7 +120,7 @@ pub(super) fn flexibility_order(
         points
     };
     let (of_model, of_test) = (
-        ranks(&look.analysis),
+        ranks(&comparison.analysis),
         ranks(&test.scaled_with(&model.mass)?),
     );
     let mut order = vec![0; count];

@@ -1,6 +1,6 @@
 //! Which single change of test shapes or model makes them agree.
 
-use super::look::{Look, paired_values, reordered};
+use super::comparison::{Comparison, paired_values, reordered};
 use super::order::{best_order, flexibility_order};
 use crate::method::error::Error;
 use crate::method::model::DynamicModel;
@@ -12,12 +12,11 @@ use serde::Serialize;
 /// Least gain of the agreement that names a change. On good data, clean and noisy, no change gains at all; to exchange
 /// the right two sensors gains 0.003 and more, least where they lie close together.
 pub const LEAST_GAIN: f64 = 0.002;
-/// Least part of what is missing to full agreement that a change must mend. The right one leaves what the model's own
-/// errors cost, and mostly mends three quarters; in a model whose element is a hundred times too thin the best wrong
-/// one mends 0.18.
+/// Least part of the missing agreement that a change must restore. The right change mostly restores three quarters, since the
+/// model's own errors remain; in a model with an element a hundred times too thin, the best wrong change restores 0.18.
 pub const LEAST_SHARE: f64 = 0.3;
 /// By how much columns of $T$ must agree better than sensors in the same order to be named first. The two differ by the
-/// masses alone, and where these are alike, noise decides between them.
+/// masses alone; where these are alike, noise decides between them.
 pub const LEAST_DIFFERENCE: f64 = 0.005;
 /// Cross-orthogonality below which a pair is doubtful, the customary bound.
 pub const LOW_PAIR: f64 = 0.90;
@@ -78,12 +77,12 @@ fn is_enough(before: f64, after: f64) -> bool {
 /// masses alone.
 pub(super) fn mend(
     model: &DynamicModel,
-    look: &Look,
+    comparison: &Comparison,
     test: &ModeSet,
 ) -> Result<Option<Mended>, Error> {
     let shapes = &test.shapes;
     let (points, modes) = shapes.shape();
-    let Some(before) = look.agreement_above(shapes, 0.0) else {
+    let Some(before) = comparison.agreement_above(shapes, 0.0) else {
         return Ok(None);
     };
     let mut best: Vec<(Change, f64)> = Vec::new();
@@ -92,7 +91,7 @@ pub(super) fn mend(
     let transposition = (points == modes).then_some(Change::Transposed);
     for change in reversals.chain(exchanges).chain(transposition) {
         let least = best.get(1).map_or(0.0, |second| second.1);
-        if let Some(agreement) = look.agreement_above(&changed(shapes, &change), least) {
+        if let Some(agreement) = comparison.agreement_above(&changed(shapes, &change), least) {
             add(&mut best, change, agreement);
         }
     }
@@ -102,18 +101,19 @@ pub(super) fn mend(
         .cloned();
     let (mut chosen, mut after) =
         enough.map_or((None, before), |(change, after)| (Some(change), after));
-    if is_low(look, shapes, chosen.as_ref()) {
-        let (order, agreement) = best_order(look, test);
+    if is_low(comparison, shapes, chosen.as_ref()) {
+        let (order, agreement) = best_order(comparison, test);
         if is_enough(after, agreement) {
             add(&mut best, Change::Reordered(order.clone()), agreement);
             (chosen, after) = (Some(Change::Reordered(order)), agreement);
         }
     }
-    let as_columns = if is_low(look, shapes, chosen.as_ref()) {
+    let as_columns = if is_low(comparison, shapes, chosen.as_ref()) {
         Some(flexibility_order(model, test)?)
     } else if let Some(order) = chosen.as_ref().and_then(|change| order_of(change, points)) {
-        let look = Look::new(&reordered(&model.stiffness, &order), &model.mass)?;
-        look.agreement_above(shapes, 0.0)
+        let comparison = Comparison::new(&reordered(&model.stiffness, &order), &model.mass)?;
+        comparison
+            .agreement_above(shapes, 0.0)
             .map(|agreement| (order, agreement))
     } else {
         None
@@ -145,7 +145,7 @@ fn add(best: &mut Vec<(Change, f64)>, change: Change, agreement: f64) {
 }
 
 /// Whether a pair is below [`LOW_PAIR`] after a change of the shapes.
-fn is_low(look: &Look, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
+fn is_low(comparison: &Comparison, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
     let shapes = change.map_or_else(|| shapes.clone(), |change| changed(shapes, change));
     let low = |cross: DMatrix<f64>| {
         pair_modes(&cross).is_ok_and(|pairing| {
@@ -154,7 +154,7 @@ fn is_low(look: &Look, shapes: &DMatrix<f64>, change: Option<&Change>) -> bool {
                 .any(|value| *value < LOW_PAIR)
         })
     };
-    look.cross(&shapes).is_some_and(low)
+    comparison.cross(&shapes).is_some_and(low)
 }
 
 /// The order of the points that a change makes, if it makes one.

@@ -36,9 +36,11 @@ impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let words = match self {
             Self::CommonFactor(CommonFactor { median, named, .. }) => {
-                let said = |known: NamedFactor| format!("near {}: {}?", known.name, known.mistake);
-                let said = named.map_or_else(|| "by no mistake known here.".to_owned(), said);
-                format!("Test frequencies are {median:.4} times the model's, {said}")
+                let mistake = named.map_or_else(
+                    || "by no mistake known here.".to_owned(),
+                    |NamedFactor { name, mistake, .. }| format!("near {name}: {mistake}?"),
+                );
+                format!("Test frequencies are {median:.4} times the model's, {mistake}")
             }
             Self::Mended(Mended {
                 change,

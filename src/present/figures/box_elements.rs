@@ -20,7 +20,7 @@ pub enum Layer {
 
 impl Layer {
     /// The layer of an element with these corners or ends.
-    pub fn of(corners: &[Vector3<f64>]) -> Self {
+    pub fn from_corners(corners: &[Vector3<f64>]) -> Self {
         match (
             corners.iter().all(|corner| corner.z > 0.0),
             corners.iter().all(|corner| corner.z < 0.0),
@@ -66,7 +66,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
         ] {
             let of_layer = elements
                 .iter()
-                .filter(|(_, corners)| Layer::of(corners) == layer);
+                .filter(|(_, corners)| Layer::from_corners(corners) == layer);
             draw_layer(area, fitted, of_layer.collect(), (layer, name, top))?;
         }
         write(

@@ -1,11 +1,11 @@
 //! The figures of the box and of the paper's cases, from what the runs gave.
 
 use super::factors::Factors;
+use super::report::report_figures;
 use super::structure::draw_structure;
-use super::subject::subject_figures;
 use super::{Figure, box_elements, cover_gages};
 use crate::present::PresentError;
-use crate::present::subject::Subject;
+use crate::present::report::Report;
 use crate::present::tables::unlimited::unlimited_factors;
 use crate::torque_box::{CASES, Case, CaseResult};
 
@@ -19,11 +19,11 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
         let case = &first.case;
         let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
-        let subject = Subject::of_case(first)?.on(case.model()?.structure());
+        let report = Report::from_case(first)?.with_structure(case.model()?.structure());
         figures.push(Figure::new(
             "box_points",
             caption,
-            draw_structure("box_points", title, &subject)?,
+            draw_structure("box_points", title, &report)?,
         ));
         // From the second case on covers are membranes.
         let case = &results.get(1).unwrap_or(first).case;
@@ -51,9 +51,9 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
 
 /// Adds the figures of one case: those of its correlation, or of Case 4 what its single iteration asks for; and its derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
-    let subject = Subject::of_case(result)?;
+    let report = Report::from_case(result)?;
     let case = result.case.number;
-    let all = subject_figures(&subject)?;
+    let all = report_figures(&report)?;
     let kept = |what: &str| {
         let mut figure = all
             .iter()

@@ -65,7 +65,7 @@ fn draw_covers(area: &Area, case: &Case, is_test: bool, top: f64) -> Drawn {
         )
     });
     let covers: Vec<(&Panel, Vec<_>)> = covers
-        .filter(|(_, corners)| Layer::of(corners) != Layer::Webs)
+        .filter(|(_, corners)| Layer::from_corners(corners) != Layer::Webs)
         .collect();
     let all: Vec<Vector3<f64>> = covers
         .iter()
@@ -73,7 +73,7 @@ fn draw_covers(area: &Area, case: &Case, is_test: bool, top: f64) -> Drawn {
         .copied()
         .collect();
     for (panel, corners) in covers {
-        let left = if Layer::of(&corners) == Layer::Upper {
+        let left = if Layer::from_corners(&corners) == Layer::Upper {
             88.0
         } else {
             424.0

@@ -2,7 +2,7 @@
 
 use super::canvas::*;
 use crate::method::error_sum::Errors;
-use crate::present::subject::{Stage, Subject};
+use crate::present::report::{Report, Stage};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 /// The SRSS errors of one stage, fractions.
@@ -21,16 +21,16 @@ pub struct PassHistory {
 }
 
 /// The history of a correlation.
-pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
+pub fn error_history(report: &Report) -> Vec<PassHistory> {
     let mut from = 0;
     let history = |(row, stage): (usize, &Stage)| {
         let (tolerance, is_inner) = (
-            subject.tolerances.map(|all| all[row.min(1)]),
+            report.tolerances.map(|all| all[row.min(1)]),
             stage.inner.is_some(),
         );
         let pass = PassHistory {
             from,
-            inner: subject.inner_errors(row),
+            inner: report.inner_errors(row),
             check: stage.check.errors,
             tolerance,
             is_inner,
@@ -38,7 +38,7 @@ pub fn error_history(subject: &Subject) -> Vec<PassHistory> {
         from = pass.to();
         pass
     };
-    subject.stages.iter().enumerate().map(history).collect()
+    report.stages.iter().enumerate().map(history).collect()
 }
 
 impl PassHistory {
@@ -79,10 +79,10 @@ const HEIGHT: f64 = 450.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
 pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
-    svg(name, title, HEIGHT, |area| on(area, passes))
+    svg(name, title, HEIGHT, |area| draw_on(area, passes))
 }
 
-/// An error as it is drawn, percent: zero is on no logarithmic scale.
+/// An error in percent as it is drawn: a logarithmic scale has no zero.
 fn percent(error: f64) -> f64 {
     (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
 }
@@ -96,7 +96,7 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
         (value.min(low), value.max(high))
     });
-    // As a decimal fraction is read, which a product of powers of ten need not be.
+    // Parsed from decimal text: a product of powers of ten may be off in the last digit.
     let tick = |part: u8, decade| Some((part, format!("{part}e{decade}").parse::<f64>().ok()?));
     let decades =
         (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
@@ -117,7 +117,7 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     (low, high, shown.map(|(_, tick)| tick).collect())
 }
 
-fn on(area: &Area, passes: &[PassHistory]) -> Drawn {
+fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
     let (low, high, ticks) = ticks(passes);
     let range = (low..high).log_scale().with_key_points(ticks);

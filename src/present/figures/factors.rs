@@ -19,7 +19,7 @@ pub struct DrawnFactor {
     pub value: f64,
     /// Standard deviation of it.
     pub deviation: Option<f64>,
-    /// What is printed for it elsewhere.
+    /// The published factor.
     pub published: Option<f64>,
     /// Bounds of its own.
     pub bounds: Option<Range>,
@@ -27,7 +27,7 @@ pub struct DrawnFactor {
     pub remark: Option<&'static str>,
 }
 
-/// Factors with what stands around them.
+/// Factors with their axis, limits and legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {
     /// Rows.
@@ -46,7 +46,7 @@ impl Factors {
     /// The factors as SVG.
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         let height = MARGINS[2] + MARGINS[3] + ROW * self.rows.len() as f64;
-        svg(name, title, height, |area| self.on(area))
+        svg(name, title, height, |area| self.draw_on(area))
     }
 
     /// Steps of one, two or five times a power of ten that hold everything with room for its number: lower end, upper end, step.
@@ -84,7 +84,7 @@ impl Factors {
         ]
     }
 
-    fn on(&self, area: &Area) -> Drawn {
+    fn draw_on(&self, area: &Area) -> Drawn {
         let [low, high, step] = self.bounds();
         let count = self.rows.len() as f64;
         let [_, right, top, bottom] = MARGINS;
@@ -173,7 +173,7 @@ impl Factors {
                     line(area, &[(x, y - 5.0), (x, y + 5.0)], Pen::solid(ORANGE, 2.0))?;
                 }
             }
-            // The number stands beside its mark, away from the limits; what stands out is named.
+            // The number is next to its mark, away from the limits; a remark names what stands out.
             let number = signed(Digits::Fixed(self.decimals).write(factor.value));
             let (text, at, letters) = match factor.remark {
                 Some(remark) if self.limits.is_some() => (

@@ -1,7 +1,7 @@
 //! A structure as its sensors see it: places, lines between them, and how they move in a mode.
 
 use super::view::extents;
-use crate::present::subject::Subject;
+use crate::present::report::Report;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -11,7 +11,7 @@ pub type Segment = [Vector3<f64>; 2];
 /// Sensors of one place: rows of the shapes with their directions.
 type Sensors = Vec<(usize, Vector3<f64>)>;
 
-/// Places of a subject, what joins them, and which of them are known to move or not to.
+/// Places of a report, what joins them, and which of them are known to move or not to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Every place, once.
@@ -28,7 +28,7 @@ pub struct Frame {
 
 /// A place to look others up by.
 pub(super) fn key(at: &Vector3<f64>) -> [i64; 3] {
-    // Zero has one sign.
+    // Minus zero and zero are the same place.
     [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64)
 }
 
@@ -37,10 +37,10 @@ pub(super) fn is_finite(at: &Vector3<f64>) -> bool {
 }
 
 impl Frame {
-    /// The frame of a subject; what is not finite is left out.
+    /// The frame of a report; what is not finite is left out.
     ///
     /// Sensors of a structure in one line that all measure along it are drawn across it, upward.
-    pub fn of(subject: &Subject) -> Self {
+    pub fn from_report(report: &Report) -> Self {
         let (mut nodes, mut row_of) = (Vec::new(), HashMap::new());
         let mut node = |at: &Vector3<f64>| {
             *row_of.entry(key(at)).or_insert_with(|| {
@@ -48,7 +48,7 @@ impl Frame {
                 nodes.len() - 1
             })
         };
-        let pieces = subject
+        let pieces = report
             .frame
             .iter()
             .filter(|corners| corners.iter().all(is_finite));
@@ -56,10 +56,10 @@ impl Frame {
             .map(|corners| corners.iter().map(&mut node).collect())
             .collect();
         let mut known: BTreeMap<usize, Sensors> = BTreeMap::new();
-        for at in subject.supports.iter().filter(|at| is_finite(at)) {
+        for at in report.supports.iter().filter(|at| is_finite(at)) {
             known.entry(node(at)).or_default();
         }
-        for (row, sensor) in subject.sensors.iter().enumerate() {
+        for (row, sensor) in report.sensors.iter().enumerate() {
             if let Some(at) = sensor.place.as_ref().filter(|at| is_finite(at)) {
                 let place = node(at);
                 if sensor.direction != Vector3::zeros() {
@@ -78,7 +78,7 @@ impl Frame {
             Vector3::z()
         };
         let mut grids = vec![None; nodes.len()];
-        for (row, (_, at)) in subject.grids.iter().enumerate() {
+        for (row, (_, at)) in report.grids.iter().enumerate() {
             row_of
                 .get(&key(at))
                 .into_iter()
@@ -222,7 +222,7 @@ fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
         let mut points: Vec<_> = sides
             .map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0))
             .collect();
-        // A corner that is held ends the line that comes from the other side.
+        // A fixed corner ends the line that comes from the other side.
         let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
         points.extend(
             ends.map(|corner| corner.0)

@@ -28,7 +28,7 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
             );
             write(area, &shortened(name), (left, top - 14.0), START.bold())?;
             if let Some(spread) = spread {
-                on(
+                draw_on(
                     area,
                     spread,
                     [
@@ -45,8 +45,8 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
     })
 }
 
-fn on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
-    // Equal numbers have room beside them too.
+fn draw_on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
+    // Equal numbers need room on either side too.
     let [least, most] = spread.ends;
     let room = if most > least {
         0.0

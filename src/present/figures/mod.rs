@@ -1,6 +1,6 @@
-//! The figures as SVG: drawings of data that know nothing of where it comes from, and the paper's from them.
+//! The figures as SVG: drawings that do not know where their data come from, and the paper's figures made from them.
 //!
-//! The same data give the same bytes. What draws fails with
+//! The same data give the same bytes. Drawing fails with
 //! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
 pub mod box_elements;
@@ -17,12 +17,12 @@ pub mod frame;
 pub mod histogram;
 pub mod mode_shapes;
 pub mod structure;
-pub mod subject;
+pub mod report;
 mod view;
 
 pub use cases::case_figures;
 pub use comparisons::comparison_figures;
-pub use subject::subject_figures;
+pub use report::report_figures;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::view::{Room, View, extents};
 use crate::method::linear_algebra::check_shape;
 use crate::method::pairing;
-use crate::present::subject::Subject;
+use crate::present::report::Report;
 use crate::present::table::Digits;
 use nalgebra::Vector3;
 
@@ -45,35 +45,35 @@ pub struct DrawnModes {
 }
 
 impl DrawnModes {
-    /// All modes of a subject, in the order and with the signs of the test modes; none when no sensor has a place and a direction.
+    /// All modes of a report, in the order and with the signs of the test modes; none when no sensor has a place and a direction.
     ///
     /// # Errors
     /// [`WrongShape`](crate::method::error::Error::WrongShape) unless every row of the shapes has a sensor.
-    pub fn of(subject: &Subject) -> Result<Option<Self>, PresentError> {
-        let mut frame = Frame::of(subject);
+    pub fn from_report(report: &Report) -> Result<Option<Self>, PresentError> {
+        let mut frame = Frame::from_report(report);
         if frame.known.values().all(Vec::is_empty) {
             return Ok(None);
         }
-        // Beside a support nothing is measured: a node line there would be the interpolation's.
-        if subject.moved.is_none() {
+        // Nothing is measured near a support: a node line there would come from the interpolation.
+        if report.moved.is_none() {
             let is_held = |node: &usize| frame.known.get(node).is_some_and(Vec::is_empty);
             frame.panels.retain(|panel| !panel.iter().any(is_held));
         }
-        let test = &subject.test;
+        let test = &report.test;
         check_shape(
             "mode shapes",
             &test.shapes,
-            subject.sensors.len(),
+            report.sensors.len(),
             test.len(),
         )?;
-        let checks = [&subject.initial, subject.corrected()];
+        let checks = [&report.initial, report.corrected()];
         let [first, corrected] = checks.map(|check| pairing::paired(&check.modes, &check.pairing));
         let states = [test.clone(), first?, corrected?];
         let mode = |mode: usize| DrawnMode {
             number: mode + 1,
             hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
             moved: [0, 1, 2].map(|state| {
-                let grids = subject
+                let grids = report
                     .moved
                     .as_ref()
                     .and_then(|moved| moved[state].get(mode));

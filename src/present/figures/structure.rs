@@ -4,7 +4,7 @@ use super::canvas::*;
 use super::frame::{Frame, is_finite, key};
 use super::view::View;
 use crate::present::render::lines;
-use crate::present::subject::Subject;
+use crate::present::report::Report;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::iter::once;
@@ -17,7 +17,7 @@ const SENSOR: Mark = Mark(
 );
 /// Numbers of more grids than these would hide the structure.
 const MOST_NUMBERS: usize = 60;
-/// Longest name of a place that stands beside it; others are named in a list.
+/// Longest name written next to its place; longer ones go into a list.
 const LONGEST_NAME: usize = 9;
 /// Height of the structure, and of a line of the list below it, px.
 const DRAWING: f64 = 420.0;
@@ -81,15 +81,15 @@ impl Names {
 }
 
 /// The structure with its numbered grids, its supports and its sensors: in plan when all places lie in one plane.
-pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<String, PresentError> {
-    let frame = Frame::of(subject);
+pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String, PresentError> {
+    let frame = Frame::from_report(report);
     let all: Vec<_> = frame
         .nodes
         .iter()
-        .chain(subject.grids.iter().map(|(_, at)| at))
+        .chain(report.grids.iter().map(|(_, at)| at))
         .copied()
         .collect();
-    let numbered = subject.grids.len() <= MOST_NUMBERS;
+    let numbered = report.grids.len() <= MOST_NUMBERS;
     // Numbers need room between an upper and a lower surface.
     let solid = || {
         if numbered {
@@ -102,7 +102,7 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
     let view = view.fitted(&all, [60.0, 50.0, WIDTH - 120.0, DRAWING - 80.0]);
     let mut places: BTreeMap<[i64; 3], (Vector3<f64>, Vec<&str>)> = BTreeMap::new();
     let mut elsewhere = Vec::new();
-    for sensor in &subject.sensors {
+    for sensor in &report.sensors {
         match sensor.place.filter(is_finite) {
             Some(at) => places
                 .entry(key(&at))
@@ -132,8 +132,8 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
         let mut x = 14.0;
         let drawn = [
             !named.is_empty(),
-            !subject.supports.is_empty(),
-            numbered && !subject.grids.is_empty(),
+            !report.supports.is_empty(),
+            numbered && !report.grids.is_empty(),
         ];
         let kinds = [
             (SENSOR, "sensor"),
@@ -152,7 +152,7 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
             String::new()
         };
         write(area, &(view.axes() + &depth), (x, 18.0), START)?;
-        for at in &subject.supports {
+        for at in &report.supports {
             mark(area, view.place(*at), support(true))?;
         }
         let mut names = Names(Vec::new());
@@ -160,8 +160,8 @@ pub fn draw_structure(name: &str, title: &str, subject: &Subject) -> Result<Stri
             mark(area, view.place(*at), SENSOR)?;
             names.write(area, name, view.place(*at), VERMILION)?;
         }
-        for (label, at) in subject.grids.iter().filter(|_| numbered) {
-            if !subject.supports.contains(at) {
+        for (label, at) in report.grids.iter().filter(|_| numbered) {
+            if !report.supports.contains(at) {
                 mark(area, view.place(*at), support(false))?;
             }
             names.write(area, &label.to_string(), view.place(*at), BLUE)?;

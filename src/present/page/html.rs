@@ -14,7 +14,7 @@ pub(super) fn section(id: &str, heading: &str, body: &str) -> String {
     format!("<section id=\"{id}\">\n<h2>{heading}</h2>\n{body}</section>\n")
 }
 
-/// What is wider than the page and scrolls inside it.
+/// A block that scrolls inside the page if it is wider.
 fn scrolling(label: &str, body: &str) -> String {
     let label = escaped(label);
     format!(
@@ -22,7 +22,7 @@ fn scrolling(label: &str, body: &str) -> String {
     )
 }
 
-/// A figure; what to see in it stands before its caption.
+/// A figure; `see` says before the caption what to look for.
 pub(super) fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> String {
     let (drawing, caption, name) = (scrolling(caption, svg), escaped(caption), escaped(name));
     let see = if see.is_empty() {

@@ -6,11 +6,11 @@
 mod html;
 mod story;
 
-use super::figures::{Figure, subject_figures};
-use super::subject::Subject;
+use super::figures::{Figure, report_figures};
+use super::report::Report;
 use super::table::Table;
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
-use super::tables::subject::{derivative_table, factor_table, history_table, paired_table};
+use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, paper_tables, preflight};
 use crate::job::preflight::preflight_of;
 use crate::present::PresentError;
@@ -19,7 +19,7 @@ use crate::torque_box::{Case, CaseResult};
 use html::{escaped, figure, figures, prose, section, section_of, table};
 use story::story;
 
-/// What the page tells.
+/// The content of the page.
 #[derive(Debug, Clone, Copy)]
 pub struct Contents<'a> {
     /// The cases.
@@ -41,11 +41,12 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let mut parts = story(contents);
-    let (told, appendix): (String, usize) = (
+    let (story_html, appendix): (String, usize) = (
         parts.iter().map(|(.., body)| body.as_str()).collect(),
         parts.len(),
     );
-    let is_left = |figure: &&Figure| !told.contains(&format!("<figure id=\"{}\">", figure.name));
+    let is_left =
+        |figure: &&Figure| !story_html.contains(&format!("<figure id=\"{}\">", figure.name));
     let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
     let contents = &Contents {
         figures: &left,
@@ -102,7 +103,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let tables = bodies
         .flat_map(|body| body.split("<table id=\"").skip(1))
         .filter_map(|rest| rest.split('"').next());
-    let held = format!(
+    let note = format!(
         "<p>Every computed number has the published one behind it in parentheses. {}</p>\n",
         paper_tables(tables)
     );
@@ -112,7 +113,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
             "appendix",
             "Appendix",
             "Appendix: the tables, and the other figures",
-            held,
+            note,
         ),
     );
     let lead = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
@@ -153,37 +154,37 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
 /// `command` makes it again.
 ///
 /// # Errors
-/// Those of [`subject_figures`] and [`Subject::agreement`].
-pub fn subject_page(
-    subject: &Subject,
+/// Those of [`report_figures`] and [`Report::agreement`].
+pub fn report_page(
+    report: &Report,
     extra: &[Table],
     command: &str,
 ) -> Result<String, PresentError> {
-    let figures = subject_figures(subject)?;
+    let figures = report_figures(report)?;
     let of = |tables: &[Table], whats: &[&str]| {
         part(
             tables,
             &figures,
             &whats
                 .iter()
-                .map(|what| format!("{}_{what}", subject.name))
+                .map(|what| format!("{}_{what}", report.name))
                 .collect::<Vec<_>>(),
         )
     };
-    let class = if subject.converged() {
+    let class = if report.converged() {
         "note"
     } else {
         "finding"
     };
-    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&subject.words()));
-    let summary = words + &table(&paired_table(subject)?);
-    let derivatives: Vec<Table> = derivative_table(subject).into_iter().collect();
+    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&report.words()));
+    let summary = words + &table(&paired_table(report)?);
+    let derivatives: Vec<Table> = derivative_table(report).into_iter().collect();
     let parts = [
         ("summary", "Summary", summary),
         (
             "factors",
             "Factors",
-            of(&[factor_table(subject)], &["factors"]),
+            of(&[factor_table(report)], &["factors"]),
         ),
         ("structure", "Structure", of(&[], &["structure"])),
         (
@@ -194,7 +195,7 @@ pub fn subject_page(
         (
             "history",
             "History",
-            of(&[history_table(subject)], &["errors"]),
+            of(&[history_table(report)], &["errors"]),
         ),
         (
             "derivatives",
@@ -212,7 +213,7 @@ pub fn subject_page(
     let parts =
         parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
     let lead = "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
-    Ok(document(&subject.title, lead, &parts.collect::<Vec<_>>()))
+    Ok(document(&report.title, lead, &parts.collect::<Vec<_>>()))
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.
@@ -251,7 +252,7 @@ fn box_section(contents: &Contents) -> String {
     )
 }
 
-/// What looks wrong with the cases before anything moves.
+/// The findings of the pre-flight for the cases.
 fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     let found = |result: &CaseResult| {
         let case = &result.case;
@@ -268,7 +269,7 @@ fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
     Ok(table(&preflight::findings_table(&found)))
 }
 
-/// Tables 9 to 12; what truncation costs is left to its figure, which has the numbers.
+/// Tables 9 to 12, and the figure of the cost of truncation, which has its numbers.
 fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     let is_published =
         |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));

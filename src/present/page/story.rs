@@ -41,7 +41,7 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
     ))
 }
 
-/// What a case came to: its modeling error, or how near it is.
+/// The outcome of a case: its modeling error, or its verdict.
 fn outcome(result: &CaseResult) -> String {
     let Some(anomaly) = &result.anomaly else {
         return format!(

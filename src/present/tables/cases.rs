@@ -1,7 +1,7 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
+use super::report::solver_note;
 use super::stages::{self, ErrorStage};
-use super::subject::solver_note;
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
 use crate::method::error_sum::Errors;
@@ -15,7 +15,7 @@ use crate::torque_box::published::PublishedTable;
 use crate::torque_box::wing_box::gage_rms;
 use crate::torque_box::{CASES, CaseResult, Grouping};
 
-/// The published table to stand beside a run's, if the paper made that run: by single elements.
+/// The published table of a run, if the paper made that run: by single elements.
 fn published(
     numbers: [usize; 3],
     result: &CaseResult,
@@ -206,7 +206,7 @@ pub fn settings_table(results: &[CaseResult]) -> Table {
     table
 }
 
-/// What became of every case, a line each.
+/// The outcome of every case, one line each.
 pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
@@ -301,7 +301,7 @@ pub fn summary(results: &[CaseResult]) -> Result<Table, PresentError> {
     Ok(table)
 }
 
-/// What became of a case, in a few words.
+/// The outcome of a case, in a few words.
 pub fn outcome(result: &CaseResult) -> String {
     let kind = if result.case.grouping == Grouping::Elements {
         "element "

@@ -6,7 +6,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::preflight::{Finding, preflight};
-use crate::job::{Finished, PlacedSensor, Prepared, Study, Summary, Vary};
+use crate::job::{JobResult, LoadedJob, PlacedSensor, Study, Summary, Vary};
 use crate::method::model::{DynamicModel, Range};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
@@ -22,10 +22,10 @@ pub const MOST_SUSPECTS: usize = 20;
 ///
 /// # Errors
 /// Those of [`coordinate_assurance`].
-pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<Table, FileError> {
+pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Table, FileError> {
     let direction = |sensor: &PlacedSensor| {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
-        // An axis of the test's own is told by its components.
+        // An axis of the test's own coordinate system is shown by its components.
         let own = || {
             format!(
                 " ({:.2} {:.2} {:.2})",
@@ -39,7 +39,7 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
         };
         Cell::text(format!("{sign}{}{own}", DIRECTIONS[sensor.direction]))
     };
-    let placed = || prepared.placed.iter();
+    let placed = || loaded.placed.iter();
     let mut table = Table::new("sensors", "Sensors on the model", "Sensor")
         .labels(placed().map(|sensor| &sensor.name))
         .column("grid", "", placed().map(|sensor| Cell::count(sensor.grid)))
@@ -49,9 +49,9 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
             "",
             numbers(placed().map(|sensor| sensor.distance), Digits::Fixed(3)),
         );
-    let models = finished
+    let models = result
         .into_iter()
-        .flat_map(|finished| [&finished.first, &finished.last]);
+        .flat_map(|result| [&result.first, &result.last]);
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
         let pairs: Vec<Option<usize>> = model
             .exact
@@ -69,11 +69,11 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
             numbers(assurance.iter().copied(), Digits::Fixed(3)),
         );
     }
-    let all = prepared.data.sensors.len();
-    if all > prepared.placed.len() {
+    let all = loaded.data.sensors.len();
+    if all > loaded.placed.len() {
         table.notes.push(format!(
             "{} of the test's {all} sensors are not used.",
-            all - prepared.placed.len()
+            all - loaded.placed.len()
         ));
     }
     Ok(table)
@@ -83,13 +83,13 @@ pub fn places_table(prepared: &Prepared, finished: Option<&Finished>) -> Result<
 /// readers left aside.
 ///
 /// # Errors
-/// Those of [`preflight`] and of the analyses it needs; a structure that is not held has no condensed model to look at, and a
+/// Those of [`preflight`] and of the analyses it needs; a structure without supports has no condensed model to check, and a
 /// sentence says so.
-pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
-    let whole = &prepared.source.whole;
+pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
+    let whole = &loaded.source.whole;
     let ones = vec![1.0; whole.parameters().len()];
     let mut sentences: Vec<String> = Vec::new();
-    match whole.condensed(&ones, &prepared.sensors) {
+    match whole.condensed(&ones, &loaded.sensors) {
         Ok((condensed, mass)) => {
             let model = DynamicModel {
                 stiffness: condensed.stiffness,
@@ -98,26 +98,26 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
             };
             let findings = preflight(
                 &model,
-                &prepared.test,
-                &prepared.job.correlation,
+                &loaded.test,
+                &loaded.job.correlation,
                 &whole.ranges(),
             )?;
             sentences.extend(findings.iter().map(Finding::to_string));
         }
         Err(error) => sentences.push(format!(
-            "the pre-flight looks at condensed matrices, which are not to be had: {error}"
+            "the pre-flight needs condensed matrices, which this model does not have: {error}"
         )),
     }
     let mut of_mode =
         |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
-    for (mode, assurance) in &prepared.unpaired {
+    for (mode, assurance) in &loaded.unpaired {
         let most = format!("modal assurance {assurance:.2} at most");
         of_mode(
             *mode,
-            format!("no mode of the first model is like it ({most}); it is left out"),
+            format!("it resembles no mode of the first model ({most}) and is left out"),
         );
     }
-    for (mode, phase) in prepared
+    for (mode, phase) in loaded
         .data
         .phase_collinearity
         .iter()
@@ -129,8 +129,8 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
             format!("complex, with a phase collinearity of {phase:.2}"),
         );
     }
-    if !prepared.data.skipped.is_empty() {
-        let numbers: Vec<String> = prepared.data.skipped.iter().map(usize::to_string).collect();
+    if !loaded.data.skipped.is_empty() {
+        let numbers: Vec<String> = loaded.data.skipped.iter().map(usize::to_string).collect();
         sentences.push(format!(
             "datasets of the Universal File that are not read: {}",
             numbers.join(", ")
@@ -138,7 +138,7 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
     }
     let units =
         |units: &String| format!("the test's file is in units of {units}; nothing is converted");
-    sentences.extend(prepared.data.units.iter().map(units));
+    sentences.extend(loaded.data.units.iter().map(units));
     let labels = (1..=sentences.len())
         .map(|number| number.to_string())
         .chain(sentences.is_empty().then(String::new));
@@ -155,15 +155,15 @@ pub fn doubts_table(prepared: &Prepared) -> Result<Table, FileError> {
 /// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration.
 ///
 /// # Errors
-/// Those of [`Prepared::weights`] and of the rankings.
-pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
-    let parameters = prepared.source.whole.parameters();
+/// Those of [`LoadedJob::weights`] and of the rankings.
+pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
+    let parameters = loaded.source.whole.parameters();
     let (first, weights) = (
-        prepared.analyze(&vec![1.0; parameters.len()])?,
-        prepared.weights()?,
+        loaded.analyze(&vec![1.0; parameters.len()])?,
+        loaded.weights()?,
     );
     let suspects = by_single_fit(&first, &weights)?;
-    let slopes = by_factor(&first, &prepared.job.correlation.inner)?;
+    let slopes = by_factor(&first, &loaded.job.correlation.inner)?;
     let residuals = residuals(&first, &weights)?;
     let note = format!(
         "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone has \
@@ -221,16 +221,10 @@ pub fn suspects_table(prepared: &Prepared) -> Result<Table, FileError> {
 }
 
 /// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.
-pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, FileError> {
-    let names: Vec<&str> = prepared
-        .source
-        .whole
-        .parameters()
-        .iter()
-        .map(|parameter| parameter.name.as_str())
-        .collect();
-    let [before, after] = &finished.seen;
-    let intervals = after.intervals(&finished.factors)?;
+pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
+    let names: Vec<&str> = loaded.parameter_names().collect();
+    let [before, after] = &result.seen;
+    let intervals = after.intervals(&result.factors)?;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
          from the standard deviations of the measurement.",
@@ -241,7 +235,7 @@ pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, Fil
     );
     let parallel = |&(a, b, cosine): &(usize, usize, f64)| {
         format!(
-            "{} and {} do nearly the same (cosine {cosine:+.3}).",
+            "The test cannot tell {} and {} apart (cosine {cosine:+.3}); only their combination is known.",
             names[a], names[b]
         )
     };
@@ -254,7 +248,7 @@ pub fn seen_table(prepared: &Prepared, finished: &Finished) -> Result<Table, Fil
             .column(
                 "factor",
                 "",
-                numbers(finished.factors.iter().copied(), Digits::Fixed(4)),
+                numbers(result.factors.iter().copied(), Digits::Fixed(4)),
             )
             .column("least (95 %)", "", ends(|interval| interval.lower))
             .column("most (95 %)", "", ends(|interval| interval.upper))
@@ -296,11 +290,11 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
         failed.len(),
     );
     let why = |first| {
-        format!("What failed does not count; --sample {first} says why sample {first} did.")
+        format!("Failed samples do not count; --sample {first} says why sample {first} failed.")
     };
     let mut table = Table::new(
         "study",
-        format!("{}: factors over many runs", study.prepared.title),
+        format!("{}: factors over many runs", study.loaded.title),
         "Parameter",
     )
     .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")

@@ -1,4 +1,4 @@
-//! What is computed, as tables: of any correlation ([`subject`]), of the paper's cases, and of decks and jobs.
+//! What is computed, as tables: of any correlation ([`report`]), of the paper's cases, and of decks and jobs.
 
 pub mod cases;
 pub mod deck;
@@ -7,7 +7,7 @@ pub mod job;
 pub mod preflight;
 pub mod published;
 pub mod stages;
-pub mod subject;
+pub mod report;
 pub mod unlimited;
 
 use super::table::Digits;
@@ -22,7 +22,7 @@ const RMS_PERCENT: Digits = Digits::Fixed(2);
 const MODE_ERRORS: [(&str, Digits); 2] =
     [("frequency RMS", RMS_PERCENT), ("shape RMS", RMS_PERCENT)];
 
-/// What the paper's print of a table gets wrong, its rows and columns named as a reader sees them.
+/// The misprints of a table in the paper, with rows and columns named as a reader sees them.
 fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
     let words = |remark: &String| {
         remark
@@ -32,9 +32,17 @@ fn remarks(paper: Option<&PublishedTable>) -> Vec<String> {
             .join(" ")
     };
     let remarks = paper.into_iter().flat_map(|table| &table.remarks);
-    remarks
-        .map(|remark| format!("The print: {}", words(remark)))
-        .collect()
+    let sentence = |remark: &String| {
+        let words = words(remark);
+        let (kind, rest) = words.split_once(": ").unwrap_or(("misprint", &words));
+        let kind = match kind {
+            "inconsistent" => "Inconsistency",
+            "borderline" => "Borderline rounding",
+            _ => "Misprint",
+        };
+        format!("{kind} in the paper, {rest}")
+    };
+    remarks.map(sentence).collect()
 }
 
 /// A row or column of the published tables' files as a reader's words: `pass_1_percent` is the pass 1 error.
@@ -43,8 +51,8 @@ fn in_words(name: &str) -> String {
         return name.to_owned();
     }
     let word = |part: &str| {
-        let (word, end) = part.split_at(part.trim_end_matches([',', ':', '.']).len());
-        let said = match word {
+        let (stem, end) = part.split_at(part.trim_end_matches([',', ':', '.']).len());
+        let word = match stem {
             "percent" => "error",
             "in" => "gage",
             "seconds" => "time",
@@ -54,7 +62,7 @@ fn in_words(name: &str) -> String {
             "fem" => "FEM",
             other => other,
         };
-        format!("{said}{end}")
+        format!("{word}{end}")
     };
     name.split('_').map(word).collect::<Vec<_>>().join(" ")
 }

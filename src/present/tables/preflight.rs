@@ -3,7 +3,7 @@
 use crate::job::preflight::Finding;
 use crate::present::table::{Cell, Table};
 
-/// What is found before the first step, structure by structure.
+/// The findings before the first step, structure by structure.
 pub fn findings_table(found: &[(String, Vec<Finding>)]) -> Table {
     let title = "Before the first step: what is found";
     let mut table = Table::new("preflight_findings", title, "Structure").headings(["Finding"], "");

@@ -42,7 +42,7 @@ const ORDERS: usize = 6;
 
 /// The larger error of the two roots of every problem, in percent, by rule and order.
 ///
-/// The paper's own numbers, and its problems, are lost in the scan: nothing stands beside these.
+/// The paper's own numbers, and its problems, are lost in the scan, so these have no published numbers.
 ///
 /// # Errors
 /// Those of [`TwoMasses::root_errors`].

@@ -1,10 +1,10 @@
-//! What the first iteration of a case asks of its parameters before any limit, which gives a modeling error away.
+//! The unlimited factors of a case's first iteration, which reveal a modeling error.
 
 use crate::present::figures::factors::DrawnFactor;
 use crate::present::table::{Cell, Digits, Table};
 use crate::torque_box::{CaseResult, Grouping};
 
-/// What stands out so far that a modeling error must be looked for ([`CaseResult::anomaly`]).
+/// The remark on a factor so large that it points to a modeling error ([`CaseResult::anomaly`]).
 pub const ANOMALY: &str = "anomaly";
 
 /// What the first iteration of a case asks of every parameter, beside what the paper quotes; [`ANOMALY`] is remarked.

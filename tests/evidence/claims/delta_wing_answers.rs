@@ -134,7 +134,7 @@ fn modes_are_those_of_the_dense_pencil() {
 
 #[test]
 fn wing_to_deck_to_wing_is_the_identity() {
-    let model = BulkData::of_structure(&wing().structure().expect("a structure"));
+    let model = BulkData::from_structure(&wing().structure().expect("a structure"));
     let text = bulk_data(&model).expect("a deck");
     for (card, count) in [
         ("GRID*", 48),

@@ -21,7 +21,7 @@ fn fewer_modes_in_every_format() {
     assert_eq!(plain.status.code(), Some(0));
     assert!(plain.stderr.is_empty());
     let report = text(&plain.stdout);
-    assert!(report.starts_with("Computed numbers, the published ones"));
+    assert!(report.starts_with("Computed values; the paper's are"));
     for table in [9, 10, 11, 12] {
         assert!(
             report.contains(&format!("(Table {table})")),

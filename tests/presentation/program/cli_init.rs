@@ -2,7 +2,7 @@
 
 use crate::presentation::program::cli::{corfem, text};
 use crate::presentation::program::cli_jobs::{folder_of, words};
-use corfem::job::{Job, Prepared, read};
+use corfem::job::{Job, LoadedJob, read};
 use std::fs;
 
 #[test]
@@ -41,7 +41,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
     let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
     fs::write(&path, text).expect("written");
-    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// The names of a struct's fields, as the reader itself lists them when it finds another.

@@ -257,7 +257,7 @@ fn check_says_what_is_doubtful_without_a_step() {
     let refused = corfem(&["check", words(&job)]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        text(&refused.stderr).contains("shape_weights, one a test mode"),
+        text(&refused.stderr).contains("compare.shape_weights: 1 given for"),
         "{}",
         text(&refused.stderr)
     );
@@ -286,7 +286,7 @@ fn a_job_outside_tolerance_is_exit_status_3_with_its_verdict() {
     let output = correlate(&job, &[]);
     assert_eq!(output.status.code(), Some(3));
     assert!(
-        unbroken(&text(&output.stdout)).contains("outside tolerance: error sum"),
+        unbroken(&text(&output.stdout)).contains("Outside tolerance: error sum"),
         "{}",
         text(&output.stdout)
     );
@@ -299,7 +299,7 @@ fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
     let output = correlate(&job, &["--folder", words(&out)]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     let expected = format!(
-        "corfem: cannot read {}/no.mtx (parameter story 3 in job.toml): no such file",
+        "corfem: cannot read {}/no.mtx (parameter \"story 3\" in job.toml): no such file",
         words(folder.path())
     );
     assert!(
@@ -326,7 +326,7 @@ fn a_report_is_written_although_its_deck_cannot_be() {
     let output = correlate(&folder.path().join("job.toml"), &["--folder", words(&out)]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        text(&output.stderr).contains("a is one of point masses"),
+        text(&output.stderr).contains("parameter \"a\" scales point masses"),
         "{}",
         text(&output.stderr)
     );

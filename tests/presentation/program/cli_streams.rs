@@ -299,7 +299,7 @@ fn an_empty_variable_is_as_good_as_none() {
     assert_eq!(with(&[]).stdout, report());
     assert!(
         text(&with(&["--solver", "nastran95"]).stderr)
-            .contains("found none at /no/such/.cache/nastran95")
+            .contains("no folder with bin/nastrn and rf/ at /no/such/.cache/nastran95")
     );
 }
 

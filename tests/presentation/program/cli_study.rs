@@ -232,7 +232,7 @@ fn a_signal_keeps_the_samples_done() {
     assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
     let done = lines() - 1;
     let said = format!(
-        "corfem: stopped by request; {done} of 1000000 samples are done, and the same command goes on\n"
+        "corfem: stopped by request; {done} of 1000000 samples are done; the same command resumes\n"
     );
     assert_eq!(text(&output.stderr), said);
     assert!(

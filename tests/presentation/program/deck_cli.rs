@@ -215,7 +215,7 @@ fn bad_input_is_exit_status_2() {
         (
             vec!["modes", path],
             format!(
-                "corfem: {path}, line 1: card GRID, field 4: expected a real number with a decimal point, found X\n"
+                "corfem: {path}, line 1: card GRID, field 4: \"X\" is not a real number with a decimal point\n"
             ),
         ),
     ] {
@@ -254,15 +254,16 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
     assert_eq!(
         text(&refused.stderr),
         format!(
-            "corfem: {path}: expected cards that are read here, found CBAR (line 7, 2 cards), PBAR (line 8, 1 card); \
-             they may carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them \
-             out with --ignore 'CBAR,PBAR'\n"
+            "corfem: {path}: corfem does not read CBAR (line 7, 2 cards), PBAR (line 8, 1 card), which may carry stiffness, \
+             mass, supports or coordinates; correct them, or take responsibility for leaving them out with --ignore \
+             'CBAR,PBAR'
+"
         )
     );
     let some = corfem(&["modes", path, "--ignore", "CBAR"]);
     assert_eq!(some.status.code(), Some(2));
     assert!(
-        text(&some.stderr).contains("found PBAR (line 8, 1 card);"),
+        text(&some.stderr).contains("does not read PBAR (line 8, 1 card),"),
         "{}",
         text(&some.stderr)
     );
@@ -270,7 +271,7 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
     assert_eq!(read.status.code(), Some(2));
     assert_eq!(
         text(&read.stderr),
-        "corfem: --ignore: expected a card that is not read here, found CROD\n"
+        "corfem: --ignore: corfem reads CROD; only cards that it does not read can be left out\n"
     );
     let run = |format| corfem(&["modes", path, "--ignore", "cbar,PBAR", "--format", format]);
     let sentence =

@@ -1,39 +1,33 @@
-//! The user's own structure as a subject of the report.
+//! The user's own structure as a report.
 
-use super::{Derivatives, SensorPoint, Stage, Subject};
+use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
-use crate::job::{Finished, History, PlacedSensor, Prepared};
+use crate::job::{History, JobResult, LoadedJob, PlacedSensor};
 use crate::method::model::ModalModel;
 use crate::present::PresentError;
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use nalgebra::{DMatrix, DVectorView, Vector3};
 
-impl Subject {
-    /// A job, before its first step or finished.
+impl Report {
+    /// A job, before its first step or with its result.
     ///
     /// # Errors
     /// Those of the first analysis.
-    pub fn of_job(prepared: &Prepared, finished: Option<&Finished>) -> Result<Self, PresentError> {
-        let whole = &prepared.source.whole;
-        let names: Vec<String> = whole
-            .parameters()
-            .iter()
-            .map(|parameter| parameter.name.clone())
-            .collect();
+    pub fn from_job(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Self, PresentError> {
+        let whole = &loaded.source.whole;
+        let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
-        let first = finished.map_or_else(
-            || prepared.analyze(&ones),
-            |finished| Ok(finished.first.clone()),
-        )?;
-        let stem = prepared.job.stem();
-        let geometry = &prepared.source.geometry;
+        let first =
+            result.map_or_else(|| loaded.analyze(&ones), |result| Ok(result.first.clone()))?;
+        let stem = loaded.job.stem();
+        let geometry = &loaded.source.geometry;
         let corners = |grids: &Vec<usize>| {
             grids
                 .iter()
                 .filter_map(|grid| geometry.places.get(grid).copied())
                 .collect()
         };
-        let lines = prepared
+        let lines = loaded
             .data
             .lines
             .iter()
@@ -43,25 +37,25 @@ impl Subject {
             geometry.elements.iter().map(corners).chain(lines).collect();
         frame.retain(|corners| corners.len() > 1);
         let still = |grid: &&usize| {
-            (0..3).all(|direction| !prepared.source.motions.contains_key(&(**grid, direction)))
+            (0..3).all(|direction| !loaded.source.motions.contains_key(&(**grid, direction)))
         };
-        let base = match finished.map(|finished| &finished.history) {
+        let base = match result.map(|result| &result.history) {
             Some(History::Paper(run)) => {
-                Self::of(&stem, &names, &first.test, &run.initial, Some(run))
+                Self::from_correlation(&stem, &names, &first.test, &run.initial, Some(run))
             }
             Some(History::GaussNewton(Some((run, _)))) => {
-                Self::of_weighted(&stem, &names, &first, run)
+                Self::from_weighted(&stem, &names, &first, run)
             }
             history => Self {
                 best: history.map(|_| 0),
-                stages: finished.into_iter().map(stopped).collect(),
-                ..Self::of(&stem, &names, &first.test, &first.exact, None)
+                stages: result.into_iter().map(stopped).collect(),
+                ..Self::from_correlation(&stem, &names, &first.test, &first.exact, None)
             },
         };
-        let subject = Self {
-            title: prepared.title.clone(),
+        let report = Self {
+            title: loaded.title.clone(),
             ranges: whole.ranges(),
-            sensors: prepared.placed.iter().map(sensor_point).collect(),
+            sensors: loaded.placed.iter().map(sensor_point).collect(),
             frame,
             grids: geometry
                 .places
@@ -74,25 +68,25 @@ impl Subject {
                 .filter(still)
                 .map(|grid| geometry.places[grid])
                 .collect(),
-            mass: prepared.mass_at_sensors(finished.map_or(&first, |finished| &finished.last)),
-            derivatives: Some(Derivatives::of(&first)?),
+            mass: loaded.mass_at_sensors(result.map_or(&first, |result| &result.last)),
+            derivatives: Some(Derivatives::at(&first)?),
             ..base
         };
-        let Some(finished) = finished else {
-            return Ok(subject);
+        let Some(result) = result else {
+            return Ok(report);
         };
-        let deviations = finished.factors.iter().zip(&finished.seen[1].deviations);
+        let deviations = result.factors.iter().zip(&result.seen[1].deviations);
         Ok(Self {
-            // Of the factor itself, from that of its logarithm.
+            // The deviation of the factor itself, from that of its logarithm.
             deviations: Some(deviations.map(|(factor, log)| factor * log).collect()),
-            moved: moved(prepared, finished),
-            verdict: Some(finished.verdict.clone()),
-            ..subject
+            moved: moved(loaded, result),
+            verdict: Some(result.verdict.clone()),
+            ..report
         })
     }
 
-    /// Gauss–Newton steps, each a stage of its own.
-    fn of_weighted(
+    /// A report with one stage per Gauss–Newton step.
+    fn from_weighted(
         name: &str,
         names: &[String],
         first: &ModalModel,
@@ -122,24 +116,24 @@ impl Subject {
         Self {
             best: stages.len().checked_sub(1),
             stages,
-            ..Self::of(name, names, &first.test, &first.exact, None)
+            ..Self::from_correlation(name, names, &first.test, &first.exact, None)
         }
     }
 }
 
-/// How the grids move, see [`Subject::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
+/// How the grids move, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
 /// combination of the corrected model's modes. None where the sensors cannot tell these apart.
-fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
-    let Prepared {
+fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
+    let LoadedJob {
         source, sensors, ..
-    } = prepared;
-    let ones = vec![1.0; finished.factors.len()];
+    } = loaded;
+    let ones = vec![1.0; result.factors.len()];
     let whole = |factors: &[f64], model: &ModalModel| {
         let pairs = &model.exact.pairing.analysis_mode;
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
         let all = source.whole.modes(factors, count).ok()?.vibrations.shapes;
         let seen = sensors.times(&all).ok()?;
-        // Of the scale and sign of the shapes that are compared.
+        // Give them the scale and sign of the shapes that are compared.
         let mut paired = all.select_columns(pairs);
         for (j, mut shape) in paired.column_iter_mut().enumerate() {
             let (own, compared) = (
@@ -150,9 +144,9 @@ fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f6
         }
         Some((paired, all, seen))
     };
-    let (first, ..) = whole(&ones, &finished.first)?;
-    let (last, all, seen) = whole(&finished.factors, &finished.last)?;
-    let test = expand(&all, &seen, &finished.first.test.shapes).ok()?;
+    let (first, ..) = whole(&ones, &result.first)?;
+    let (last, all, seen) = whole(&result.factors, &result.last)?;
+    let test = expand(&all, &seen, &result.first.test.shapes).ok()?;
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
@@ -171,9 +165,9 @@ fn moved(prepared: &Prepared, finished: &Finished) -> Option<[Vec<Vec<Vector3<f6
     Some([of(test), of(first), of(last)])
 }
 
-/// The best that a stopped run has come to.
-fn stopped(finished: &Finished) -> Stage {
-    let (factors, check) = (finished.factors.clone(), finished.last.exact.clone());
+/// The best stage of a stopped run.
+fn stopped(result: &JobResult) -> Stage {
+    let (factors, check) = (result.factors.clone(), result.last.exact.clone());
     Stage {
         factors,
         check,

@@ -6,14 +6,14 @@ use crate::method::pairing::{Pairing, pair_modes};
 use nalgebra::DMatrix;
 
 /// Model and test side by side.
-pub(super) struct Look<'a> {
+pub(super) struct Comparison<'a> {
     mass: &'a DMatrix<f64>,
     pub analysis: Modes,
     /// $V_F^t M$ (n × d).
     projection: DMatrix<f64>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> Comparison<'a> {
     pub fn new(stiffness: &DMatrix<f64>, mass: &'a DMatrix<f64>) -> Result<Self, Error> {
         let analysis = solve(stiffness, mass, mass.nrows())?;
         let projection = analysis.shapes.tr_mul(mass);

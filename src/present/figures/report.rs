@@ -8,38 +8,38 @@ use super::structure::draw_structure;
 use super::{Figure, numbers};
 use crate::method::error::Error;
 use crate::present::PresentError;
-use crate::present::subject::Subject;
+use crate::present::report::Report;
 use nalgebra::DMatrix;
 
-/// Every figure of a subject: structure, mode shapes and node lines where sensors have places, errors against iteration, factors,
+/// Every figure of a report: structure, mode shapes and node lines where sensors have places, errors against iteration, factors,
 /// agreement of the modes before and after, and derivatives where there are any.
 ///
 /// # Errors
-/// Those of [`DrawnModes::of`] and [`Subject::agreement`]; [`PresentError::Drawing`].
-pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
+/// Those of [`DrawnModes::from_report`] and [`Report::agreement`]; [`PresentError::Drawing`].
+pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |what: &str,
                    title: &str,
                    caption: &str,
                    draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
-        let name = format!("{}_{what}", subject.name);
-        let svg = draw(&name, &format!("{}: {title}", subject.title))?;
+        let name = format!("{}_{what}", report.name);
+        let svg = draw(&name, &format!("{}: {title}", report.title))?;
         figures.push(Figure::new(
             &name,
-            format!("{}: {caption}.", subject.title),
+            format!("{}: {caption}.", report.title),
             svg,
         ));
         Ok::<_, PresentError>(())
     };
-    if !subject.frame.is_empty() || subject.sensors.iter().any(|sensor| sensor.place.is_some()) {
+    if !report.frame.is_empty() || report.sensors.iter().any(|sensor| sensor.place.is_some()) {
         let caption = "the structure, with what is known of its sensors, grids and supports";
         add("structure", "structure", caption, &|name, title| {
-            draw_structure(name, title, subject)
+            draw_structure(name, title, report)
         })?;
     }
-    if let Some(modes) = DrawnModes::of(subject)? {
+    if let Some(modes) = DrawnModes::from_report(report)? {
         for (part, modes) in modes.parts() {
-            let between = match subject.moved {
+            let between = match report.moved {
                 Some(_) => "the test is expanded by modes of the corrected model",
                 None => "what lies between sensors is interpolated from those near it",
             };
@@ -61,8 +61,8 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             }
         }
     }
-    if !subject.stages.is_empty() {
-        let history = error_history(subject);
+    if !report.stages.is_empty() {
+        let history = error_history(report);
         let caption = "errors against iteration. Between exact solutions an inner loop steps by perturbation; the gap at the end \
             of a pass is what freezing the transformation cost";
         add(
@@ -72,8 +72,8 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             &|name, title| error_history::draw(name, title, &history),
         )?;
     }
-    let factors = factors(subject);
-    let bars = if subject.deviations.is_some() {
+    let factors = factors(report);
+    let bars = if report.deviations.is_some() {
         "; bars are one standard deviation to either side"
     } else {
         ""
@@ -82,8 +82,8 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
     add("factors", "factors", &caption, &|name, title| {
         factors.draw(name, title)
     })?;
-    let maps = mode_agreement(subject)?;
-    let cross = if subject.mass.is_some() {
+    let maps = mode_agreement(report)?;
+    let cross = if report.mass.is_some() {
         "cross-orthogonality and "
     } else {
         ""
@@ -105,7 +105,7 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
             )
         },
     )?;
-    if let Some(maps) = derivatives(subject) {
+    if let Some(maps) = derivatives(report) {
         let caption = "derivatives of the frequencies and of the error sum at the first model";
         add(
             "derivatives",
@@ -118,23 +118,23 @@ pub fn subject_figures(subject: &Subject) -> Result<Vec<Figure>, PresentError> {
 }
 
 /// Factors of the corrected model, with their uncertainties and bounds.
-fn factors(subject: &Subject) -> Factors {
+fn factors(report: &Report) -> Factors {
     let row = |(e, (name, value)): (usize, (&String, f64))| DrawnFactor {
         name: name.clone(),
         value,
-        deviation: subject
+        deviation: report
             .deviations
             .as_ref()
             .and_then(|deviations| deviations.get(e).copied()),
-        published: subject.truth.get(e).copied(),
-        bounds: subject.ranges.get(e).copied().flatten(),
-        remark: subject.is_at_bound(e, value).then_some("at bound"),
+        published: report.truth.get(e).copied(),
+        bounds: report.ranges.get(e).copied().flatten(),
+        remark: report.is_at_bound(e, value).then_some("at bound"),
     };
     Factors {
-        rows: subject
+        rows: report
             .parameters
             .iter()
-            .zip(subject.factors())
+            .zip(report.factors())
             .enumerate()
             .map(row)
             .collect(),
@@ -149,8 +149,8 @@ fn factors(subject: &Subject) -> Factors {
 /// after, analysis modes by test modes.
 ///
 /// # Errors
-/// Those of [`Subject::agreement`].
-pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
+/// Those of [`Report::agreement`].
+pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
     let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
         let columns = ("test mode".to_owned(), numbers(values.ncols()));
@@ -164,8 +164,8 @@ pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
         }
     };
     let both = [
-        ("before", subject.agreement(&subject.initial)?),
-        ("after", subject.agreement(subject.corrected())?),
+        ("before", report.agreement(&report.initial)?),
+        ("after", report.agreement(report.corrected())?),
     ];
     let cross = both.iter().filter_map(|(when, found)| {
         Some(map(
@@ -180,11 +180,11 @@ pub fn mode_agreement(subject: &Subject) -> Result<Vec<HeatMap>, Error> {
 }
 
 /// Derivatives at the first model, parameters by test modes and by the error sum.
-pub fn derivatives(subject: &Subject) -> Option<[HeatMap; 2]> {
-    let derivatives = subject.derivatives.as_ref()?;
+pub fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
+    let derivatives = report.derivatives.as_ref()?;
     let map = |title: &str, rows: &str, columns: &str, labels, values: DMatrix<f64>| HeatMap {
         title: title.to_owned(),
-        rows: (rows.to_owned(), subject.parameters.clone()),
+        rows: (rows.to_owned(), report.parameters.clone()),
         columns: (columns.to_owned(), labels),
         full: values.amax(),
         values: values.map(Some),

@@ -1,4 +1,4 @@
-//! Model and test put together: what a correlation of a job starts from.
+//! Model and test joined: the start of a job's correlation.
 
 use super::matrices::from_matrices;
 use super::model::from_deck;
@@ -20,13 +20,13 @@ use std::sync::Arc;
 /// Modal assurance below which a test mode counts as without a partner.
 const FLOOR: f64 = 0.5;
 
-/// Overlap of the model's own modes by the condensed mass up to which it serves for cross-orthogonality: half of what is called
-/// acceptable.
+/// Largest overlap of the model's own modes by the condensed mass at which that mass still serves for cross-orthogonality: half of
+/// what counts as acceptable.
 const LARGEST_OVERLAP: f64 = 0.05;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
-pub struct Prepared {
+pub struct LoadedJob {
     /// What the job's file says.
     pub job: Job,
     /// What reports call the structure.
@@ -39,24 +39,24 @@ pub struct Prepared {
     pub placed: Vec<PlacedSensor>,
     /// Reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
-    /// The test modes that are compared, at the sensors placed.
+    /// The test modes to compare, at the placed sensors.
     pub test: ModeSet,
     /// Their places in the test's file, from zero.
     pub modes: Vec<usize>,
-    /// Test modes, from zero, that no mode of the first model is like, with their largest modal assurance.
+    /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
-    /// The first model, and how, with how many modes and with which test it was compared.
+    /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
-impl Prepared {
+impl LoadedJob {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Input`] for modes that the test does not have or that are named twice, and when no test mode has
-    /// a partner; those of the first analysis and of [`Prepared::weights`].
+    /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice, and when no test mode has
+    /// a partner; those of the first analysis and of [`LoadedJob::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = job.beside(&job.test.file);
@@ -66,7 +66,7 @@ impl Prepared {
         Self::with(job, data, source)
     }
 
-    /// The same with all files read, for a test or a choice of it that no file holds.
+    /// The same with all files read, for a test that is not on file, such as a sample of a study.
     pub(super) fn with(
         job: Job,
         data: TestData,
@@ -80,30 +80,31 @@ impl Prepared {
             .clone()
             .unwrap_or_else(|| (1..=available).collect());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
-        job.refuse(unknown, format!("test.modes from 1 to {available}"))?;
-        job.once(numbers.iter(), "mode of test.modes")?;
+        job.refuse_if(unknown, |mode| {
+            format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
+        })?;
+        job.once(numbers.iter(), "test.modes: mode")?;
         job.once(
             source
                 .whole
                 .parameters()
                 .iter()
                 .map(|parameter| &parameter.name),
-            "name of a parameter",
+            "parameter",
         )?;
         let several = job
             .compare
             .starts
             .filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
-        job.refuse(
-            several,
-            "one of compare.starts where the method is \"paper\"",
-        )?;
+        job.refuse_if(several, |starts| {
+            format!("compare.starts is {starts}, but method \"paper\" has one start")
+        })?;
         let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
         let most = source.whole.dof_count();
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
-        let mut prepared = Self {
+        let mut loaded = Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
             job,
             source,
@@ -116,9 +117,9 @@ impl Prepared {
             analysis_modes,
             first: None,
         };
-        prepared.leave_out_unpaired()?;
-        prepared.weights()?;
-        Ok(prepared)
+        loaded.leave_out_unpaired()?;
+        loaded.weights()?;
+        Ok(loaded)
     }
 
     /// A digest of the job's file, of the files it names and of what the command line `adds`.
@@ -141,7 +142,7 @@ impl Prepared {
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
         let mut identity = digest(program.as_bytes(), 0);
         for file in named.chain([job.path.clone()]) {
-            // Behind a # may stand which matrix of the file.
+            // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
             let of_matrix =
                 |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
@@ -153,10 +154,10 @@ impl Prepared {
         Ok(identity)
     }
 
-    /// Leaves out the test modes that no mode of the first model is like.
+    /// Leaves out the test modes that resemble no mode of the first model.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let mut first = self.analyze(&self.ones());
-        // Half as many again as test modes may be more than the model has.
+        // The usual number may be more than the model has.
         if let Err(Error::TooMany {
             what: FINITE,
             available,
@@ -170,7 +171,7 @@ impl Prepared {
         }
         let shapes = match &first {
             Ok(first) => first.exact.modes.shapes.clone(),
-            // More test modes than the model has are still to be looked at.
+            // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::TooMany {
                 what: "test modes", ..
             }) => {
@@ -192,14 +193,10 @@ impl Prepared {
         self.unpaired = left
             .map(|mode| (self.modes[mode], assurance.column(mode).max()))
             .collect();
-        let best = kept
-            .is_empty()
-            .then(|| format!("{:.3} at most", assurance.max()));
-        let expected = "a mode of the model with a modal assurance of";
-        self.job.refuse(
-            best,
-            format!("{expected} {FLOOR} or more for one test mode at least"),
-        )?;
+        let best = kept.is_empty().then(|| assurance.max());
+        self.job.refuse_if(best, |best| {
+            format!("no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}")
+        })?;
         if self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
             self.first = first
@@ -229,12 +226,18 @@ impl Prepared {
         fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
     }
 
+    /// Names of the parameters.
+    pub fn parameter_names(&self) -> impl Iterator<Item = &str> {
+        let parameters = self.source.whole.parameters().iter();
+        parameters.map(|parameter| &parameter.name[..])
+    }
+
     /// The first factors.
     pub(super) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
     }
 
-    /// What the loops are handed at the given parameter factors.
+    /// The modal model of the loops at the given parameter factors.
     ///
     /// # Errors
     /// Those of [`crate::sparse::WholeModel::analyze`].
@@ -245,43 +248,35 @@ impl Prepared {
         {
             return Ok(first.clone());
         }
-        let (whole, sensors, test, count) = (
-            &self.source.whole,
+        let whole = &self.source.whole;
+        let model = whole.analyze(
+            factors,
             &self.sensors,
-            &self.test,
+            (&self.test, pair_by_assignment),
             self.analysis_modes,
-        );
-        let model = whole.analyze(factors, sensors, (test, pair_by_assignment), count);
+        )?;
         // Gauss-Newton steps have weights of their own.
-        let is_paper = self.job.compare.method == Method::Paper;
-        if is_paper {
-            model?.weighted(&self.own_weights())
-        } else {
-            model
+        match self.job.compare.method {
+            Method::Paper => model.weighted(&self.own_weights()),
+            Method::GaussNewton => Ok(model),
         }
     }
 }
 
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    job.refuse(
-        job.parameters.is_empty().then_some("none"),
-        "at least one [[parameter]]",
-    )?;
-    let found = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
-        (Some(deck), None, None) => return from_deck(job, &job.beside(deck)),
-        (None, Some(stiffness), Some(mass)) => return from_matrices(job, stiffness, mass),
-        (None, None, None) => "neither",
-        (Some(_), ..) => "a deck and matrices",
-        _ => "one matrix alone",
-    };
-    Err(job.wrong(
-        "either model.deck, or model.stiffness and model.mass",
-        found,
-    ))
+    let none = job.parameters.is_empty().then_some(());
+    job.refuse_if(none, |()| {
+        "a job needs at least one [[parameter]]".to_owned()
+    })?;
+    match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+        (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
+        (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
+        _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
+    }
 }
 
-/// The 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) of bytes behind those that `before` is of.
+/// Continues the 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) from `before` over more bytes.
 pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
     let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)

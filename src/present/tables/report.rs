@@ -3,7 +3,7 @@
 use super::{HERTZ, RMS_PERCENT};
 use crate::method::error::Error;
 use crate::method::model::{Check, Range};
-use crate::present::subject::{PairAgreement, Subject};
+use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::torque_box::BUILT_IN;
 
@@ -12,11 +12,11 @@ const THREE: Digits = Digits::Fixed(3);
 /// Words for a pair of modes, with the least of it and the most of any other pair of its two modes.
 const MARKS: [(&str, f64, f64); 2] = [("good", 0.95, 0.05), ("acceptable", 0.90, 0.10)];
 
-/// An empty table of a subject.
-fn table_of(subject: &Subject, name: &str, title: &str, label: &'static str) -> Table {
+/// An empty table of a report.
+fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Table {
     Table::new(
-        format!("{}_{name}", subject.name),
-        format!("{}: {title}", subject.title),
+        format!("{}_{name}", report.name),
+        format!("{}: {title}", report.title),
         label,
     )
 }
@@ -25,17 +25,17 @@ fn table_of(subject: &Subject, name: &str, title: &str, label: &'static str) -> 
 /// criterion, cross-orthogonality and the largest other entry of the two modes, and what is to be thought of the last.
 ///
 /// # Errors
-/// Those of [`Subject::agreement`].
-pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
-    let test_hz = subject.test.frequencies_hz();
-    let mut table = table_of(subject, "modes", "test modes and their partners", "Mode")
+/// Those of [`Report::agreement`].
+pub fn paired_table(report: &Report) -> Result<Table, Error> {
+    let test_hz = report.test.frequencies_hz();
+    let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
         .labels(1..=test_hz.len())
         .labels(["frequency RMS", "shape RMS"])
         .column("Test", "Hz", numbers(test_hz.iter().copied(), HERTZ));
     let mut verdict = (String::new(), Vec::new());
-    let corrected = (!subject.stages.is_empty()).then(|| ("Corrected", subject.corrected()));
-    for (name, check) in [("First", &subject.initial)].into_iter().chain(corrected) {
-        let agreement = subject.agreement(check)?;
+    let corrected = (!report.stages.is_empty()).then(|| ("Corrected", report.corrected()));
+    for (name, check) in [("First", &report.initial)].into_iter().chain(corrected) {
+        let agreement = report.agreement(check)?;
         let (own, others): (Vec<f64>, Vec<f64>) = (0..test_hz.len())
             .map(|mode| agreement.pair(check, mode))
             .unzip();
@@ -69,12 +69,12 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
                 percents(differences.chain(rms), RMS_PERCENT),
             )
             .column(format!("{name} MAC"), "", numbers(assurance, THREE));
-        if subject.mass.is_some() {
+        if report.mass.is_some() {
             table = table.column(format!("{name} cross"), "", numbers(own, THREE));
         }
         table = table.column(format!("{name} others"), "", numbers(others, THREE));
     }
-    let measure = match subject.mass {
+    let measure = match report.mass {
         Some(_) => "cross-orthogonality",
         None => "modal assurance criterion (no mass is known)",
     };
@@ -82,7 +82,7 @@ pub fn paired_table(subject: &Subject) -> Result<Table, Error> {
         "Others: the largest {measure} of either mode with any but its partner. Good: at least 0.95, others at most 0.05; \
         acceptable: 0.90 and 0.10. MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
     );
-    let solver = solver_note(&subject.solver, " of the model", ";");
+    let solver = solver_note(&report.solver, " of the model", ";");
     Ok(table
         .column(verdict.0, "", verdict.1)
         .notes(solver)
@@ -111,21 +111,18 @@ impl PairAgreement {
 }
 
 /// Factors of the corrected model with their standard deviations, their bounds, and what must be known of each.
-pub fn factor_table(subject: &Subject) -> Table {
-    let factors = subject.factors();
+pub fn factor_table(report: &Report) -> Table {
+    let factors = report.factors();
     let bounds = |end: fn(Range) -> f64| {
-        numbers(
-            subject.ranges.iter().map(move |range| range.map(end)),
-            THREE,
-        )
+        numbers(report.ranges.iter().map(move |range| range.map(end)), THREE)
     };
     let remark = |(e, factor): (usize, &f64)| {
-        let is_unseen = subject
+        let is_unseen = report
             .verdict
             .as_ref()
             .is_some_and(|verdict| verdict.unseen.contains(&e));
         let remarks = [
-            (subject.is_at_bound(e, *factor), "at bound"),
+            (report.is_at_bound(e, *factor), "at bound"),
             (is_unseen, "hardly seen"),
         ];
         let remarks: Vec<&str> = remarks
@@ -135,15 +132,10 @@ pub fn factor_table(subject: &Subject) -> Table {
             .collect();
         Cell::text(remarks.join(", "))
     };
-    let mut table = table_of(
-        subject,
-        "factors",
-        "factors on the first model",
-        "Parameter",
-    )
-    .labels(&subject.parameters)
-    .column("Factor", "", numbers(factors.iter().copied(), THREE));
-    if let Some(deviations) = &subject.deviations {
+    let mut table = table_of(report, "factors", "factors on the first model", "Parameter")
+        .labels(&report.parameters)
+        .column("Factor", "", numbers(factors.iter().copied(), THREE));
+    if let Some(deviations) = &report.deviations {
         table = table.column(
             "Standard deviation",
             "",
@@ -157,12 +149,12 @@ pub fn factor_table(subject: &Subject) -> Table {
 }
 
 /// Stages of a correlation: iterations, why they ended, and the error sum by the inner loop and exactly.
-pub fn history_table(subject: &Subject) -> Table {
-    let mut table = table_of(subject, "passes", "passes", "Pass")
+pub fn history_table(report: &Report) -> Table {
+    let mut table = table_of(report, "passes", "passes", "Pass")
         .headings(["Iterations", "Stopped by"], "")
         .headings(["Error sum inner", "Error sum exact"], "%");
-    for (row, stage) in subject.stages.iter().enumerate() {
-        let errors = subject.inner_errors(row);
+    for (row, stage) in report.stages.iter().enumerate() {
+        let errors = report.inner_errors(row);
         let inner = errors
             .last()
             .filter(|_| stage.inner.is_some())
@@ -183,19 +175,19 @@ pub fn history_table(subject: &Subject) -> Table {
     let words = |[pass, test, from, to]: [usize; 4]| {
         format!("in pass {pass} test mode {test} from {from} to {to}")
     };
-    let words = swaps(subject)
+    let words = swaps(report)
         .into_iter()
         .map(words)
         .collect::<Vec<_>>()
         .join("; ");
     let swapped = (!words.is_empty()).then(|| format!("Other modes of the model answer: {words}."));
-    table.notes(swapped).notes([subject.words()])
+    table.notes(swapped).notes([report.words()])
 }
 
 /// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.
-pub fn swaps(subject: &Subject) -> Vec<[usize; 4]> {
+pub fn swaps(report: &Report) -> Vec<[usize; 4]> {
     let checks =
-        std::iter::once(&subject.initial).chain(subject.stages.iter().map(|stage| &stage.check));
+        std::iter::once(&report.initial).chain(report.stages.iter().map(|stage| &stage.check));
     let pairs: Vec<&Vec<usize>> = checks.map(|check| &check.pairing.analysis_mode).collect();
     let of_stage = |(stage, both): (usize, &[&Vec<usize>])| {
         let modes = both[0]
@@ -211,11 +203,10 @@ pub fn swaps(subject: &Subject) -> Vec<[usize; 4]> {
 }
 
 /// Derivatives at the first model: percent of a frequency, and percent points of the error sum, for one percent of a parameter.
-pub fn derivative_table(subject: &Subject) -> Option<Table> {
-    let derivatives = subject.derivatives.as_ref()?;
+pub fn derivative_table(report: &Report) -> Option<Table> {
+    let derivatives = report.derivatives.as_ref()?;
     let title = "derivatives at the first model, for one percent of each parameter";
-    let mut table =
-        table_of(subject, "derivatives", title, "Parameter").labels(&subject.parameters);
+    let mut table = table_of(report, "derivatives", title, "Parameter").labels(&report.parameters);
     for (mode, column) in (1..).zip(derivatives.frequency.column_iter()) {
         table = table.column(
             format!("Mode {mode}"),

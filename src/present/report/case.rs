@@ -1,6 +1,6 @@
-//! The paper's cases as subjects.
+//! The paper's cases as reports.
 
-use super::{Derivatives, SensorPoint, Subject};
+use super::{Derivatives, Report, SensorPoint};
 use crate::present::PresentError;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::dynamic_points;
@@ -9,12 +9,12 @@ use nalgebra::Vector3;
 /// Grids of the box's root, rear and front.
 const ROOT: [usize; 2] = [13, 15];
 
-impl Subject {
+impl Report {
     /// A case of the paper: its nine dynamic points on the mid-plane of the box.
     ///
     /// # Errors
     /// Those of the model and its analysis.
-    pub fn of_case(result: &CaseResult) -> Result<Self, PresentError> {
+    pub fn from_case(result: &CaseResult) -> Result<Self, PresentError> {
         let CaseResult {
             case,
             parameter_names: names,
@@ -57,8 +57,8 @@ impl Subject {
                 case.settings.inner.tolerance,
                 case.settings.later_inner_tolerance,
             ]),
-            derivatives: Some(Derivatives::of(&first)?),
-            ..Self::of(
+            derivatives: Some(Derivatives::at(&first)?),
+            ..Self::from_correlation(
                 &format!("case_{}", case.number),
                 names,
                 test,

@@ -1,4 +1,4 @@
-//! What a report needs to know of any correlation, whatever it is of.
+//! The content of a report on any correlation.
 
 mod job;
 mod case;
@@ -50,14 +50,14 @@ pub struct Derivatives {
     pub error_sum: Vec<f64>,
 }
 
-/// What a report needs to know of any correlation. Lengths are in the model's own unit.
+/// The content of a report on any correlation. Lengths are in the model's own unit.
 #[derive(Debug, Clone)]
-pub struct Subject {
+pub struct Report {
     /// Stem of the names of its tables, figures and files.
     pub name: String,
-    /// What readers see.
+    /// The title that readers see.
     pub title: String,
-    /// What did the finite element analyses.
+    /// The program that did the finite element analyses.
     pub solver: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
@@ -75,7 +75,7 @@ pub struct Subject {
     pub frame: Vec<Vec<Vector3<f64>>>,
     /// Numbered grids.
     pub grids: Vec<(usize, Vector3<f64>)>,
-    /// How the grids move in the modes that answer the test modes, of test, first and corrected model, in the scale and with the signs
+    /// How the grids move in the modes paired with the test modes, of test, first and corrected model, in the scale and with the signs
     /// of the shapes; the test's by expansion. None where the whole model is not known.
     pub moved: Option<[Vec<Vec<Vector3<f64>>>; 3]>,
     /// Places that do not move.
@@ -86,11 +86,11 @@ pub struct Subject {
     pub initial: Check,
     /// Tolerances of the inner loops on the error sum, of the first pass and of later ones, where they are to be drawn.
     pub tolerances: Option<[f64; 2]>,
-    /// What came after.
+    /// The stages after it.
     pub stages: Vec<Stage>,
     /// The stage with the best factors, from zero; none when none is better than the first model.
     pub best: Option<usize>,
-    /// What it came to, once it ran.
+    /// The verdict, once it ran.
     pub verdict: Option<Verdict>,
     /// Derivatives, where they were taken.
     pub derivatives: Option<Derivatives>,
@@ -99,7 +99,7 @@ pub struct Subject {
 /// How analysis modes (rows) and test modes (columns) agree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairAgreement {
-    /// Modal assurance criterion, which knows no mass.
+    /// Modal assurance criterion, which uses no mass.
     pub assurance: DMatrix<f64>,
     /// Cross-orthogonality (4) of shapes of unit generalized mass, where the mass at the sensors is known.
     pub orthogonality: Option<DMatrix<f64>>,
@@ -110,7 +110,7 @@ impl Derivatives {
     ///
     /// # Errors
     /// Those of [`by_definition`].
-    pub fn of(first: &ModalModel) -> Result<Self, Error> {
+    pub fn at(first: &ModalModel) -> Result<Self, Error> {
         let changes = by_definition(first, &ModalState::start(first))?;
         let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
             let i = first.exact.pairing.analysis_mode[j];
@@ -131,10 +131,10 @@ impl Derivatives {
     }
 }
 
-impl Subject {
-    /// A first model and what the outer loop made of it, if it ran; what that does not tell (title, sensors, frame, mass, deviations,
+impl Report {
+    /// A first model and the outer loop's run from it, if there was one. Everything else (title, sensors, frame, mass, deviations,
     /// derivatives) is left empty, to be filled in.
-    pub fn of(
+    pub fn from_correlation(
         name: &str,
         parameters: &[String],
         test: &ModeSet,
@@ -181,7 +181,7 @@ impl Subject {
     }
 
     /// The same with the panels, rods, grids and supports of a structure.
-    pub fn on(mut self, structure: &Structure) -> Self {
+    pub fn with_structure(mut self, structure: &Structure) -> Self {
         self.frame = structure
             .elements()
             .iter()
@@ -207,7 +207,7 @@ impl Subject {
             .is_some_and(|verdict| verdict.is_within)
     }
 
-    /// What it came to in words.
+    /// The verdict in words.
     pub fn words(&self) -> String {
         self.verdict.as_ref().map_or_else(String::new, |verdict| {
             verdict_in_words(verdict, &self.parameters)
